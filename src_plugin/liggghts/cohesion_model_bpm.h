@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Cohesion model `bpm`: the parallel bond for bonded pairs, SJKR (eq. 3) for all others, in one run.
+#ifdef COHESION_MODEL
+COHESION_MODEL(COHESION_BPM, bpm, 30)
+#else
+#ifndef COHESION_MODEL_BPM_H_
+#define COHESION_MODEL_BPM_H_
+
+#include "atom.h"
+#include "bond_bpm_history.h"
+#include "cohesion_model_base.h"
+#include "contact_models.h"
+#include "fix_bond_bpm.h"
+#include "global_properties.h"
+#include "physics/bond_failure.h"
+#include "physics/sjkr_cohesion.h"
+#include "update.h"
+#include <cmath>
+
+namespace LIGGGHTS {
+namespace ContactModels {
+
+template <> class CohesionModel<COHESION_BPM> : public CohesionModelBase {
+public:
+  CohesionModel(LAMMPS *lmp, IContactHistorySetup *hsetup, class ContactModelBase *cmb)
+      : CohesionModelBase(lmp, hsetup, cmb), fix_(NULL), cohEnergyDens_(NULL), cmb_(cmb),
+        offset_(-1) {
+    if (cmb->is_wall())
+      error->all(FLERR, "cohesion model bpm is for particle pairs; for a sticky wall use 'cohesion "
+                        "sjkr' in fix wall/gran");
+  }
+
+  void registerSettings(Settings &) {}
+
+  void postSettings(IContactHistorySetup *, ContactModelBase *cmb) {
+    offset_ = cmb->get_history_offset("bond_bpm");
+    if (offset_ < 0)
+      error->all(FLERR, "cohesion model bpm needs 'surface bpm' in the same pair_style gran");
+  }
+
+  void connectToProperties(PropertyRegistry &registry) {
+    registry.registerProperty("cohEnergyDens", &MODEL_PARAMS::createCohesionEnergyDensity);
+    registry.connect("cohEnergyDens", cohEnergyDens_, "cohesion_model bpm");
+    fix_ = FixBondBpm::find(lmp, "cohesion model bpm");
+  }
+
+  void surfacesIntersect(SurfacesIntersectData &s, ForceData &i_forces, ForceData &j_forces) {
+    BondHistory bond(s.contact_history + offset_);
+    if (s.contact_flags)
+      *s.contact_flags |= CONTACT_COHESION_MODEL;
+    const calendem::Vec3 n = {s.en[0], s.en[1], s.en[2]};
+    if (bond.state() == kIntact) {
+      bond_force(s, bond, n, s.r, i_forces, j_forces);
+      return;
+    }
+    const double pull = calendem::sjkr_force(cohEnergyDens_[s.itype][s.jtype],
+                                             s.r + bond.reference_overlap(s.radsum), s.radi, s.radj);
+    calendem::subtract_from(pull * n, i_forces.delta_F);
+    calendem::add_to(pull * n, j_forces.delta_F);
+  }
+
+  void surfacesClose(SurfacesCloseData &s, ForceData &i_forces, ForceData &j_forces) {
+    if (!s.contact_history)
+      return;
+    BondHistory bond(s.contact_history + offset_);
+    if (bond.state() != kIntact)
+      return;
+    *s.contact_flags |= CONTACT_COHESION_MODEL;
+    s.omega_i = atom->omega[s.i];
+    s.omega_j = atom->omega[s.j];
+    const double r = std::sqrt(s.rsq);
+    const calendem::Vec3 n = (1.0 / r) * calendem::load(s.delta);
+    bond_force(s, bond, n, r, i_forces, j_forces);
+    s.has_force_update = true;
+    fix_->check_stretch(s.i, s.j, r, s.radsum);
+  }
+
+  void endSurfacesIntersect(SurfacesIntersectData &, ForceData &, ForceData &) {}
+  void beginPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
+  void endPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
+
+private:
+  FixBondBpm *fix_;
+  double **cohEnergyDens_;
+  ContactModelBase *cmb_;
+  int offset_;
+
+  void bond_force(SurfacesCloseData &s, BondHistory &bond, const calendem::Vec3 &n, double r,
+                  ForceData &i_forces, ForceData &j_forces) {
+    const BondSettings &b = fix_->settings();
+    const double radius_min = s.radi < s.radj ? s.radi : s.radj;
+    const calendem::BondSection section(b.material.radius_ratio * radius_min);
+    const calendem::BondStiffness k(b.material, section, bond.length());
+    const calendem::PairMotion motion = {
+        calendem::load(s.delta), calendem::load(s.v_i) - calendem::load(s.v_j),
+        calendem::load(s.omega_i), calendem::load(s.omega_j), n, r};
+    calendem::BondLoads loads = bond.loads();
+    const double tension = k.normal * (r - bond.length());
+    if (s.computeflag && s.shearupdate) {
+      calendem::advance(loads, motion, k, update->dt);
+      bond.set_loads(loads);
+      if (b.breakable && calendem::fails(loads, tension, section,
+                                         b.strength_of(bond.strength_factor()), b.criterion))
+        fix_->record_break(s.i, s.j, loads, tension, section, k, bond.strength_factor());
+    }
+    calendem::BondDamping damping;
+    if (b.material.damping > 0.0) {
+      const double mi = atom->rmass[s.i];
+      const double mj = atom->rmass[s.j];
+      damping = calendem::BondDamping(b.material, section, k, mi * mj / (mi + mj), radius_min);
+    }
+    const calendem::BondAction a = calendem::action(loads, tension, motion, damping);
+    calendem::add_to(a.force, i_forces.delta_F);
+    calendem::subtract_from(a.force, j_forces.delta_F);
+    calendem::add_to(a.torque_i, i_forces.delta_torque);
+    calendem::add_to(a.torque_j, j_forces.delta_torque);
+  }
+};
+
+} // namespace ContactModels
+} // namespace LIGGGHTS
+
+#endif
+#endif

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fix_bond_bpm.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_contact_history.h"
+#include "memory.h"
+#include "modify.h"
+#include "mpi_liggghts.h"
+#include "neighbor.h"
+#include "update.h"
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using calendem::BreakMode;
+
+namespace {
+// Neighbours are listed, and histories kept, up to this multiple of the sum of radii. 1.1 is ample for
+// brittle bonds; 1.2 would list the lattice's diagonal neighbours.
+const double kContactDistanceFactor = 1.1;
+const double kStretchLimit = 0.98 * kContactDistanceFactor;
+const int kEventSize = sizeof(BreakEvent) / sizeof(double);
+} // namespace
+
+FixBondBpm::FixBondBpm(LAMMPS *lmp, int narg, char **arg)
+    : Fix(lmp, narg, arg), body_(NULL), broken_(NULL), history_offset_(-1), created_(false),
+      creating_(false), log_ready_(false), initial_(0), by_mode_(), energy_lost_(0.0),
+      overstretched_() {
+  if (!atom->sphere_flag || !atom->tag_enable)
+    error->fix_error(FLERR, this, "needs atom_style granular (or sphere) with atom tags");
+  if (domain->triclinic)
+    error->fix_error(FLERR, this, "works in orthogonal boxes only; this box is triclinic");
+  parse(narg, arg);
+  restart_global = restart_peratom = create_attribute = 1;
+  vector_flag = 1;
+  size_vector = 9;
+  global_freq = 1;
+  comm_forward = 1;
+  neighbor->register_contact_dist_factor(kContactDistanceFactor);
+  grow_arrays(atom->nmax);
+  atom->add_callback(0);
+  atom->add_callback(1);
+  for (int i = 0; i < atom->nmax; ++i)
+    body_[i] = broken_[i] = 0;
+}
+
+FixBondBpm::~FixBondBpm() {
+  atom->delete_callback(id, 0);
+  atom->delete_callback(id, 1);
+  memory->destroy(body_);
+  memory->destroy(broken_);
+}
+
+int FixBondBpm::setmask() { return PRE_FORCE | POST_FORCE; } // PRE_FORCE for its set-up call
+
+FixBondBpm *FixBondBpm::find(LAMMPS *lmp, const char *caller) {
+  const int n = lmp->modify->n_fixes_style_strict("bond/bpm");
+  if (n != 1) {
+    char message[256];
+    snprintf(message, sizeof message,
+             "%s needs exactly one 'fix ID all bond/bpm ...' in the script; found %d", caller, n);
+    lmp->error->all(FLERR, message);
+  }
+  return static_cast<FixBondBpm *>(lmp->modify->find_fix_style_strict("bond/bpm", 0));
+}
+
+int FixBondBpm::friction_history_offset(int bond_offset) {
+  history_offset_ = bond_offset;
+  PairGran *pair = static_cast<PairGran *>(force->pair_match("gran", 1));
+  const int rest = pair->dnum_pair() - bond_offset - BondHistory::kSize;
+  if (rest == 0)
+    return -1;
+  if (rest != 3)
+    error->fix_error(FLERR, this,
+                     "works with 'model hertz tangential history|no_history|off' without rolling "
+                     "friction history; the pair style stores other values too");
+  return bond_offset + BondHistory::kSize;
+}
+
+void FixBondBpm::init() {
+  if (!created_)
+    read_bodies();
+  if (!log_ready_)
+    open_log();
+}
+
+void FixBondBpm::check_box() {
+  const double cut = 2.0 * neighbor->cutneighmax;
+  for (int k = 0; k < 3; ++k)
+    if (domain->periodicity[k] && domain->prd[k] < cut) {
+      char message[256];
+      snprintf(message, sizeof message,
+               "periodic box side %c is %g, shorter than two neighbour cut-offs (%g): a particle "
+               "would touch two images of another. Make the cell larger or the skin smaller",
+               "xyz"[k], domain->prd[k], cut);
+      error->fix_error(FLERR, this, message);
+    }
+}
+
+void FixBondBpm::setup_pre_force(int) {
+  check_box();
+  creating_ = !created_;
+  if (creating_)
+    comm->forward_comm_fix(this);
+}
+
+void FixBondBpm::setup(int) {
+  if (!creating_)
+    return;
+  creating_ = false;
+  created_ = true;
+  initial_ = count_intact();
+  if (comm->me == 0 && screen)
+    fprintf(screen, "fix %s: " BIGINT_FORMAT " bonds made\n", id, initial_);
+  if (comm->me == 0 && logfile)
+    fprintf(logfile, "fix %s: " BIGINT_FORMAT " bonds made\n", id, initial_);
+}
+
+bigint FixBondBpm::count_intact() {
+  bigint mine = 0, all = 0;
+  for_each_intact([&mine](int, int, const BondHistory &) { ++mine; });
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  return all;
+}
+
+void FixBondBpm::record_break(int i, int j, const calendem::BondLoads &loads, double tension,
+                              const calendem::BondSection &section,
+                              const calendem::BondStiffness &k, double factor) {
+  if (!decides(i, j))
+    return;
+  const calendem::BondStress s = bond_stress(loads, tension, section, settings_.criterion);
+  const bool i_is_low = atom->tag[i] < atom->tag[j];
+  const int low = i_is_low ? i : j, high = i_is_low ? j : i;
+  const double *a = atom->x[low], *b = atom->x[high];
+  const BreakEvent e = {update->ntimestep * update->dt,
+                        static_cast<double>(atom->tag[low]),
+                        static_cast<double>(atom->tag[high]),
+                        static_cast<double>(body_[low < atom->nlocal ? low : high]),
+                        static_cast<double>(break_mode(s, settings_.strength_of(factor))),
+                        s.sigma(),
+                        s.tau(),
+                        0.5 * (a[0] + b[0]),
+                        0.5 * (a[1] + b[1]),
+                        0.5 * (a[2] + b[2]),
+                        0.0,
+                        strain_energy(loads, tension, k)};
+  pending_.push_back(e);
+}
+
+void FixBondBpm::check_stretch(int i, int j, double r, double radius_sum) {
+  const double stretch = r / radius_sum;
+  if (stretch > kStretchLimit && stretch > overstretched_[2]) {
+    overstretched_[0] = atom->tag[i];
+    overstretched_[1] = atom->tag[j];
+    overstretched_[2] = stretch;
+  }
+}
+
+void FixBondBpm::stop_if_overstretched() {
+  double worst = 0.0;
+  MPI_Allreduce(&overstretched_[2], &worst, 1, MPI_DOUBLE, MPI_MAX, world);
+  if (worst <= 0.0)
+    return;
+  char message[300];
+  snprintf(message, sizeof message,
+           "an intact bond is stretched to %.4f times the sum of radii; beyond %.2f its history would "
+           "be lost. The time step is too large or the bonds are unbreakable or too strong",
+           worst, kContactDistanceFactor);
+  error->fix_error(FLERR, this, message);
+}
+
+void FixBondBpm::gather_breaks(std::vector<BreakEvent> &all) {
+  const int nprocs = comm->nprocs;
+  std::vector<int> counts(nprocs), starts(nprocs, 0);
+  const int mine = kEventSize * static_cast<int>(pending_.size());
+  MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+  for (int p = 1; p < nprocs; ++p)
+    starts[p] = starts[p - 1] + counts[p - 1];
+  all.resize((starts[nprocs - 1] + counts[nprocs - 1]) / kEventSize);
+  MPI_Allgatherv(pending_.data(), mine, MPI_DOUBLE, all.data(), counts.data(), starts.data(),
+                 MPI_DOUBLE, world);
+  pending_.clear();
+  std::sort(all.begin(), all.end(), [](const BreakEvent &a, const BreakEvent &b) {
+    return a.tag_low != b.tag_low ? a.tag_low < b.tag_low : a.tag_high < b.tag_high;
+  });
+}
+
+void FixBondBpm::post_force(int) {
+  double mine[2] = {static_cast<double>(pending_.size()), overstretched_[2]}, all[2];
+  MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_SUM, world);
+  if (all[0] > 0.0) {
+    std::vector<BreakEvent> events;
+    gather_breaks(events);
+    apply_breaks(events);
+    log_breaks(events);
+  }
+  if (all[1] > 0.0)
+    stop_if_overstretched();
+}
+
+// Every copy of a broken pair's history, on whichever rank, changes state in the step of the break,
+// after its last force: both sides agree whatever their last bits say.
+void FixBondBpm::apply_breaks(const std::vector<BreakEvent> &all) {
+  std::vector<int> tags;
+  for (const BreakEvent &e : all) {
+    tags.push_back(static_cast<int>(e.tag_low));
+    tags.push_back(static_cast<int>(e.tag_high));
+    ++by_mode_[static_cast<int>(e.mode)];
+    energy_lost_ += e.energy;
+  }
+  std::sort(tags.begin(), tags.end());
+  PairGran *pair = static_cast<PairGran *>(force->pair_match("gran", 1));
+  const NeighList *list = pair->list;
+  const int dnum = pair->dnum();
+  const int *tag = atom->tag;
+  const auto less = [](const BreakEvent &a, const std::pair<int, int> &b) {
+    return a.tag_low != b.first ? a.tag_low < b.first : a.tag_high < b.second;
+  };
+  for (int ii = 0; ii < list->inum; ++ii) {
+    const int i = list->ilist[ii];
+    if (!std::binary_search(tags.begin(), tags.end(), tag[i]))
+      continue;
+    for (int jj = 0; jj < list->numneigh[i]; ++jj) {
+      const int j = list->firstneigh[i][jj] & NEIGHMASK;
+      BondHistory bond(list->listgranhistory->firstdouble[i] + dnum * jj + history_offset_);
+      if (bond.state() != kIntact)
+        continue;
+      const std::pair<int, int> key(std::min(tag[i], tag[j]), std::max(tag[i], tag[j]));
+      const auto hit = std::lower_bound(all.begin(), all.end(), key, less);
+      if (hit == all.end() || hit->tag_low != key.first || hit->tag_high != key.second)
+        continue;
+      bond.set_state(kBrokenTouching);
+      bond.set_loads({});
+      ++broken_[i];
+      if (j < atom->nlocal)
+        ++broken_[j];
+    }
+  }
+}
+
+double FixBondBpm::compute_vector(int n) {
+  const bigint broken = by_mode_[1] + by_mode_[2] + by_mode_[3] + by_mode_[4];
+  if (n == 0)
+    return initial_;
+  if (n == 1) {
+    const bigint intact = count_intact();
+    if (intact + broken != initial_) {
+      char message[256];
+      snprintf(message, sizeof message,
+               "bonds do not add up: " BIGINT_FORMAT " made, " BIGINT_FORMAT
+               " intact, " BIGINT_FORMAT " logged as broken. A bond vanished without a break",
+               initial_, intact, broken);
+      error->fix_error(FLERR, this, message);
+    }
+    return intact;
+  }
+  if (n == 2)
+    return broken;
+  if (n <= 6)
+    return by_mode_[n - 2];
+  if (n == 8)
+    return energy_lost_;
+  double mine = 0.0, all = 0.0;
+  for_each_intact([&](int i, int j, const BondHistory &bond) {
+    double **x = atom->x;
+    const calendem::Vec3 d = calendem::load(x[i]) - calendem::load(x[j]);
+    const double radius = settings_.material.radius_ratio * std::min(atom->radius[i], atom->radius[j]);
+    const calendem::BondStiffness k(settings_.material, calendem::BondSection(radius), bond.length());
+    mine += strain_energy(bond.loads(), k.normal * (norm(d) - bond.length()), k);
+  });
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}

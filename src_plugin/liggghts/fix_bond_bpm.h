@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// fix ID all bond/bpm bodies FILE youngs_modulus E nu NU radius_ratio L tensile S shear T
+//     criterion signed|unsigned|as_printed damping D weibull M SEED breakable yes|no
+//     log FILE pressure PLATEN_FIX
+//
+// Owns the bonds of `pair_style gran ... cohesion bpm surface bpm`: their material, their creation (at
+// the first set-up after the fix appears, between touching primaries of one body, once), the decision
+// of every break by the rank that owns the lower tag, and the event log. All stresses in kPa (units
+// micro). Global vector: see compute bond/bpm. Everything restarts, under the same fix ID.
+#ifdef FIX_CLASS
+
+FixStyle(bond/bpm, FixBondBpm)
+
+#else
+#ifndef LMP_FIX_BOND_BPM_H
+#define LMP_FIX_BOND_BPM_H
+
+#include "bond_bpm_history.h"
+#include "fix.h"
+#include "physics/bond_failure.h"
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// What the user sets for all bonds; stresses in kPa.
+struct BondSettings {
+  calendem::BondMaterial material;
+  calendem::BondStrength strength = {0.0, 0.0};
+  calendem::FailureCriterion criterion = calendem::FailureCriterion::Signed;
+  double weibull_modulus = 0.0; ///< <= 0: no scatter
+  std::uint64_t seed = 0;
+  bool breakable = true;
+
+  calendem::BondStrength strength_of(double factor) const {
+    return {factor * strength.tensile, factor * strength.shear};
+  }
+};
+
+/// One broken bond; the same list on every rank, ordered by step, then tags. Plain doubles, so that
+/// it travels through MPI and restart files as it is.
+struct BreakEvent {
+  double time, tag_low, tag_high, body, mode, sigma, tau, x, y, z, pressure, energy;
+};
+
+class FixBondBpm : public Fix {
+public:
+  FixBondBpm(class LAMMPS *, int, char **);
+  ~FixBondBpm();
+  int setmask();
+  void init();
+  void setup_pre_force(int);
+  void setup(int);
+  void post_force(int);
+  double compute_vector(int);
+  double memory_usage();
+
+  void grow_arrays(int);
+  void copy_arrays(int, int, int);
+  void set_arrays(int);
+  int pack_exchange(int, double *);
+  int unpack_exchange(int, double *);
+  int pack_comm(int, int *, double *, int, int *);
+  void unpack_comm(int, int, double *);
+  int pack_restart(int, double *);
+  void unpack_restart(int, int);
+  int size_restart(int) { return 3; }
+  int maxsize_restart() { return 3; }
+  void write_restart(FILE *);
+  void restart(char *);
+
+  /// The one fix bond/bpm of the run; an error that names `caller` if there is none or several.
+  static FixBondBpm *find(class LAMMPS *lmp, const char *caller);
+
+  // for the contact models, per pair and step
+  const BondSettings &settings() const { return settings_; }
+  bool creating() const { return creating_; }
+  void create(int i, int j, double r, BondHistory &bond) const;
+  void record_break(int i, int j, const calendem::BondLoads &, double tension,
+                    const calendem::BondSection &, const calendem::BondStiffness &, double factor);
+  void check_stretch(int i, int j, double r, double radius_sum);
+  int friction_history_offset(int bond_offset);
+
+  // for computes and dumps
+  int body(int i) const { return body_[i]; }
+  int broken_of(int i) const { return broken_[i]; }
+  const std::vector<BreakEvent> &breaks() const { return breaks_; }
+  bigint initial() const { return initial_; }
+  bigint broken(calendem::BreakMode mode) const { return by_mode_[static_cast<int>(mode)]; }
+  double energy_lost() const { return energy_lost_; }
+  /// Calls visit(i, j, history) for every intact bond, each once over all ranks.
+  template <class Visit> void for_each_intact(Visit visit);
+  /// The same for every copy on this rank: each local atom meets all its bonds.
+  template <class Visit> void for_each_copy(Visit visit);
+  /// True on the rank (and copy) that counts the pair and decides its fate.
+  bool decides(int i, int j) const;
+
+private:
+  BondSettings settings_;
+  std::string bodies_file_, log_file_, platen_id_;
+  std::vector<int> body_of_tag_; // from the body map; empty after a restart
+  int *body_, *broken_;
+  int history_offset_;
+  bool created_, creating_, log_ready_;
+  bigint initial_;
+  bigint by_mode_[5];
+  double energy_lost_;
+  std::vector<BreakEvent> pending_, breaks_;
+  double overstretched_[3]; // tags and stretch of the worst pair found, 0 if none
+
+  void parse(int narg, char **arg);
+  int parse_keyword(int iarg, int narg, char **arg);
+  double positive(const char *keyword, const char *text, bool zero_allowed);
+  void check_settings();
+  void read_bodies();
+  void check_box();
+  bigint count_intact();
+  void gather_breaks(std::vector<BreakEvent> &all);
+  void apply_breaks(const std::vector<BreakEvent> &all);
+  void open_log();
+  void log_breaks(const std::vector<BreakEvent> &all);
+  void stop_if_overstretched();
+};
+
+} // namespace LAMMPS_NS
+
+#include "fix_bond_bpm_inline.h"
+
+#endif
+#endif

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Parts of fix bond/bpm that run inside loops over pairs.
+#ifndef CALENDEM_FIX_BOND_BPM_INLINE_H
+#define CALENDEM_FIX_BOND_BPM_INLINE_H
+
+#include "atom.h"
+#include "force.h"
+#include "neigh_list.h"
+#include "pair_gran.h"
+#include "physics/weibull_strength.h"
+
+namespace LAMMPS_NS {
+
+inline bool FixBondBpm::decides(int i, int j) const {
+  const int nlocal = atom->nlocal;
+  if (i < nlocal && j < nlocal)
+    return true;
+  return i < nlocal ? atom->tag[i] < atom->tag[j] : atom->tag[j] < atom->tag[i];
+}
+
+inline void FixBondBpm::create(int i, int j, double r, BondHistory &bond) const {
+  if (bond.state() != kNeverBonded || body_[i] <= 0 || body_[i] != body_[j])
+    return;
+  bond.create(r, calendem::weibull_factor(settings_.weibull_modulus, settings_.seed, atom->tag[i],
+                                          atom->tag[j]));
+}
+
+template <class Visit> void FixBondBpm::for_each_copy(Visit visit) {
+  PairGran *pair = static_cast<PairGran *>(force->pair_match("gran", 1));
+  if (!pair || !pair->list || !pair->list->listgranhistory || history_offset_ < 0)
+    return;
+  const NeighList *list = pair->list;
+  const int dnum = pair->dnum();
+  for (int ii = 0; ii < list->inum; ++ii) {
+    const int i = list->ilist[ii];
+    double *all = list->listgranhistory->firstdouble[i];
+    for (int jj = 0; jj < list->numneigh[i]; ++jj) {
+      BondHistory bond(all + dnum * jj + history_offset_);
+      const int j = list->firstneigh[i][jj] & NEIGHMASK;
+      if (bond.state() == kIntact)
+        visit(i, j, bond);
+    }
+  }
+}
+
+template <class Visit> void FixBondBpm::for_each_intact(Visit visit) {
+  for_each_copy([&](int i, int j, const BondHistory &bond) {
+    if (decides(i, j))
+      visit(i, j, bond);
+  });
+}
+
+} // namespace LAMMPS_NS
+
+#endif

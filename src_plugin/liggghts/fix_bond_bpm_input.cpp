@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// fix bond/bpm: what it reads (command line, body map) and writes (event log).
+#include "comm.h"
+#include "error.h"
+#include "fix_bond_bpm.h"
+#include "modify.h"
+#include "update.h"
+#include <cmath>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using calendem::BreakMode;
+using calendem::FailureCriterion;
+
+double FixBondBpm::positive(const char *keyword, const char *text, bool zero_allowed) {
+  char *end = NULL;
+  const double value = strtod(text, &end);
+  if (end == text || *end != '\0' || !std::isfinite(value) || value < 0.0 ||
+      (value == 0.0 && !zero_allowed)) {
+    char message[256];
+    snprintf(message, sizeof message, "'%s' is '%s'; it must be a finite number %s 0", keyword, text,
+             zero_allowed ? ">=" : ">");
+    error->fix_error(FLERR, this, message);
+  }
+  return value;
+}
+
+int FixBondBpm::parse_keyword(int iarg, int narg, char **arg) {
+  const std::string key = arg[iarg];
+  const int values = key == "weibull" ? 2 : 1;
+  if (iarg + values >= narg) {
+    const std::string message = "keyword '" + key + "' lacks its value";
+    error->fix_error(FLERR, this, message.c_str());
+  }
+  const char *value = arg[iarg + 1];
+  if (key == "bodies")
+    bodies_file_ = value;
+  else if (key == "youngs_modulus")
+    settings_.material.youngs_modulus = positive("youngs_modulus", value, false);
+  else if (key == "nu")
+    settings_.material.shear_modulus = positive("nu", value, true); // turned into G once E is known
+  else if (key == "radius_ratio")
+    settings_.material.radius_ratio = positive("radius_ratio", value, false);
+  else if (key == "damping")
+    settings_.material.damping = positive("damping", value, true);
+  else if (key == "tensile")
+    settings_.strength.tensile = positive("tensile", value, false);
+  else if (key == "shear")
+    settings_.strength.shear = positive("shear", value, false);
+  else if (key == "weibull") {
+    settings_.weibull_modulus = positive("weibull", value, true);
+    settings_.seed = static_cast<std::uint64_t>(positive("weibull seed", arg[iarg + 2], true));
+  } else if (key == "log")
+    log_file_ = value;
+  else if (key == "pressure")
+    platen_id_ = value;
+  else if (key == "breakable" && (!strcmp(value, "yes") || !strcmp(value, "no")))
+    settings_.breakable = !strcmp(value, "yes");
+  else if (key == "criterion" && !strcmp(value, "signed"))
+    settings_.criterion = FailureCriterion::Signed;
+  else if (key == "criterion" && !strcmp(value, "unsigned"))
+    settings_.criterion = FailureCriterion::Unsigned;
+  else if (key == "criterion" && !strcmp(value, "as_printed"))
+    settings_.criterion = FailureCriterion::AsPrinted;
+  else {
+    const std::string message =
+        "unknown setting '" + key + " " + value +
+        "'; known: bodies FILE, youngs_modulus, nu, radius_ratio, tensile, shear, criterion "
+        "signed|unsigned|as_printed, damping, weibull MODULUS SEED, breakable yes|no, log FILE, "
+        "pressure FIX";
+    error->fix_error(FLERR, this, message.c_str());
+  }
+  return iarg + 1 + values;
+}
+
+void FixBondBpm::parse(int narg, char **arg) {
+  settings_.material.shear_modulus = -1.0;
+  for (int iarg = 3; iarg < narg;)
+    iarg = parse_keyword(iarg, narg, arg);
+  check_settings();
+}
+
+void FixBondBpm::check_settings() {
+  calendem::BondMaterial &m = settings_.material;
+  const double nu = m.shear_modulus;
+  if (m.youngs_modulus <= 0.0 || nu < 0.0 || bodies_file_.empty())
+    error->fix_error(FLERR, this, "needs at least 'bodies FILE youngs_modulus E nu NU'");
+  if (nu > 0.5)
+    error->fix_error(FLERR, this, "'nu' must be between 0 and 0.5");
+  if (m.radius_ratio > 1.5)
+    error->fix_error(FLERR, this, "'radius_ratio' must be between 0 and 1.5");
+  if (m.damping > 1.0)
+    error->fix_error(FLERR, this, "'damping' is a fraction of critical damping, between 0 and 1");
+  m.shear_modulus = calendem::shear_modulus(m.youngs_modulus, nu);
+  if (settings_.breakable && (settings_.strength.tensile <= 0.0 || settings_.strength.shear <= 0.0))
+    error->fix_error(FLERR, this, "breakable bonds need 'tensile' and 'shear' strengths (kPa) > 0");
+}
+
+// The file has rows `tag body`, body >= 1; '#' starts a comment. Atoms without a row belong to none.
+void FixBondBpm::read_bodies() {
+  const int highest = atom->tag_max();
+  std::vector<int> &body_of = body_of_tag_;
+  body_of.assign(highest + 1, 0);
+  char problem[512] = "";
+  if (comm->me == 0) {
+    FILE *fp = fopen(bodies_file_.c_str(), "r");
+    if (!fp)
+      snprintf(problem, sizeof problem, "cannot open the body map '%.300s': %s", bodies_file_.c_str(),
+               strerror(errno));
+    char line[256];
+    for (int row = 1; fp && !problem[0] && fgets(line, sizeof line, fp); ++row) {
+      int tag = 0, body = 0;
+      char rest = 0;
+      const int n = sscanf(line, "%d %d %c", &tag, &body, &rest);
+      if (line[strspn(line, " \t\r\n")] == '\0' || line[strspn(line, " \t")] == '#')
+        continue;
+      if (n != 2 || tag < 1 || tag > highest || body < 1 || body_of[tag])
+        snprintf(problem, sizeof problem,
+                 "%.200s:%d: '%.60s' is not a row 'tag body' with 1 <= tag <= %d (each once) and "
+                 "body >= 1",
+                 bodies_file_.c_str(), row, strtok(line, "\r\n"), highest);
+      else
+        body_of[tag] = body;
+    }
+    if (fp)
+      fclose(fp);
+  }
+  MPI_Bcast(problem, sizeof problem, MPI_CHAR, 0, world);
+  if (problem[0])
+    error->fix_error(FLERR, this, problem);
+  MPI_Bcast(body_of.data(), highest + 1, MPI_INT, 0, world);
+  for (int i = 0; i < atom->nlocal; ++i)
+    body_[i] = body_of[atom->tag[i]];
+}
+
+// The log is rewritten from memory when it is opened, so that after a restart it holds exactly the
+// breaks up to that moment.
+void FixBondBpm::open_log() {
+  log_ready_ = true;
+  if (log_file_.empty())
+    return;
+  int ok = 1;
+  if (comm->me == 0) {
+    FILE *fp = fopen(log_file_.c_str(), "w");
+    ok = fp != NULL;
+    if (fp) {
+      fprintf(fp, "time_us,tag_i,tag_j,body,mode,sigma_MPa,tau_MPa,x_um,y_um,z_um,pressure_MPa\n");
+      ok = fclose(fp) == 0;
+    }
+  }
+  MPI_Bcast(&ok, 1, MPI_INT, 0, world);
+  if (!ok) {
+    const std::string message = "cannot write the event log '" + log_file_ + "'";
+    error->fix_error(FLERR, this, message.c_str());
+  }
+  std::vector<BreakEvent> known;
+  known.swap(breaks_);
+  log_breaks(known);
+}
+
+void FixBondBpm::log_breaks(const std::vector<BreakEvent> &all) {
+  const int platen = platen_id_.empty() ? -1 : modify->find_fix(platen_id_.c_str());
+  FILE *fp = comm->me == 0 && !log_file_.empty() ? fopen(log_file_.c_str(), "a") : NULL;
+  if (comm->me == 0 && !log_file_.empty() && !fp)
+    error->warning(FLERR, "cannot append to the event log of fix bond/bpm; breaks stay in restarts");
+  for (BreakEvent e : all) {
+    if (platen >= 0 && e.pressure == 0.0)
+      e.pressure = modify->fix[platen]->compute_vector(4);
+    breaks_.push_back(e);
+    if (fp)
+      fprintf(fp, "%.9g,%d,%d,%d,%s,%.6g,%.6g,%.6f,%.6f,%.6f,%.6g\n", e.time,
+              static_cast<int>(e.tag_low), static_cast<int>(e.tag_high), static_cast<int>(e.body),
+              calendem::name_of(static_cast<BreakMode>(static_cast<int>(e.mode))), 1e-3 * e.sigma,
+              1e-3 * e.tau, e.x, e.y, e.z, 1e-3 * e.pressure);
+  }
+  if (fp)
+    fclose(fp);
+}

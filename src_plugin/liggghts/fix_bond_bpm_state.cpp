@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// fix bond/bpm: per-atom arrays, their migration, and restart.
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "fix_bond_bpm.h"
+#include "memory.h"
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+namespace {
+const int kHeader = 8; // values before the list of breaks in the restart record
+const int kEventSize = sizeof(BreakEvent) / sizeof(double);
+} // namespace
+
+void FixBondBpm::grow_arrays(int nmax) {
+  memory->grow(body_, nmax, "bond/bpm:body");
+  memory->grow(broken_, nmax, "bond/bpm:broken");
+}
+
+void FixBondBpm::copy_arrays(int i, int j, int) {
+  body_[j] = body_[i];
+  broken_[j] = broken_[i];
+}
+
+// The host calls this for every atom at the first set-up too, after init().
+void FixBondBpm::set_arrays(int i) {
+  const size_t tag = static_cast<size_t>(atom->tag[i]);
+  body_[i] = tag < body_of_tag_.size() ? body_of_tag_[tag] : 0;
+  broken_[i] = 0;
+}
+
+int FixBondBpm::pack_exchange(int i, double *buf) {
+  buf[0] = body_[i];
+  buf[1] = broken_[i];
+  return 2;
+}
+
+int FixBondBpm::unpack_exchange(int nlocal, double *buf) {
+  body_[nlocal] = static_cast<int>(buf[0]);
+  broken_[nlocal] = static_cast<int>(buf[1]);
+  return 2;
+}
+
+int FixBondBpm::pack_comm(int n, int *list, double *buf, int, int *) {
+  for (int k = 0; k < n; ++k)
+    buf[k] = body_[list[k]];
+  return 1;
+}
+
+void FixBondBpm::unpack_comm(int n, int first, double *buf) {
+  for (int k = 0; k < n; ++k)
+    body_[first + k] = static_cast<int>(buf[k]);
+}
+
+int FixBondBpm::pack_restart(int i, double *buf) {
+  buf[0] = 3;
+  buf[1] = body_[i];
+  buf[2] = broken_[i];
+  return 3;
+}
+
+void FixBondBpm::unpack_restart(int nlocal, int nth) {
+  double *values = atom->extra[nlocal];
+  int m = 0;
+  for (int i = 0; i < nth; ++i)
+    m += static_cast<int>(values[m]);
+  body_[nlocal] = static_cast<int>(values[m + 1]);
+  broken_[nlocal] = static_cast<int>(values[m + 2]);
+}
+
+void FixBondBpm::write_restart(FILE *fp) {
+  if (comm->me != 0)
+    return;
+  std::vector<double> record(kHeader);
+  record[0] = created_;
+  record[1] = static_cast<double>(initial_);
+  record[2] = energy_lost_;
+  record[3] = static_cast<double>(breaks_.size());
+  for (int m = 1; m <= 4; ++m)
+    record[3 + m] = static_cast<double>(by_mode_[m]);
+  const double *events = reinterpret_cast<const double *>(breaks_.data());
+  record.insert(record.end(), events, events + kEventSize * breaks_.size());
+  const int bytes = static_cast<int>(record.size() * sizeof(double));
+  fwrite(&bytes, sizeof(int), 1, fp);
+  fwrite(record.data(), sizeof(double), record.size(), fp);
+}
+
+void FixBondBpm::restart(char *buf) {
+  const double *record = reinterpret_cast<const double *>(buf);
+  created_ = record[0] != 0.0;
+  initial_ = static_cast<bigint>(record[1]);
+  energy_lost_ = record[2];
+  breaks_.resize(static_cast<size_t>(record[3]));
+  for (int m = 1; m <= 4; ++m)
+    by_mode_[m] = static_cast<bigint>(record[3 + m]);
+  memcpy(breaks_.data(), record + kHeader, breaks_.size() * sizeof(BreakEvent));
+}
+
+double FixBondBpm::memory_usage() {
+  return 2.0 * atom->nmax * sizeof(int) + breaks_.capacity() * sizeof(BreakEvent);
+}

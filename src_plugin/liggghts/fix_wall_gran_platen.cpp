@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fix_wall_gran_platen.h"
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_property_atom.h"
+#include "primitive_wall.h"
+#include "update.h"
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using calendem::PlatenControl;
+using calendem::PlatenStage;
+
+namespace {
+char store_force_word[] = "store_force";
+char yes_word[] = "yes";
+} // namespace
+
+PlatenArguments::PlatenArguments(int narg, char **arg) {
+  int i = 0;
+  for (; i < narg && strcmp(arg[i], "side") != 0; ++i) {
+    if (!strcmp(arg[i], "primitive")) {
+      host_.push_back(store_force_word);
+      host_.push_back(yes_word);
+    }
+    host_.push_back(arg[i]);
+  }
+  for (; i < narg; ++i)
+    own_.push_back(arg[i]);
+}
+
+FixWallGranPlaten::FixWallGranPlaten(LAMMPS *lmp, int narg, char **arg)
+    : PlatenArguments(narg, arg),
+      FixWallGran(lmp, static_cast<int>(host_.size()), host_.data()), sign_(-1.0), window_(0.25),
+      may_release_(true), moved_(false) {
+  const char *z = NULL;
+  for (size_t i = 0; i + 1 < host_.size(); ++i)
+    if (!strcmp(host_[i], "zplane"))
+      z = host_[i + 1];
+  if (is_mesh_wall() || !z)
+    error->fix_error(FLERR, this, "needs 'primitive type T zplane Z'");
+  if (!domain->periodicity[0] || !domain->periodicity[1] || domain->periodicity[2])
+    error->fix_error(FLERR, this, "needs 'boundary p p f': periodic in x and y, walls in z");
+  programme_.start = record_.state.position = atof(z);
+  programme_.lowest = domain->boxlo[2];
+  parse();
+  record_.average.set_window(window_ / update->dt);
+  vector_flag = 1;
+  size_vector = 12;
+  global_freq = 1;
+  restart_global = 1;
+}
+
+double FixWallGranPlaten::number(const std::string &key, const std::string &value,
+                                 bool zero_allowed) {
+  char *end = NULL;
+  const double x = strtod(value.c_str(), &end);
+  if (value.empty() || *end != '\0' || !std::isfinite(x) || x < 0.0 || (x == 0.0 && !zero_allowed)) {
+    const std::string message = "'" + key + "' is '" + value + "'; it must be a finite number " +
+                                (zero_allowed ? ">= 0" : "> 0");
+    error->fix_error(FLERR, this, message.c_str());
+  }
+  return x;
+}
+
+void FixWallGranPlaten::set_keyword(const std::string &key, const std::string &value) {
+  if (key == "side" && (value == "top" || value == "bottom"))
+    sign_ = value == "top" ? -1.0 : 1.0;
+  else if (key == "motion" && value == "hold")
+    programme_.control = PlatenControl::Hold;
+  else if (key == "pressure" || key == "position") {
+    programme_.control = key == "pressure" ? PlatenControl::Pressure : PlatenControl::Position;
+    programme_.target = number(key, value, false);
+  } else if (key == "touch_speed")
+    programme_.touch_speed = number(key, value, false);
+  else if (key == "load_speed")
+    programme_.load_speed = number(key, value, false);
+  else if (key == "release_speed")
+    programme_.release_speed = number(key, value, false);
+  else if (key == "touch_pressure")
+    programme_.touch_pressure = number(key, value, true);
+  else if (key == "dwell")
+    programme_.dwell = number(key, value, true);
+  else if (key == "ramp")
+    programme_.ramp_time = number(key, value, true);
+  else if (key == "lost")
+    programme_.lost_fraction = number(key, value, true);
+  else if (key == "lowest")
+    programme_.lowest = number(key, value, true);
+  else if (key == "average")
+    window_ = number(key, value, false);
+  else if (key == "release" && (value == "yes" || value == "no"))
+    may_release_ = value == "yes";
+  else {
+    const std::string message =
+        "unknown setting '" + key + " " + value +
+        "'; known: side top|bottom, motion hold | motion pressure P | motion position Z, "
+        "touch_speed, load_speed, release_speed, touch_pressure, dwell, ramp, lost, lowest, average, "
+        "release yes|no";
+    error->fix_error(FLERR, this, message.c_str());
+  }
+}
+
+void FixWallGranPlaten::parse() {
+  for (size_t i = 0; i < own_.size();) {
+    const bool motion = own_[i] == "motion" && i + 1 < own_.size() && own_[i + 1] != "hold";
+    const size_t key = motion ? i + 1 : i; // 'motion pressure P' is the setting 'pressure P'
+    if (key + 1 >= own_.size()) {
+      const std::string message = "keyword '" + own_[key] + "' lacks its value";
+      error->fix_error(FLERR, this, message.c_str());
+    }
+    set_keyword(own_[key], own_[key + 1]);
+    i = key + 2;
+  }
+  if (programme_.control == PlatenControl::Hold)
+    return;
+  if (programme_.load_speed <= 0.0 || programme_.touch_speed <= 0.0 ||
+      programme_.release_speed <= 0.0)
+    error->fix_error(FLERR, this,
+                     "a moving platen needs 'touch_speed', 'load_speed' and 'release_speed' > 0");
+  if (programme_.control == PlatenControl::Position && programme_.target >= programme_.start)
+    error->fix_error(FLERR, this, "the target position must lie below the start");
+  enter(record_.state, PlatenStage::Compression, update->ntimestep * update->dt);
+}
+
+int FixWallGranPlaten::setmask() { return FixWallGran::setmask() | INITIAL_INTEGRATE; }
+
+void FixWallGranPlaten::init() {
+  FixWallGran::init();
+  record_.average.set_window(window_ / update->dt);
+  shear_ = 1;
+  shearDim_ = 2;
+  shearAxis_ = -1;
+  place_wall();
+}
+
+void FixWallGranPlaten::place_wall() {
+  double z = record_.state.position;
+  delete primitiveWall_;
+  primitiveWall_ = new PrimitiveWall(lmp, PRIMITIVE_WALL_DEFINITIONS::ZPLANE, 1, &z);
+  vshear_ = -record_.state.speed;
+  moved_ = true;
+}
+
+void FixWallGranPlaten::initial_integrate(int) {
+  if (programme_.control == PlatenControl::Hold)
+    return;
+  const double dt = update->dt;
+  const double z = record_.state.position;
+  advance(programme_, record_.state, record_.average.value(), window_, update->ntimestep * dt, dt,
+          may_release_);
+  // half of the step's work with the load at its beginning, the other half in measure()
+  record_.work += 0.5 * record_.load * (z - record_.state.position);
+  place_wall();
+}
+
+void FixWallGranPlaten::pre_force(int vflag) {
+  rebuildPrimitiveNeighlist_ = rebuildPrimitiveNeighlist_ || moved_;
+  moved_ = false;
+  FixWallGran::pre_force(vflag);
+}
+
+double FixWallGranPlaten::area() const { return domain->xprd * domain->yprd; }
+
+void FixWallGranPlaten::post_force(int vflag) {
+  FixWallGran::post_force(vflag);
+  if (!update->setupflag)
+    measure();
+}
+
+void FixWallGranPlaten::measure() {
+  double mine = 0.0, all = 0.0;
+  for (int i = 0; i < atom->nlocal; ++i)
+    mine += fix_wallforce_->array_atom[i][2];
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  record_.load = sign_ * all;
+  record_.work += 0.5 * record_.load * record_.state.speed * update->dt;
+  if (record_.average.add(record_.load / area()))
+    update_slope(record_.state, record_.average.value(),
+                 record_.average.block_length * update->dt);
+}
+
+double FixWallGranPlaten::compute_vector(int n) {
+  const calendem::PlatenState &s = record_.state;
+  const double time = update->ntimestep * update->dt;
+  const bool waits = stage_of(s) == PlatenStage::Dwell && !may_release_ &&
+                     time - s.stage_start >= programme_.dwell;
+  const double values[] = {s.stage,
+                           s.position,
+                           programme_.start - s.position,
+                           record_.load,
+                           record_.average.value(),
+                           record_.load / area(),
+                           record_.work,
+                           s.speed,
+                           s.max_pressure,
+                           s.reached,
+                           waits ? 1.0 : 0.0,
+                           window_};
+  return values[n];
+}
+
+void FixWallGranPlaten::write_restart(FILE *fp) {
+  if (comm->me != 0)
+    return;
+  const double start = programme_.start;
+  const int bytes = static_cast<int>(sizeof(Record) + sizeof start);
+  fwrite(&bytes, sizeof(int), 1, fp);
+  fwrite(&record_, sizeof(Record), 1, fp);
+  fwrite(&start, sizeof start, 1, fp);
+}
+
+void FixWallGranPlaten::restart(char *buf) {
+  memcpy(&record_, buf, sizeof(Record));
+  memcpy(&programme_.start, buf + sizeof(Record), sizeof programme_.start);
+}

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// fix ID all wall/gran/platen model hertz tangential history primitive type T zplane Z
+//     side top|bottom motion hold
+//     side top motion pressure P | position Z2  touch_speed V load_speed V release_speed V
+//          touch_pressure P dwell T ramp T lost F lowest Z average T release yes|no
+//
+// A flat wall of fix wall/gran that moves along z by the programme of physics/platen_motion.h and
+// measures what it carries. All contact models of fix wall/gran can be used. Units micro.
+// Global vector: 1 stage (0 hold, 1 compression, 2 dwell, 3 relaxation, 4 done), 2 position,
+//   3 displacement (> 0 down), 4 load [nN], 5 pressure averaged over `average` [kPa], 6 pressure now,
+//   7 work done on the particles [fJ], 8 closing speed, 9 largest averaged pressure, 10 target reached,
+//   11 1 when the dwell is over and `release no` holds the platen, 12 averaging window [us].
+// Load is positive when the wall presses the film. State restarts under the same fix ID.
+#ifdef FIX_CLASS
+
+FixStyle(wall/gran/platen, FixWallGranPlaten)
+
+#else
+#ifndef LMP_FIX_WALL_GRAN_PLATEN_H
+#define LMP_FIX_WALL_GRAN_PLATEN_H
+
+#include "fix_wall_gran.h"
+#include "physics/moving_average.h"
+#include "physics/platen_motion.h"
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// Parts the command into what fix wall/gran understands and what the platen adds.
+class PlatenArguments {
+public:
+  PlatenArguments(int narg, char **arg);
+
+protected:
+  std::vector<char *> host_;
+  std::vector<std::string> own_;
+};
+
+class FixWallGranPlaten : private PlatenArguments, public FixWallGran {
+public:
+  FixWallGranPlaten(class LAMMPS *, int, char **);
+  int setmask();
+  void init();
+  void initial_integrate(int);
+  void pre_force(int);
+  void post_force(int);
+  double compute_vector(int);
+  void write_restart(FILE *);
+  void restart(char *);
+
+  double position() const { return record_.state.position; }
+  double pressure() const { return record_.average.value(); }
+  bool is_top() const { return sign_ < 0.0; }
+
+private:
+  /// All that restarts, doubles only.
+  struct Record {
+    calendem::PlatenState state;
+    calendem::MovingAverage average;
+    double load = 0.0;
+    double work = 0.0;
+  };
+
+  calendem::PlatenProgramme programme_;
+  Record record_;
+  double sign_; // of the wall's load against the force on the particles: -1 top, +1 bottom
+  double window_;
+  bool may_release_;
+  bool moved_;
+
+  void parse();
+  void set_keyword(const std::string &key, const std::string &value);
+  double number(const std::string &key, const std::string &value, bool zero_allowed);
+  void place_wall();
+  void measure();
+  double area() const;
+};
+
+} // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Bonded-particle model: the elastic cylinder (parallel bond) between two primary spheres.
+//
+// Equations (Xu et al., eqs 4-5, after Potyondy & Cundall 2004, doi:10.1016/j.ijrmms.2004.09.011):
+//   dF_n = (E A / l) v_n dt        dF_t = (G A / l) v_t dt,  G = E / (2 (1 + nu))
+//   dM_n = (G J / l) w_n dt        dM_t = (E I / l) w_t dt
+//   A = pi R^2,  I = pi R^4 / 4,  J = 2 I,  R = lambda min(R_i, R_j),  l = centre distance at creation
+//
+// Kinematics. d = x_i - x_j, n = d / |d|. The bond is cut at the middle of the centre line, so both
+// arms are d/2 whatever the radii, overlap or gap, and the relative velocity at the cut is
+//   u = v_i - v_j - (w_i + w_j) / 2 x d.
+// A rigid motion gives u = 0 identically. Stored vectors follow the pair's rigid rotation during the
+// step: swing from the centres' velocities, twist from the mean spin along n, as one Cayley rotation
+// (exact for a finite turn between two positions).
+//
+// Signs: F_n > 0 is tension. F_t, M_n n and M_t act on particle i, their opposites on j.
+// Energy: conservative (F_n^2/2k_n + F_t^2/2k_t + M_n^2/2k_w + M_t^2/2k_b) up to O(dt^2); `damping`
+// adds viscous forces that are not stored and do not enter failure.
+// Valid for 0.01 <= |d|/l <= 10 and turns below 1 rad per step; outside the host stops the run.
+// Deviations: F_n is the exact integral of eq. 4, E A (|d| - l)/l, not a running sum, so it cannot
+// drift; the paper's R_min in eqs 6-7 is R (they agree at lambda = 1).
+// Verified by tests/unit/physics/parallel_bond_test.cpp and tests/verification/pair.
+#ifndef CALENDEM_PHYSICS_PARALLEL_BOND_H
+#define CALENDEM_PHYSICS_PARALLEL_BOND_H
+
+#include "vector3.h"
+
+namespace calendem {
+
+inline constexpr double kPi = 3.14159265358979323846;
+
+/// Material and geometry shared by all bonds of a run.
+struct BondMaterial {
+  double youngs_modulus = 0.0; ///< E_b [kPa], > 0
+  double shear_modulus = 0.0;  ///< G_b [kPa], > 0
+  double radius_ratio = 1.0;   ///< lambda [-], (0, 1.5]
+  double damping = 0.0;        ///< fraction of critical damping of the pair's axial mode [-], [0, 1]
+};
+
+inline double shear_modulus(double youngs_modulus, double poisson_ratio) {
+  return youngs_modulus / (2.0 * (1.0 + poisson_ratio));
+}
+
+/// Section of the cylinder. Lengths in um.
+struct BondSection {
+  double radius; ///< R
+  double area;   ///< A
+  double I;      ///< second moment of area; J = 2 I
+
+  explicit BondSection(double R) : radius(R), area(kPi * R * R), I(0.25 * area * R * R) {}
+};
+
+/// One coefficient per way in which a bond deforms: stiffnesses k_n, k_t [nN/um], k_twist, k_bend
+/// [nN um/rad], or viscous coefficients of the same times us.
+struct BondCoefficients {
+  double normal = 0.0;
+  double shear = 0.0;
+  double twist = 0.0;
+  double bend = 0.0;
+};
+
+struct BondStiffness : BondCoefficients {
+  BondStiffness(const BondMaterial &m, const BondSection &s, double length) {
+    const double inverse_length = 1.0 / length;
+    normal = m.youngs_modulus * s.area * inverse_length;
+    shear = m.shear_modulus * s.area * inverse_length;
+    bend = m.youngs_modulus * s.I * inverse_length;
+    twist = 2.0 * m.shear_modulus * s.I * inverse_length;
+  }
+};
+
+/// Loads that a bond remembers, as acting on particle i.
+struct BondLoads {
+  Vec3 shear;         ///< F_t [nN], at right angles to n
+  Vec3 bending;       ///< M_t [nN um], at right angles to n
+  double twist = 0.0; ///< M_n [nN um], along n
+};
+
+/// Motion of the pair at the end of a step; velocities are those that moved it through the step.
+struct PairMotion {
+  Vec3 d;       ///< x_i - x_j [um]
+  Vec3 v;       ///< v_i - v_j [um/us]
+  Vec3 spin_i;  ///< omega_i [rad/us]
+  Vec3 spin_j;  ///< omega_j [rad/us]
+  Vec3 n;       ///< d / r
+  double r = 0; ///< |d| [um]
+};
+
+/// Velocity of i relative to j where the bond is cut, without the part along n.
+inline Vec3 shear_velocity(const PairMotion &m) {
+  return reject(m.v - 0.5 * cross(m.spin_i + m.spin_j, m.d), m.n);
+}
+
+/// Rotation of the pair during a step as the Cayley vector tan(angle/2) * axis.
+inline Vec3 pair_rotation(const PairMotion &m, double dt) {
+  const Vec3 middle = m.d - (0.5 * dt) * m.v;
+  const double scale = 0.5 * dt / norm_squared(middle);
+  const double twist = 0.25 * dt * dot(m.spin_i + m.spin_j, m.n);
+  return scale * cross(middle, m.v) + twist * m.n;
+}
+
+/// Turns `a` by the Cayley vector `tau`; keeps its length for any |tau|.
+inline Vec3 turn(const Vec3 &a, const Vec3 &tau, double two_over_1_plus_tau2) {
+  const Vec3 ta = cross(tau, a);
+  return a + two_over_1_plus_tau2 * (ta + cross(tau, ta));
+}
+
+/// Carries the loads through one step of length dt [us] and adds that step's increments (eqs 4-5).
+inline void advance(BondLoads &loads, const PairMotion &m, const BondStiffness &k, double dt) {
+  const Vec3 tau = pair_rotation(m, dt);
+  const double c = 2.0 / (1.0 + norm_squared(tau));
+  const Vec3 spin = m.spin_i - m.spin_j;
+  const double spin_n = dot(spin, m.n);
+  const Vec3 shear = turn(loads.shear, tau, c) - (k.shear * dt) * shear_velocity(m);
+  const Vec3 bending = turn(loads.bending, tau, c) - (k.bend * dt) * (spin - spin_n * m.n);
+  loads.shear = reject(shear, m.n);
+  loads.bending = reject(bending, m.n);
+  loads.twist -= k.twist * dt * spin_n;
+}
+
+/// Force and moment on particle i. On j act the opposite force and `torque_j`.
+struct BondAction {
+  Vec3 force;
+  Vec3 torque_i;
+  Vec3 torque_j;
+};
+
+/// Viscous coefficients from one square root: k_n, k_t, ... share A, I and l.
+struct BondDamping : BondCoefficients {
+  BondDamping() = default;
+
+  /// mass_eff [pg] = m_i m_j / (m_i + m_j); radius_min [um] = min(R_i, R_j).
+  BondDamping(const BondMaterial &m, const BondSection &s, const BondStiffness &k, double mass_eff,
+              double radius_min) {
+    if (m.damping <= 0.0)
+      return;
+    const double ratio = std::sqrt(m.shear_modulus / m.youngs_modulus);
+    normal = 2.0 * m.damping * std::sqrt(k.normal * mass_eff);
+    shear = normal * ratio;
+    bend = normal * 0.5 * std::sqrt(0.4) * s.radius * radius_min;
+    twist = bend * std::sqrt(2.0) * ratio;
+  }
+};
+
+/// Total action of the bond: elastic loads, tension and damping, with the moments of the shear force
+/// about both centres, so that linear and angular momentum are conserved to round-off.
+inline BondAction action(const BondLoads &loads, double tension, const PairMotion &m,
+                         const BondDamping &c) {
+  Vec3 shear = loads.shear;
+  Vec3 moment = loads.bending + loads.twist * m.n;
+  double normal = tension;
+  if (c.normal > 0.0) {
+    const Vec3 spin = m.spin_i - m.spin_j;
+    const double spin_n = dot(spin, m.n);
+    shear = shear - c.shear * shear_velocity(m);
+    moment = moment - c.bend * (spin - spin_n * m.n) - (c.twist * spin_n) * m.n;
+    normal += c.normal * dot(m.v, m.n);
+  }
+  const Vec3 lever = 0.5 * cross(m.d, shear);
+  return {shear - normal * m.n, moment - lever, -(moment + lever)};
+}
+
+/// Elastic energy [fJ] of a bond.
+inline double strain_energy(const BondLoads &loads, double tension, const BondStiffness &k) {
+  return 0.5 * (tension * tension / k.normal + norm_squared(loads.shear) / k.shear +
+                loads.twist * loads.twist / k.twist + norm_squared(loads.bending) / k.bend);
+}
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Programme of the moving platen: down with a smooth start to a pressure, a thickness or a
+// displacement; dwell; up until contact is lost or the start is reached.
+//
+// Speeds. `touch` while the averaged pressure is below `touch_pressure`, `load` above, so that the
+// stress wave rho c v stays below the pressure being measured. From one to the other and from rest the
+// speed follows a smoothstep over `ramp_time`. Towards a pressure the speed is the lesser of that and
+//   v = (P_max - P) / (dP/dz measured over one averaging window) / approach_time,
+// a first-order approach that stops within the stated band instead of overshooting.
+// Signs: z is up, closing speed is positive downwards. Source: project design (contract.md).
+// Deviations: none. Verified by tests/unit/physics/platen_motion_test.cpp and tests/verification/platen.
+#ifndef CALENDEM_PHYSICS_PLATEN_MOTION_H
+#define CALENDEM_PHYSICS_PLATEN_MOTION_H
+
+#include <cmath>
+
+namespace calendem {
+
+enum class PlatenStage { Hold = 0, Compression = 1, Dwell = 2, Relaxation = 3, Done = 4 };
+enum class PlatenControl { Hold, Pressure, Position };
+
+/// What the user sets. Lengths um, times us, speeds um/us = m/s, pressures kPa.
+struct PlatenProgramme {
+  PlatenControl control = PlatenControl::Hold;
+  double start = 0.0;           ///< position at the beginning
+  double target = 0.0;          ///< kPa or position, by `control`
+  double load_speed = 0.0;      ///< > 0
+  double touch_speed = 0.0;     ///< > 0
+  double release_speed = 0.0;   ///< > 0
+  double touch_pressure = 0.0;  ///< >= 0
+  double dwell = 0.0;           ///< >= 0
+  double ramp_time = 0.0;       ///< >= 0
+  double lost_fraction = 0.01;  ///< of the maximum pressure: contact is lost below it
+  double lowest = 0.0;          ///< the platen never goes below
+};
+
+/// What changes; restarts store it as it is.
+struct PlatenState {
+  double stage = static_cast<double>(PlatenStage::Hold);
+  double position = 0.0;
+  double speed = 0.0; ///< closing speed, > 0 downwards
+  double stage_start = 0.0;
+  double max_pressure = 0.0; ///< largest averaged pressure
+  double slope = 0.0;        ///< smoothed dP/d(closing) [kPa/um]
+  double last_average = 0.0;
+  double reached = 0.0; ///< 1 if the target was met
+};
+
+inline PlatenStage stage_of(const PlatenState &s) { return static_cast<PlatenStage>(int(s.stage)); }
+
+inline void enter(PlatenState &s, PlatenStage stage, double time) {
+  s.stage = static_cast<double>(stage);
+  s.stage_start = time;
+}
+
+inline double smoothstep(double t) {
+  const double x = t <= 0.0 ? 0.0 : (t >= 1.0 ? 1.0 : t);
+  return x * x * (3.0 - 2.0 * x);
+}
+
+/// Moves `speed` towards `wanted` no faster than a full ramp of height `scale` in ramp_time.
+inline double approach_speed(double speed, double wanted, double scale, double ramp_time,
+                             double dt) {
+  if (ramp_time <= 0.0)
+    return wanted;
+  const double most = 1.5 * scale / ramp_time * dt; // the smoothstep's steepest slope
+  const double change = wanted - speed;
+  return speed + (change > most ? most : (change < -most ? -most : change));
+}
+
+/// Closing speed wanted during compression towards a pressure or a position.
+inline double closing_speed(const PlatenProgramme &p, const PlatenState &s, double average,
+                            double window) {
+  double wanted = average < p.touch_pressure ? p.touch_speed : p.load_speed;
+  if (p.control == PlatenControl::Pressure && s.slope > 0.0 && window > 0.0) {
+    const double room = p.target - average;
+    const double limit = room / s.slope / (3.0 * window);
+    if (average > 0.5 * p.target && limit < wanted)
+      wanted = std::fmax(limit, 1e-3 * p.load_speed);
+  }
+  return wanted;
+}
+
+inline void compress(const PlatenProgramme &p, PlatenState &s, double average, double window,
+                     double time, double dt) {
+  const double wanted = closing_speed(p, s, average, window);
+  const double scale = std::fmax(p.load_speed, p.touch_speed);
+  s.speed = wanted < s.speed ? wanted : approach_speed(s.speed, wanted, scale, p.ramp_time, dt);
+  s.position -= s.speed * dt;
+  const bool by_pressure = p.control == PlatenControl::Pressure;
+  const bool there = by_pressure ? average >= p.target : s.position <= p.target;
+  if (!by_pressure && there)
+    s.position = p.target;
+  if (!there && s.position > p.lowest)
+    return;
+  s.reached = there ? 1.0 : 0.0;
+  s.speed = 0.0;
+  enter(s, PlatenStage::Dwell, time);
+}
+
+inline void relax(const PlatenProgramme &p, PlatenState &s, double average, double time, double dt) {
+  s.speed = approach_speed(s.speed, -p.release_speed, p.release_speed, p.ramp_time, dt);
+  s.position -= s.speed * dt;
+  const bool lost = average < p.lost_fraction * s.max_pressure;
+  if (!lost && s.position < p.start)
+    return;
+  s.speed = 0.0;
+  enter(s, PlatenStage::Done, time);
+}
+
+/// One step. `average`: pressure [kPa] averaged over `window` [us]; `time` at the step's end.
+/// `may_release`: false holds the platen in its dwell (a script that ends after compression).
+inline void advance(const PlatenProgramme &p, PlatenState &s, double average, double window,
+                    double time, double dt, bool may_release) {
+  s.max_pressure = std::fmax(s.max_pressure, average);
+  switch (stage_of(s)) {
+  case PlatenStage::Compression:
+    compress(p, s, average, window, time, dt);
+    break;
+  case PlatenStage::Dwell:
+    if (may_release && time - s.stage_start >= p.dwell)
+      enter(s, PlatenStage::Relaxation, time);
+    break;
+  case PlatenStage::Relaxation:
+    relax(p, s, average, time, dt);
+    break;
+  default:
+    break;
+  }
+}
+
+/// Call once per window: keeps the stiffness of the film that the approach needs.
+inline void update_slope(PlatenState &s, double average, double window) {
+  const double moved = s.speed * window;
+  if (moved > 0.0) {
+    const double slope = (average - s.last_average) / moved;
+    if (slope > 0.0)
+      s.slope = s.slope > 0.0 ? 0.5 * (s.slope + slope) : slope;
+  }
+  s.last_average = average;
+}
+
+} // namespace calendem
+
+#endif
