@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/branches.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+using calendem::report::Curve;
+
+namespace {
+Curve up_and_down() {
+  Curve curve;
+  curve.stage = {"compression", "compression", "compression", "dwell", "relaxation", "relaxation"};
+  curve.columns["pressure_MPa"] = {0, 10, 8, 40, 20, 0};
+  curve.columns["pressure_bottom_MPa"] = {0, 9, 8, 42, 20, 5};
+  curve.columns["broken_fraction"] = {0, 0.1, 0.15, 0.3, 0.32, 0.32};
+  return curve;
+}
+} // namespace
+
+// Requirement: the branches meet in the last row before relaxation.
+TEST(Branches, ShareTheTurningPoint) {
+  const Curve curve = up_and_down();
+  EXPECT_EQ(curve.compression(), (std::vector<std::size_t>{0, 1, 2, 3}));
+  EXPECT_EQ(curve.relaxation(), (std::vector<std::size_t>{3, 4, 5}));
+  EXPECT_EQ(curve.row_of_max_pressure(), 3u);
+}
+
+// Requirement: values are those of the first crossing in compression, interpolated; NaN if none.
+TEST(Branches, FirstCrossingIsInterpolated) {
+  const Curve curve = up_and_down();
+  using calendem::report::at_first_crossing;
+  EXPECT_DOUBLE_EQ(at_first_crossing(curve, 5, "broken_fraction"), 0.05);
+  EXPECT_DOUBLE_EQ(at_first_crossing(curve, 9, "broken_fraction"), 0.09); // not on the way back
+  EXPECT_DOUBLE_EQ(at_first_crossing(curve, 24, "broken_fraction"), 0.225);
+  EXPECT_TRUE(std::isnan(at_first_crossing(curve, 41, "broken_fraction")));
+  EXPECT_TRUE(std::isnan(at_first_crossing(curve, 5, "no_such_column")));
+}
+
+// Requirement: the imbalance is relative to the platen's pressure and counts above the threshold
+// only.
+TEST(Branches, WorstImbalanceAboveThreshold) {
+  EXPECT_DOUBLE_EQ(calendem::report::worst_imbalance(up_and_down(), 5), 0.1);
+  EXPECT_DOUBLE_EQ(calendem::report::worst_imbalance(up_and_down(), 10), 0.05);
+  EXPECT_TRUE(std::isnan(calendem::report::worst_imbalance(up_and_down(), 100)));
+}

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The verb on whole (made-up) run directories.
+#include "report/verb.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "support/make_run.h"
+
+namespace fs = std::filesystem;
+using calendem::report::write_report;
+using calendem::tests::MadeRun;
+using calendem::tests::make_run;
+
+namespace {
+
+std::string contents(const fs::path &file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+class WriteReport : public ::testing::Test {
+protected:
+  void SetUp() override {
+    const auto *test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() / ("calendem_report_" + std::string(test->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    small_.bodies = 4;
+    small_.rows = 60;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const char *name) const { return (folder_ / name).string(); }
+  nlohmann::json twin(const char *name) const {
+    return nlohmann::json::parse(contents(folder_ / name));
+  }
+  /// Runs the verb, which must refuse; its messages.
+  std::string refusal(const std::string &directory) const {
+    ::testing::internal::CaptureStderr();
+    EXPECT_EQ(write_report({directory}, path("r.html")), 2);
+    EXPECT_FALSE(fs::exists(path("r.html")));
+    return ::testing::internal::GetCapturedStderr();
+  }
+
+  fs::path folder_;
+  MadeRun small_;
+};
+
+} // namespace
+
+// Requirement: the page needs no other file and no network; the twin carries the same figures.
+TEST_F(WriteReport, PageIsSelfContained) {
+  make_run(path("run"), small_);
+  ASSERT_EQ(write_report({path("run")}, ""), 0);
+  const std::string page = contents(folder_ / "run" / "report.html");
+  for (const char *outside : {"http://", "https://", "src=", "@import", "<script", "url(h"})
+    EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+  EXPECT_EQ(page.find("{{"), std::string::npos);
+  std::size_t pictures = 0;
+  for (auto at = page.find("data:image/png"); at != std::string::npos;
+       at = page.find("data:image/png", at + 1))
+    ++pictures;
+  EXPECT_EQ(pictures, 6u);
+  const auto json = twin("run/report.json");
+  EXPECT_EQ(json["status"], "finished");
+  EXPECT_EQ(json["charts"].size(), 7u);
+  EXPECT_EQ(json["runs"][0]["pictures"].size(), 6u);
+  EXPECT_NEAR(json["runs"][0]["headline"][0]["value"].get<double>(), 150, 1);
+  EXPECT_EQ(json["runs"][0]["files"][0]["sha256"].get<std::string>().size(), 64u);
+}
+
+// Requirement: same inputs, same bytes.
+TEST_F(WriteReport, IsReproducible) {
+  make_run(path("run"), small_);
+  ASSERT_EQ(write_report({path("run")}, path("r.html")), 0);
+  const std::string first = contents(path("r.html"));
+  ASSERT_EQ(write_report({path("run")}, path("r.html")), 0);
+  EXPECT_EQ(first, contents(path("r.html")));
+}
+
+// Requirement: the comparison stands beside the paper's numbers, for every run.
+TEST_F(WriteReport, ComparesWithThePaper) {
+  make_run(path("a"), small_);
+  small_.max_pressure_MPa = 80;
+  make_run(path("b"), small_);
+  ASSERT_EQ(write_report({path("a"), path("b") + "/"}, path("r.html")), 0);
+  const auto json = twin("r.json");
+  EXPECT_EQ(json["runs"][1]["name"], "b");
+  const auto &rows = json["comparison"]["rows"];
+  ASSERT_EQ(rows.size(), 8u);
+  EXPECT_DOUBLE_EQ(rows[1]["paper"], 27.75);
+  EXPECT_TRUE(rows[1]["cells"][0]["value"].is_null()); // a went to 150 MPa
+  EXPECT_FALSE(rows[1]["cells"][1]["value"].is_null());
+  EXPECT_NEAR(rows[2]["cells"][0]["difference"], rows[2]["cells"][0]["value"].get<double>() - 25.17,
+              1e-9);
+  EXPECT_TRUE(rows[7]["cells"][1]["value"].is_null()); // b never sees 146 MPa
+}
+
+// Requirement: an unfinished run gets a report that says so.
+TEST_F(WriteReport, UnfinishedIsMarked) {
+  small_.finished = false;
+  make_run(path("run"), small_);
+  std::ofstream(path("run/curve.csv"), std::ios::app) << "20.1,compre"; // being written
+  ASSERT_EQ(write_report({path("run")}, path("r.html")), 0);
+  EXPECT_EQ(twin("r.json")["status"], "unfinished");
+  EXPECT_NE(contents(path("r.html")).find(">unfinished<"), std::string::npos);
+}
+
+// Requirement: without frames there is a report without pictures, and a note.
+TEST_F(WriteReport, WithoutFrames) {
+  small_.frames = false;
+  make_run(path("run"), small_);
+  ASSERT_EQ(write_report({path("run")}, path("r.html")), 0);
+  EXPECT_EQ(twin("r.json")["runs"][0]["notes"].size(), 3u);
+}
+
+// Requirement: a truncated frame is a note that names the file, not a crash.
+TEST_F(WriteReport, TruncatedFrame) {
+  make_run(path("run"), small_);
+  fs::resize_file(folder_ / "run/vtk/bonds_0.vtp", 700);
+  ASSERT_EQ(write_report({path("run")}, path("r.html")), 0);
+  EXPECT_NE(twin("r.json")["runs"][0]["notes"].dump().find("bonds_0.vtp"), std::string::npos);
+}
+
+// Requirement: bad input names the file, what is wrong and what to do; nothing is written; exit 2.
+TEST_F(WriteReport, NoDirectory) {
+  EXPECT_NE(refusal(path("nowhere")).find("no such directory"), std::string::npos);
+}
+
+TEST_F(WriteReport, MissingCurve) {
+  fs::create_directories(path("run"));
+  std::ofstream(path("run/curve_raw.csv")) << "step\n";
+  const std::string message = refusal(path("run"));
+  EXPECT_NE(message.find("curve.csv"), std::string::npos);
+  EXPECT_NE(message.find("--resume"), std::string::npos);
+}
+
+TEST_F(WriteReport, MissingColumns) {
+  make_run(path("run"), small_);
+  std::ofstream(path("run/curve.csv")) << "time_us,stage\n0,compression\n1,relaxation\n";
+  EXPECT_NE(refusal(path("run")).find("broken_torsion"), std::string::npos);
+}
+
+TEST_F(WriteReport, TruncatedCurveOfAFinishedRun) {
+  make_run(path("run"), small_);
+  fs::resize_file(folder_ / "run/curve.csv", fs::file_size(path("run/curve.csv")) - 60);
+  EXPECT_NE(refusal(path("run")).find("line 61 is cut short"), std::string::npos);
+}
+
+TEST_F(WriteReport, TruncatedSummary) {
+  make_run(path("run"), small_);
+  fs::resize_file(folder_ / "run/summary.json", 100);
+  EXPECT_NE(refusal(path("run")).find("summary.json"), std::string::npos);
+}
+
+TEST_F(WriteReport, NotANumber) {
+  make_run(path("run"), small_);
+  std::string curve = contents(path("run/curve.csv"));
+  curve.replace(curve.find("compression,0,"), 14, "compression,nan,");
+  std::ofstream(path("run/curve.csv")) << curve;
+  EXPECT_NE(refusal(path("run")).find("displacement_um, row 1: not a number"), std::string::npos);
+}
+
+// Requirement: all mistakes of all runs at once.
+TEST_F(WriteReport, AllMistakesAtOnce) {
+  ::testing::internal::CaptureStderr();
+  EXPECT_EQ(write_report({path("x"), path("y")}, path("r.html")), 2);
+  const std::string message = ::testing::internal::GetCapturedStderr();
+  EXPECT_NE(message.find(path("x")), std::string::npos);
+  EXPECT_NE(message.find(path("y")), std::string::npos);
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A chart as data, and its drawing as SVG. Linear axes; a second y axis on the right when a series
+// asks for it. Every series differs from the others by dash, marker or hatch as well as by colour.
+#ifndef CALENDEM_REPORT_CHART_H
+#define CALENDEM_REPORT_CHART_H
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace calendem::report {
+
+enum class Mark { line, points, area }; ///< area: filled between `base` and `y`
+enum class Symbol { none, circle, square, triangle, diamond };
+enum class Hatch { solid, rising, falling, dots };
+
+struct Series {
+  std::string name; ///< legend entry; empty = none
+  std::vector<double> x, y;
+  Mark mark = Mark::line;
+  std::string colour = "#000000";
+  std::string dash;             ///< SVG dash pattern, empty = solid
+  Symbol symbol = Symbol::none; ///< on a line: a few symbols along it
+  Hatch hatch = Hatch::solid;   ///< of an area
+  bool right_axis = false;
+  std::vector<double> base;    ///< lower edge of an area
+  std::vector<double> y_error; ///< half length of error bars, empty = none
+};
+
+struct Limit { ///< a horizontal line with a label, on the left axis
+  double y;
+  std::string label;
+};
+
+struct Chart {
+  std::string id; ///< unique in a page; prefix of the ids in the SVG
+  std::string title;
+  std::string x_label, y_label, right_label; ///< with units
+  std::vector<Series> series;
+  std::vector<Limit> limits;
+  std::string note; ///< what the reader must know to read it
+  double y_top = 0; ///< upper end of the left axis; 0 = from the data
+};
+
+/// The drawing; sizes in CSS pixels, text in the font of the page.
+std::string to_svg(const Chart &chart);
+
+/// The same chart as data, for report.json.
+nlohmann::json to_json(const Chart &chart);
+
+} // namespace calendem::report
+
+#endif

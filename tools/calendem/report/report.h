@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A report: one object, from which both report.json and the page are made.
+#ifndef CALENDEM_REPORT_REPORT_H
+#define CALENDEM_REPORT_REPORT_H
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "report/chart.h"
+#include "report/electrode_picture.h"
+#include "report/run_directory.h"
+
+namespace calendem::report {
+
+struct RunPart {
+  std::string name;
+  std::string unfinished; ///< why; empty = finished
+  nlohmann::json headline, facts, electrode, provenance, files;
+  Problems notes;
+  std::vector<Picture> pictures;
+};
+
+struct Report {
+  std::string title;
+  std::vector<RunPart> runs;
+  nlohmann::json comparison;
+  std::vector<Chart> charts;
+  nlohmann::json provenance; ///< of the report itself: name -> value
+};
+
+/// Everything that is shown about `runs`; `command` is the command line that asked for it.
+Report make_report(std::vector<Run> runs, const std::string &command);
+
+/// The report as data; pictures by their frame file, without pixels.
+nlohmann::json to_json(const Report &report);
+
+} // namespace calendem::report
+
+#endif

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The tables of a report as JSON: headline figures, the comparison with the paper, facts of a run.
+#ifndef CALENDEM_REPORT_TABLES_H
+#define CALENDEM_REPORT_TABLES_H
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "report/run_directory.h"
+
+namespace calendem::report {
+
+/// `value` with `decimals` digits behind the point; a dash when it is not finite.
+std::string shown(double value, int decimals);
+
+/// Array of {label, value, unit, text, remark}.
+nlohmann::json headline_of(const Run &run);
+
+/// {"rows": [{quantity, pressure_MPa, paper, paper_sd, cells: [{run, value, difference, text…}]}]}:
+/// one cell per run.
+nlohmann::json comparison_of(const std::vector<Run> &runs);
+
+/// Every value in `object`, nested ones with joined names: array of {name, value, unit}. Keys that
+/// are in `left_out` are not listed.
+nlohmann::json facts_of(const nlohmann::json &object, const std::vector<std::string> &left_out);
+
+} // namespace calendem::report
+
+#endif

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/verb.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "report/page.h"
+#include "report/report.h"
+#include "report/run_directory.h"
+
+namespace calendem {
+namespace report {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kDone = 0, kBadInput = 2;
+
+void print(const char *kind, const Problem &problem) {
+  std::cerr << "calendem report: " << kind << ": " << problem.file << ": " << problem.what
+            << "\n  what to do: " << problem.remedy << '\n';
+}
+
+bool write(const fs::path &file, const std::string &text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (out)
+    return true;
+  print("error", {file.string(), "cannot be written", "check the folder, its rights and the disk"});
+  return false;
+}
+
+std::string command_line(const std::vector<std::string> &directories, const std::string &page) {
+  std::string command = "calendem report";
+  for (const auto &directory : directories)
+    command += " " + directory;
+  return command + " -o " + page;
+}
+
+} // namespace
+
+int write_report(const std::vector<std::string> &directories, std::string page) {
+  Problems problems;
+  std::vector<Run> runs;
+  for (const auto &directory : directories)
+    runs.push_back(read_run(directory, problems));
+  for (const auto &problem : problems)
+    print("error", problem);
+  if (!problems.empty())
+    return kBadInput;
+  make_names_unique(runs);
+  if (page.empty())
+    page = directories.size() == 1 ? (fs::path(directories[0]) / "report.html").string()
+                                   : "report.html";
+  const Report report = make_report(std::move(runs), command_line(directories, page));
+  for (const auto &run : report.runs) {
+    for (const auto &note : run.notes)
+      print("note", note);
+    if (!run.unfinished.empty())
+      std::cerr << "calendem report: note: " << run.name << " is unfinished (" << run.unfinished
+                << "); the report says so\n";
+  }
+  const fs::path twin = fs::path(page).replace_extension(".json");
+  if (!write(twin, to_json(report).dump(1) + "\n") || !write(page, to_html(report)))
+    return kBadInput;
+  std::cout << "report: " << page << "\ndata:   " << twin.string() << '\n';
+  return kDone;
+}
+
+} // namespace report
+
+void add_report_verb(CLI::App &app) {
+  struct Options {
+    std::vector<std::string> directories;
+    std::string page;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App *verb = app.add_subcommand(
+      "report", "One self-contained page with plots and pictures of one or more runs");
+  verb->add_option("DIR", options->directories, "Directories made by calendem run")
+      ->required()
+      ->type_name("DIR…");
+  verb->add_option("-o,--output", options->page,
+                   "Page to write; its data go to the same name with .json. Default: report.html "
+                   "in the run's directory, or here if there are several")
+      ->type_name("FILE.html");
+  verb->callback([options] {
+    const int status = report::write_report(options->directories, options->page);
+    if (status != 0)
+      throw CLI::RuntimeError(status);
+  });
+}
+
+} // namespace calendem

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// calendem report DIR… [-o FILE.html]
+#ifndef CALENDEM_REPORT_VERB_H
+#define CALENDEM_REPORT_VERB_H
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace calendem {
+
+void add_report_verb(CLI::App &app);
+
+namespace report {
+
+/// Writes `page` (HTML) and, beside it with the ending .json, its twin. Exit status of the program:
+/// 0 done, 2 bad input (all mistakes are on stderr and nothing is written).
+int write_report(const std::vector<std::string> &directories, std::string page);
+
+} // namespace report
+} // namespace calendem
+
+#endif
