@@ -130,7 +130,7 @@ void write_curve(const fs::path &file, const Film &film, const std::vector<Row> 
       work += 0.5 * (r.pressure + rows[i - 1].pressure) * 225e3 *
               (r.displacement - rows[i - 1].displacement);
     const auto count = broken(film, r.seen);
-    const double h = kThickness - r.displacement, elastic = 2.2e5 * r.pressure * r.pressure / 6;
+    const double h = kThickness - r.displacement, elastic = 2.2e5 * r.pressure * r.pressure / 60;
     const double lost = 900.0 * count[0];
     out << r.time << ',' << r.stage << ',' << r.displacement << ',' << h << ',' << r.pressure << ','
         << r.pressure * (1 + 0.03 * std::sin(2 * r.time)) << ',' << count[0] << ','

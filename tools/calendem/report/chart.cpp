@@ -121,8 +121,8 @@ private:
   void open() {
     svg_ << "<svg class=\"chart\" viewBox=\"0 0 " << kWidth << ' ' << px(bottom_ + kBottom)
          << "\" role=\"img\" aria-label=\"" << escaped(chart_.title) << "\"><defs><clipPath id=\""
-         << chart_.id << "-clip\"><rect x=\"" << px(kLeft) << "\" y=\"" << px(top_ - 5)
-         << "\" width=\"" << px(right_ - kLeft + 5) << "\" height=\"" << px(kPlotHeight + 5)
+         << chart_.id << "-clip\"><rect x=\"" << px(kLeft - 6) << "\" y=\"" << px(top_ - 6)
+         << "\" width=\"" << px(right_ - kLeft + 12) << "\" height=\"" << px(kPlotHeight + 12)
          << "\"/></clipPath>";
     for (std::size_t i = 0; i < chart_.series.size(); ++i)
       if (chart_.series[i].mark == Mark::area)

@@ -108,20 +108,35 @@ struct Moment {
   double time_us;
 };
 
+std::size_t row_near(const Curve &curve, double time_us) {
+  const Column &time = curve["time_us"];
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < time.size(); ++i)
+    if (std::abs(time[i] - time_us) < std::abs(time[nearest] - time_us))
+      nearest = i;
+  return nearest;
+}
+
 std::vector<Moment> moments(const Run &run) {
-  const double top = run.curve["time_us"][run.curve.row_of_max_pressure()];
-  std::vector<Moment> list{{"Before", run.particles.front().time_us}, {"At maximum pressure", top}};
+  const Column &pressure = run.curve["pressure_MPa"];
+  const auto pressure_of = [&](const FrameFile &frame) {
+    return pressure[row_near(run.curve, frame.time_us)];
+  };
+  const FrameFile &highest = *std::max_element(
+      run.particles.begin(), run.particles.end(),
+      [&](const FrameFile &a, const FrameFile &b) { return pressure_of(a) < pressure_of(b); });
+  constexpr double kNear = 0.97;
+  const bool near = pressure_of(highest) >= kNear * pressure[run.curve.row_of_max_pressure()];
+  const double top = highest.time_us;
+  std::vector<Moment> list{{"Before", run.particles.front().time_us},
+                           {near ? "At maximum pressure" : "Frame of highest pressure", top}};
   if (run.particles.back().time_us > top)
     list.push_back({run.unfinished.empty() ? "After" : "Last frame", run.particles.back().time_us});
   return list;
 }
 
 void add_state(const Curve &curve, Picture &picture) {
-  const Column &time = curve["time_us"];
-  std::size_t nearest = 0;
-  for (std::size_t i = 1; i < time.size(); ++i)
-    if (std::abs(time[i] - picture.time_us) < std::abs(time[nearest] - picture.time_us))
-      nearest = i;
+  const std::size_t nearest = row_near(curve, picture.time_us);
   picture.pressure_MPa = curve["pressure_MPa"][nearest];
   picture.broken_fraction = curve["broken_fraction"][nearest];
 }

@@ -235,11 +235,25 @@ Chart energy_ledger(const Run &run, bool single) {
   chart.x_label = "Time (µs)";
   chart.y_label = "Energy (nJ)";
   constexpr double kNanojoule = 1e-6; // from fJ
-  for (const auto &entry : kLedger)
-    if (run.curve.has(entry.column))
-      chart.series.push_back(line(entry.name, run.curve["time_us"],
-                                  picked(run.curve[entry.column], all_rows(run.curve), kNanojoule),
-                                  entry.colour, entry.dash, {nullptr, Symbol::none}));
+  const Look plain{nullptr, Symbol::none};
+  Column rest;
+  for (const auto &entry : kLedger) {
+    if (!run.curve.has(entry.column))
+      continue;
+    Column energy = picked(run.curve[entry.column], all_rows(run.curve), kNanojoule);
+    if (rest.empty())
+      rest = energy; // the first entry is what was put in
+    else
+      for (std::size_t k = 0; k < rest.size(); ++k)
+        rest[k] -= energy[k];
+    chart.series.push_back(
+        line(entry.name, run.curve["time_us"], std::move(energy), entry.colour, entry.dash, plain));
+  }
+  if (chart.series.size() > 1 && run.curve.has(kLedger[0].column)) {
+    chart.series.push_back(line("rest", run.curve["time_us"], rest, "#777777", "1 5", plain));
+    chart.note = "Rest: work of the platen less everything else shown, that is, what curve.csv has "
+                 "no column for, and the error of the ledger.";
+  }
   return chart;
 }
 

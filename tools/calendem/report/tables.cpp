@@ -45,14 +45,16 @@ double porosity_after(const Run &run) {
 
 json cell(const Run &run, double value, double paper) {
   const double difference = value - paper;
-  json entry = {{"run", run.name},
-                {"value", or_null(value)},
-                {"difference", or_null(difference)},
-                {"text", shown(value, 2)},
-                {"difference_text", shown(difference, 2)}};
-  if (std::isfinite(difference) && difference > 0)
-    entry["difference_text"] = "+" + shown(difference, 2);
-  return entry;
+  std::string signed_text = shown(difference, 2);
+  if (signed_text.front() == '-')
+    signed_text.replace(0, 1, "−");
+  else if (difference > 0)
+    signed_text.insert(0, "+");
+  return {{"run", run.name},
+          {"value", or_null(value)},
+          {"difference", or_null(difference)},
+          {"text", shown(value, 2)},
+          {"difference_text", signed_text}};
 }
 
 template <typename Value>
