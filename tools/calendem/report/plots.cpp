@@ -241,6 +241,8 @@ Chart energy_ledger(const Run &run, bool single) {
     if (!run.curve.has(entry.column))
       continue;
     Column energy = picked(run.curve[entry.column], all_rows(run.curve), kNanojoule);
+    if (std::none_of(energy.begin(), energy.end(), [](double e) { return std::isfinite(e); }))
+      continue; // measured by nothing in this run
     if (rest.empty())
       rest = energy; // the first entry is what was put in
     else
