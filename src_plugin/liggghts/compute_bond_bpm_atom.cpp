@@ -14,6 +14,7 @@ ComputeBondBpmAtom::ComputeBondBpmAtom(LAMMPS *lmp, int &iarg, int narg, char **
     : Compute(lmp, iarg, narg, arg), fix_(NULL), nmax_(0) {
   if (narg != iarg)
     error->all(FLERR, "compute bond/bpm/atom takes no arguments");
+  array_atom = NULL; // the host leaves it unset
   peratom_flag = 1;
   size_peratom_cols = 3;
   comm_reverse = 1;
@@ -60,6 +61,7 @@ ComputeBondBpmBody::ComputeBondBpmBody(LAMMPS *lmp, int &iarg, int narg, char **
     : Compute(lmp, iarg, narg, arg), fix_(NULL) {
   if (narg != iarg)
     error->all(FLERR, "compute bond/bpm/body takes no arguments");
+  array = NULL;
   array_flag = 1;
   extarray = 0;
   size_array_rows = 0;

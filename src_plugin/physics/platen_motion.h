@@ -5,8 +5,8 @@
 // Speeds. `touch` while the averaged pressure is below `touch_pressure`, `load` above, so that the
 // stress wave rho c v stays below the pressure being measured. From one to the other and from rest the
 // speed follows a smoothstep over `ramp_time`. Towards a pressure the speed is the lesser of that and
-//   v = (P_max - P) / (dP/dz measured over one averaging window) / approach_time,
-// a first-order approach that stops within the stated band instead of overshooting.
+//   v = max((P_max - P)/3, 0.002 P_max) / (dP/dz * averaging window),
+// a first-order approach over three windows that ends with 0.2 % of the target per window.
 // Signs: z is up, closing speed is positive downwards. Source: project design (contract.md).
 // Deviations: none. Verified by tests/unit/physics/platen_motion_test.cpp and tests/verification/platen.
 #ifndef CALENDEM_PHYSICS_PLATEN_MOTION_H
@@ -73,10 +73,10 @@ inline double closing_speed(const PlatenProgramme &p, const PlatenState &s, doub
                             double window) {
   double wanted = average < p.touch_pressure ? p.touch_speed : p.load_speed;
   if (p.control == PlatenControl::Pressure && s.slope > 0.0 && window > 0.0) {
-    const double room = p.target - average;
-    const double limit = room / s.slope / (3.0 * window);
+    const double per_window = s.slope * window; // rise of pressure in one window at unit speed
+    const double limit = std::fmax((p.target - average) / 3.0, 0.002 * p.target) / per_window;
     if (average > 0.5 * p.target && limit < wanted)
-      wanted = std::fmax(limit, 1e-3 * p.load_speed);
+      wanted = limit;
   }
   return wanted;
 }
