@@ -7,9 +7,11 @@
 #include <iterator>
 #include <string>
 
+#include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "spec/messages.h"
 #include "support/make_run.h"
 
 namespace fs = std::filesystem;
@@ -165,6 +167,20 @@ TEST_F(WriteReport, NotANumber) {
   curve.replace(curve.find("compression,0,"), 14, "compression,nan,");
   std::ofstream(path("run/curve.csv")) << curve;
   EXPECT_NE(refusal(path("run")).find("displacement_um, row 1: not a number"), std::string::npos);
+}
+
+// Requirement: through the command line the exit status is 2 too.
+TEST_F(WriteReport, VerbFailsWithStatus) {
+  CLI::App app;
+  calendem::add_report_verb(app);
+  ::testing::internal::CaptureStderr();
+  try {
+    app.parse("report " + path("nowhere"));
+    ADD_FAILURE() << "accepted";
+  } catch (const calendem::Failure &failure) {
+    EXPECT_EQ(failure.exit_status(), 2);
+  }
+  ::testing::internal::GetCapturedStderr();
 }
 
 // Requirement: all mistakes of all runs at once.

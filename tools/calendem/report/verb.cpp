@@ -11,14 +11,13 @@
 #include "report/page.h"
 #include "report/report.h"
 #include "report/run_directory.h"
+#include "spec/messages.h"
 
 namespace calendem {
 namespace report {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kDone = 0, kBadInput = 2;
 
 void print(const char *kind, const Problem &problem) {
   std::cerr << "calendem report: " << kind << ": " << problem.file << ": " << problem.what
@@ -92,7 +91,7 @@ void add_report_verb(CLI::App &app) {
   verb->callback([options] {
     const int status = report::write_report(options->directories, options->page);
     if (status != 0)
-      throw CLI::RuntimeError(status);
+      throw Failure(status, "calendem report: nothing was written");
   });
 }
 

@@ -12,6 +12,7 @@ class App;
 
 namespace calendem {
 
+/// The verb throws Failure (spec/messages.h) with the exit status when it cannot be done.
 void add_report_verb(CLI::App &app);
 
 namespace report {
