@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# cases.sh CASE: one case of the style tests. Exit status 0 passed, 1 failed, 77 skipped.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../../.."
+
+skip() { echo "skipped: $*"; exit 77; }
+report() { # WHAT: fails when there are lines on stdin
+  local found
+  found=$(cat)
+  [ -z "$found" ] || { echo "$found"; echo "FAILED: $*"; exit 1; }
+}
+cxx_files() { find src_plugin tools tests -name '*.h' -o -name '*.cpp' | LC_ALL=C sort; }
+matching() { grep -E "$@" || true; }
+without() { grep -vE "$@" || true; }
+includes() { grep -nE '^ *# *include' -r "$@" --include='*.h' --include='*.cpp'; }
+
+physics_is_self_contained() {
+  # Standard headers have neither a dot nor a slash in their name; input and output are not physics.
+  includes src_plugin/physics | without '#include (<[a-z_]+>|"[a-z0-9_]+\.h")' |
+    report "physics may include standard headers and its own, nothing else" || exit 1
+  includes src_plugin/physics | matching '<(iostream|fstream|cstdio|filesystem|thread|mutex|random)>' |
+    report "physics does no input, output or hidden randomness" || exit 1
+  local name
+  includes src_plugin/physics | sed -n 's/.*"\(.*\)".*/\1/p' | sort -u |
+    while read -r name; do [ -f "src_plugin/physics/$name" ] || echo "$name"; done |
+    report "headers that are not in src_plugin/physics"
+  for name in src_plugin/physics/*.h; do # each compiles by itself
+    "${CXX:-g++}" -std=c++17 -Wall -Wextra -Werror -fsyntax-only -x c++ "$name" ||
+      { echo "FAILED: $name does not compile by itself"; exit 1; }
+  done
+}
+includes_point_one_way() { # physics <- liggghts; physics <- tools/calendem; tests on top
+  includes src_plugin | matching '"[^"]*(calendem|tools|tests|gtest)[^"]*"' |
+    report "src_plugin must not include tools or tests" || exit 1
+  includes tools/calendem | matching '"[^"]*(liggghts|tests)/|<(gtest|gmock|benchmark)/|"(fix|pair|compute|dump)_' |
+    report "tools/calendem must not include adapters or tests" || exit 1
+  includes tools/calendem | without '^tools/calendem/main.cpp' | matching '"\.\./' |
+    report "capabilities include each other by their path from tools/calendem, not by ../"
+}
+no_large_files() { # in the repository, or in the tree where there is no git
+  { git ls-files -z 2>/dev/null || find . -path ./build -prune -o -type f -print0; } |
+    xargs -0 -I{} find {} -maxdepth 0 -size +1024k |
+    report "files of more than 1 MB do not belong into the repository"
+}
+formatted() {
+  command -v clang-format >/dev/null || skip "no clang-format; tools/install-dependencies --test brings it"
+  local version
+  version=$(clang-format --version | grep -oE 'version [0-9]+' | grep -oE '[0-9]+')
+  [ "$version" -eq 14 ] || skip "clang-format $version; the tree is formatted with 14, others differ in detail"
+  cxx_files | xargs clang-format --dry-run 2>&1 | matching 'warning:' | cut -d: -f1 | sort | uniq -c |
+    report "not as .clang-format says (number of places, file); clang-format -i FILE mends it"
+}
+shell_is_clean() {
+  command -v shellcheck >/dev/null || skip "no shellcheck; tools/install-dependencies --test brings it"
+  local files
+  mapfile -t files < <(grep -lE -r --exclude-dir=build '^#!.*(bash|/sh)' .ci tools patches src_plugin tests input_scripts)
+  shellcheck "${files[@]}"
+}
+case ${1:-} in
+  "" | *[!a-z_]*) echo "usage: cases.sh CASE" >&2; exit 1 ;;
+  *) "$1" ;;
+esac
