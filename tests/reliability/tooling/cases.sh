@@ -25,10 +25,10 @@ tiny_tree() { # DIR
 expect() { # STATUS TEXT COMMAND...: the exit status, and a text that the output must contain
   local want=$1 text=$2 status=0
   shift 2
-  "$@" >"$work/out" 2>&1 </dev/null || status=$?
-  cat "$work/out"
+  "$@" >"$work/said" 2>&1 </dev/null || status=$?
+  cat "$work/said"
   [ $status -eq "$want" ] || fail "exit status $status, expected $want: $*"
-  grep -qF -- "$text" "$work/out" || fail "no '$text' in the output of: $*"
+  grep -qF -- "$text" "$work/said" || fail "no '$text' in the output of: $*"
 }
 same() { diff -r "$1" "$2" || fail "$1 and $2 differ"; }
 
@@ -137,6 +137,44 @@ scripts_explain_themselves() {
     expect 0 "$(basename "$script")" "$script" --help
     expect 1 "no-such-option" "$script" --no-such-option
   done
+}
+# A stand-in for Slurm: jobs are kept in a file; the first is killed by the wall-time limit.
+batch_script_chains_jobs() {
+  mkdir -p "$work/bin" "$work/repo/build/bin" "$work/electrode" "$work/out"
+  touch "$work/electrode/electrode.data" "$work/repo/build/bin/liggghts"
+  chmod +x "$work/repo/build/bin/liggghts"
+  cat >"$work/bin/sbatch" <<'END'
+#!/bin/sh
+echo "$CALENDEM_JOB $CALENDEM_PROGRESS" >>"$WORK/queue"
+echo "20$CALENDEM_JOB"
+END
+  cat >"$work/bin/srun" <<'END'
+#!/bin/sh
+echo "$*" >>"$WORK/runs"
+case $(wc -l <"$WORK/runs") in
+  1) echo half >"$WORK/out/running.restart"; exit 137 ;;
+  2) echo all >"$WORK/out/compressed.restart" ;;
+  *) echo end >"$WORK/out/final.restart" ;;
+esac
+END
+  cat >"$work/bin/scancel" <<'END'
+#!/bin/sh
+echo "$1" >>"$WORK/cancelled"
+END
+  chmod +x "$work"/bin/*
+  export PATH=$work/bin:$PATH WORK=$work SLURM_JOB_ID=200
+  cd "$work/repo"
+  local script=$top/input_scripts/cluster/slurm.sh
+  expect 3 "the successor goes on" "$script" "$work/electrode" "$work/out"
+  CALENDEM_JOB=2 expect 0 "final.restart is written" "$script" "$work/electrode" "$work/out"
+  sed -n 2p "$work/runs" | grep -q "in.compression .*-var resuming 1" || fail "the second job did not resume"
+  sed -n 3p "$work/runs" | grep -q "in.relaxation" || fail "no relaxation after the compression"
+  [ "$(cat "$work/cancelled")" = 203 ] || fail "the successor of the last job was not cancelled"
+  expect 0 "is finished" "$script" "$work/electrode" "$work/out"
+  rm "$work"/out/*.restart
+  CALENDEM_JOB=2 CALENDEM_PROGRESS="$(cksum </dev/null)" expect 3 "no new restart file" \
+    "$script" "$work/electrode" "$work/out"
+  expect 2 "no electrode.data" "$script" "$work" "$work/out"
 }
 case ${1:-} in
   "" | *[!a-z_]*) echo "usage: cases.sh CASE" >&2; exit 1 ;;
