@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a pair's contact history holds for its bond: the one place that knows the order of the values.
+// What a pair's contact history holds for its bond: the one place that knows the order of the
+// values.
 #ifndef CALENDEM_BOND_BPM_HISTORY_H
 #define CALENDEM_BOND_BPM_HISTORY_H
 

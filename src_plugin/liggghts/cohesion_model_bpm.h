@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Cohesion model `bpm`: the parallel bond for bonded pairs, SJKR (eq. 3) for all others, in one run.
+// Cohesion model `bpm`: the parallel bond for bonded pairs, SJKR (eq. 3) for all others, in one
+// run.
 #ifdef COHESION_MODEL
 COHESION_MODEL(COHESION_BPM, bpm, 30)
 #else
@@ -53,8 +54,8 @@ public:
       bond_force(s, bond, n, s.r, i_forces, j_forces);
       return;
     }
-    const double pull = calendem::sjkr_force(cohEnergyDens_[s.itype][s.jtype],
-                                             s.r + bond.reference_overlap(s.radsum), s.radi, s.radj);
+    const double pull = calendem::sjkr_force(
+        cohEnergyDens_[s.itype][s.jtype], s.r + bond.reference_overlap(s.radsum), s.radi, s.radj);
     calendem::subtract_from(pull * n, i_forces.delta_F);
     calendem::add_to(pull * n, j_forces.delta_F);
   }
@@ -91,9 +92,12 @@ private:
     const double radius_min = s.radi < s.radj ? s.radi : s.radj;
     const calendem::BondSection section(b.material.radius_ratio * radius_min);
     const calendem::BondStiffness k(b.material, section, bond.length());
-    const calendem::PairMotion motion = {
-        calendem::load(s.delta), calendem::load(s.v_i) - calendem::load(s.v_j),
-        calendem::load(s.omega_i), calendem::load(s.omega_j), n, r};
+    const calendem::PairMotion motion = {calendem::load(s.delta),
+                                         calendem::load(s.v_i) - calendem::load(s.v_j),
+                                         calendem::load(s.omega_i),
+                                         calendem::load(s.omega_j),
+                                         n,
+                                         r};
     calendem::BondLoads loads = bond.loads();
     const double tension = k.normal * (r - bond.length());
     if (s.computeflag && s.shearupdate) {

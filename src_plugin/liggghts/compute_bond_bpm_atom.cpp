@@ -84,10 +84,9 @@ void ComputeBondBpmBody::init() {
 void ComputeBondBpmBody::compute_array() {
   invoked_array = update->ntimestep;
   std::vector<double> mine(size_array_rows, 0.0), all(size_array_rows, 0.0);
-  fix_->for_each_intact(
-      [&](int i, int j, const BondHistory &) {
-        mine[fix_->body(i < atom->nlocal ? i : j) - 1] += 1.0;
-      });
+  fix_->for_each_intact([&](int i, int j, const BondHistory &) {
+    mine[fix_->body(i < atom->nlocal ? i : j) - 1] += 1.0;
+  });
   MPI_Allreduce(mine.data(), all.data(), size_array_rows, MPI_DOUBLE, MPI_SUM, world);
   for (int b = 0; b < size_array_rows; ++b) {
     array[b][0] = all[b];

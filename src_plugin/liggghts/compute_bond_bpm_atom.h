@@ -4,8 +4,7 @@
 //                                  (each bond counted once).
 #ifdef COMPUTE_CLASS
 
-ComputeStyle(bond/bpm/atom, ComputeBondBpmAtom)
-ComputeStyle(bond/bpm/body, ComputeBondBpmBody)
+ComputeStyle(bond/bpm/atom, ComputeBondBpmAtom) ComputeStyle(bond/bpm/body, ComputeBondBpmBody)
 
 #else
 #ifndef LMP_COMPUTE_BOND_BPM_ATOM_H

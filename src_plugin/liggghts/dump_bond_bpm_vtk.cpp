@@ -108,7 +108,8 @@ void DumpBondBpmVtk::write() {
   if (comm->me != 0)
     return;
   for (const BreakEvent &e : fix_->breaks())
-    lines.push_back({e.tag_low, e.tag_high, e.body, 0.0, e.mode, 1e-3 * e.sigma, 1e-3 * e.tau, e.time});
+    lines.push_back(
+        {e.tag_low, e.tag_high, e.body, 0.0, e.mode, 1e-3 * e.sigma, 1e-3 * e.tau, e.time});
   std::unordered_map<int, const Centre *> by_tag;
   for (const Centre &c : centres)
     by_tag[static_cast<int>(c.tag)] = &c;

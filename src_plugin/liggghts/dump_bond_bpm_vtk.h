@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // dump ID all bond/bpm/vtk N FILE-*.vtp
 //   Bonds as lines between the centres: cell arrays tag_i, tag_j, body, state (1 intact, 0 broken),
-//   mode (0 none, 1 tension, 2 bending, 3 shear, 4 torsion), sigma_MPa, tau_MPa, broken_us (-1 intact).
+//   mode (0 none, 1 tension, 2 bending, 3 shear, 4 torsion), sigma_MPa, tau_MPa, broken_us (-1
+//   intact).
 // dump ID all platen/vtk N FILE-*.vtp PLATEN COLLECTOR
 //   Both walls as quads over the cell: cell arrays wall (0 collector, 1 platen), pressure_MPa.
 // One file per output, written by rank 0.
 #ifdef LAMMPS_VTK
 #ifdef DUMP_CLASS
 
-DumpStyle(bond/bpm/vtk, DumpBondBpmVtk)
-DumpStyle(platen/vtk, DumpPlatenVtk)
+DumpStyle(bond/bpm/vtk, DumpBondBpmVtk) DumpStyle(platen/vtk, DumpPlatenVtk)
 
 #else
 #ifndef LMP_DUMP_BOND_BPM_VTK_H

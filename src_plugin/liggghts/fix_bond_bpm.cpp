@@ -18,8 +18,8 @@ using namespace FixConst;
 using calendem::BreakMode;
 
 namespace {
-// Neighbours are listed, and histories kept, up to this multiple of the sum of radii. 1.1 is ample for
-// brittle bonds; 1.2 would list the lattice's diagonal neighbours.
+// Neighbours are listed, and histories kept, up to this multiple of the sum of radii. 1.1 is ample
+// for brittle bonds; 1.2 would list the lattice's diagonal neighbours.
 const double kContactDistanceFactor = 1.1;
 const double kStretchLimit = 0.98 * kContactDistanceFactor;
 const int kEventSize = sizeof(BreakEvent) / sizeof(double);
@@ -95,7 +95,7 @@ void FixBondBpm::check_box() {
       snprintf(message, sizeof message,
                "periodic box side %c is %g, shorter than two neighbour cut-offs (%g): a particle "
                "would touch two images of another. Make the cell larger or the skin smaller",
-               "xyz"[k], domain->prd[k], cut);
+               "xyz"[k], domain -> prd[k], cut);
       error->fix_error(FLERR, this, message);
     }
 }
@@ -165,10 +165,11 @@ void FixBondBpm::stop_if_overstretched() {
   if (worst <= 0.0)
     return;
   char message[300];
-  snprintf(message, sizeof message,
-           "an intact bond is stretched to %.4f times the sum of radii; beyond %.2f its history would "
-           "be lost. The time step is too large or the bonds are unbreakable or too strong",
-           worst, kContactDistanceFactor);
+  snprintf(
+      message, sizeof message,
+      "an intact bond is stretched to %.4f times the sum of radii; beyond %.2f its history would "
+      "be lost. The time step is too large or the bonds are unbreakable or too strong",
+      worst, kContactDistanceFactor);
   error->fix_error(FLERR, this, message);
 }
 
@@ -267,8 +268,10 @@ double FixBondBpm::compute_vector(int n) {
   for_each_intact([&](int i, int j, const BondHistory &bond) {
     double **x = atom->x;
     const calendem::Vec3 d = calendem::load(x[i]) - calendem::load(x[j]);
-    const double radius = settings_.material.radius_ratio * std::min(atom->radius[i], atom->radius[j]);
-    const calendem::BondStiffness k(settings_.material, calendem::BondSection(radius), bond.length());
+    const double radius =
+        settings_.material.radius_ratio * std::min(atom->radius[i], atom->radius[j]);
+    const calendem::BondStiffness k(settings_.material, calendem::BondSection(radius),
+                                    bond.length());
     mine += strain_energy(bond.loads(), k.normal * (norm(d) - bond.length()), k);
   });
   MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);

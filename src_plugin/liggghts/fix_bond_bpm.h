@@ -3,10 +3,11 @@
 //     criterion signed|unsigned|as_printed damping D weibull M SEED breakable yes|no
 //     log FILE pressure PLATEN_FIX
 //
-// Owns the bonds of `pair_style gran ... cohesion bpm surface bpm`: their material, their creation (at
-// the first set-up after the fix appears, between touching primaries of one body, once), the decision
-// of every break by the rank that owns the lower tag, and the event log. All stresses in kPa (units
-// micro). Global vector: see compute bond/bpm. Everything restarts, under the same fix ID.
+// Owns the bonds of `pair_style gran ... cohesion bpm surface bpm`: their material, their creation
+// (at the first set-up after the fix appears, between touching primaries of one body, once), the
+// decision of every break by the rank that owns the lower tag, and the event log. All stresses in
+// kPa (units micro). Global vector: see compute bond/bpm. Everything restarts, under the same fix
+// ID.
 #ifdef FIX_CLASS
 
 FixStyle(bond/bpm, FixBondBpm)

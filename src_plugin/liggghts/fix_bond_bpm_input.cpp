@@ -5,8 +5,8 @@
 #include "fix_bond_bpm.h"
 #include "modify.h"
 #include "update.h"
-#include <cmath>
 #include <cerrno>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 
@@ -20,8 +20,8 @@ double FixBondBpm::positive(const char *keyword, const char *text, bool zero_all
   if (end == text || *end != '\0' || !std::isfinite(value) || value < 0.0 ||
       (value == 0.0 && !zero_allowed)) {
     char message[256];
-    snprintf(message, sizeof message, "'%s' is '%s'; it must be a finite number %s 0", keyword, text,
-             zero_allowed ? ">=" : ">");
+    snprintf(message, sizeof message, "'%s' is '%s'; it must be a finite number %s 0", keyword,
+             text, zero_allowed ? ">=" : ">");
     error->fix_error(FLERR, this, message);
   }
   return value;
@@ -98,7 +98,8 @@ void FixBondBpm::check_settings() {
     error->fix_error(FLERR, this, "breakable bonds need 'tensile' and 'shear' strengths (kPa) > 0");
 }
 
-// The file has rows `tag body`, body >= 1; '#' starts a comment. Atoms without a row belong to none.
+// The file has rows `tag body`, body >= 1; '#' starts a comment. Atoms without a row belong to
+// none.
 void FixBondBpm::read_bodies() {
   const int highest = atom->tag_max();
   std::vector<int> &body_of = body_of_tag_;
@@ -107,8 +108,8 @@ void FixBondBpm::read_bodies() {
   if (comm->me == 0) {
     FILE *fp = fopen(bodies_file_.c_str(), "r");
     if (!fp)
-      snprintf(problem, sizeof problem, "cannot open the body map '%.300s': %s", bodies_file_.c_str(),
-               strerror(errno));
+      snprintf(problem, sizeof problem, "cannot open the body map '%.300s': %s",
+               bodies_file_.c_str(), strerror(errno));
     char line[256];
     for (int row = 1; fp && !problem[0] && fgets(line, sizeof line, fp); ++row) {
       int tag = 0, body = 0;
@@ -164,7 +165,8 @@ void FixBondBpm::log_breaks(const std::vector<BreakEvent> &all) {
   const int platen = platen_id_.empty() ? -1 : modify->find_fix(platen_id_.c_str());
   FILE *fp = comm->me == 0 && !log_file_.empty() ? fopen(log_file_.c_str(), "a") : NULL;
   if (comm->me == 0 && !log_file_.empty() && !fp)
-    error->warning(FLERR, "cannot append to the event log of fix bond/bpm; breaks stay in restarts");
+    error->warning(FLERR,
+                   "cannot append to the event log of fix bond/bpm; breaks stay in restarts");
   for (BreakEvent e : all) {
     if (platen >= 0 && e.pressure == 0.0)
       e.pressure = modify->fix[platen]->compute_vector(4);

@@ -16,8 +16,8 @@ using namespace FixConst;
 
 FixCheckTimestepBpm::FixCheckTimestepBpm(LAMMPS *lmp, int narg, char **arg)
     : Fix(lmp, narg, arg), fraction_(0.0), bound_(0.0), rayleigh_(0.0), stop_(false) {
-  const bool has_switch = narg == 7 && !strcmp(arg[5], "error") &&
-                          (!strcmp(arg[6], "yes") || !strcmp(arg[6], "no"));
+  const bool has_switch =
+      narg == 7 && !strcmp(arg[5], "error") && (!strcmp(arg[6], "yes") || !strcmp(arg[6], "no"));
   if (narg != 5 && !has_switch)
     error->fix_error(FLERR, this, "expects 'check/timestep/bpm N FRACTION [error yes|no]'");
   nevery = atoi(arg[3]);

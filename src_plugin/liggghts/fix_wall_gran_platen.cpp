@@ -35,9 +35,8 @@ PlatenArguments::PlatenArguments(int narg, char **arg) {
 }
 
 FixWallGranPlaten::FixWallGranPlaten(LAMMPS *lmp, int narg, char **arg)
-    : PlatenArguments(narg, arg),
-      FixWallGran(lmp, static_cast<int>(host_.size()), host_.data()), sign_(-1.0), window_(0.25),
-      may_release_(true), moved_(false) {
+    : PlatenArguments(narg, arg), FixWallGran(lmp, static_cast<int>(host_.size()), host_.data()),
+      sign_(-1.0), window_(0.25), may_release_(true), moved_(false) {
   const char *z = NULL;
   for (size_t i = 0; i + 1 < host_.size(); ++i)
     if (!strcmp(host_[i], "zplane"))
@@ -60,7 +59,8 @@ double FixWallGranPlaten::number(const std::string &key, const std::string &valu
                                  bool zero_allowed) {
   char *end = NULL;
   const double x = strtod(value.c_str(), &end);
-  if (value.empty() || *end != '\0' || !std::isfinite(x) || x < 0.0 || (x == 0.0 && !zero_allowed)) {
+  if (value.empty() || *end != '\0' || !std::isfinite(x) || x < 0.0 ||
+      (x == 0.0 && !zero_allowed)) {
     const std::string message = "'" + key + "' is '" + value + "'; it must be a finite number " +
                                 (zero_allowed ? ">= 0" : "> 0");
     error->fix_error(FLERR, this, message.c_str());
@@ -100,7 +100,8 @@ void FixWallGranPlaten::set_keyword(const std::string &key, const std::string &v
     const std::string message =
         "unknown setting '" + key + " " + value +
         "'; known: side top|bottom, motion hold | motion pressure P | motion position Z, "
-        "touch_speed, load_speed, release_speed, touch_pressure, dwell, ramp, lost, lowest, average, "
+        "touch_speed, load_speed, release_speed, touch_pressure, dwell, ramp, lost, lowest, "
+        "average, "
         "release yes|no";
     error->fix_error(FLERR, this, message.c_str());
   }
@@ -181,8 +182,7 @@ void FixWallGranPlaten::measure() {
   record_.load = sign_ * all;
   record_.work += 0.5 * record_.load * record_.state.speed * update->dt;
   if (record_.average.add(record_.load / area()))
-    update_slope(record_.state, record_.average.value(),
-                 record_.average.block_length * update->dt);
+    update_slope(record_.state, record_.average.value(), record_.average.block_length * update->dt);
 }
 
 double FixWallGranPlaten::compute_vector(int n) {

@@ -7,9 +7,10 @@
 // A flat wall of fix wall/gran that moves along z by the programme of physics/platen_motion.h and
 // measures what it carries. All contact models of fix wall/gran can be used. Units micro.
 // Global vector: 1 stage (0 hold, 1 compression, 2 dwell, 3 relaxation, 4 done), 2 position,
-//   3 displacement (> 0 down), 4 load [nN], 5 pressure averaged over `average` [kPa], 6 pressure now,
-//   7 work done on the particles [fJ], 8 closing speed, 9 largest averaged pressure, 10 target reached,
-//   11 1 when the dwell is over and `release no` holds the platen, 12 averaging window [us].
+//   3 displacement (> 0 down), 4 load [nN], 5 pressure averaged over `average` [kPa], 6 pressure
+//   now, 7 work done on the particles [fJ], 8 closing speed, 9 largest averaged pressure, 10 target
+//   reached, 11 1 when the dwell is over and `release no` holds the platen, 12 averaging window
+//   [us].
 // Load is positive when the wall presses the film. State restarts under the same fix ID.
 #ifdef FIX_CLASS
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Surface model `bpm`: runs before all other contact models, makes the bonds when `fix bond/bpm` says
-// so, and measures the contact of a bonded pair from its overlap at creation.
+// Surface model `bpm`: runs before all other contact models, makes the bonds when `fix bond/bpm`
+// says so, and measures the contact of a bonded pair from its overlap at creation.
 #ifdef SURFACE_MODEL
 SURFACE_MODEL(SURFACE_BPM, bpm, 30)
 #else

@@ -2,7 +2,8 @@
 // Hertz contact: what the host's `model hertz` computes, for estimates and checks outside the host.
 //   F = 4/3 E* sqrt(R*) delta^(3/2),  1/R* = 1/R_i + 1/R_j,  1/E* = (1-nu_i^2)/E_i + (1-nu_j^2)/E_j
 // delta >= 0 is the overlap [um]; F in nN. Conservative. Source: Johnson, Contact Mechanics, ch. 4.
-// Deviations: none. Verified by tests/unit/physics/hertz_contact_test.cpp, tests/verification/contact.
+// Deviations: none. Verified by tests/unit/physics/hertz_contact_test.cpp,
+// tests/verification/contact.
 #ifndef CALENDEM_PHYSICS_HERTZ_CONTACT_H
 #define CALENDEM_PHYSICS_HERTZ_CONTACT_H
 

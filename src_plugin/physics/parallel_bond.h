@@ -4,14 +4,15 @@
 // Equations (Xu et al., eqs 4-5, after Potyondy & Cundall 2004, doi:10.1016/j.ijrmms.2004.09.011):
 //   dF_n = (E A / l) v_n dt        dF_t = (G A / l) v_t dt,  G = E / (2 (1 + nu))
 //   dM_n = (G J / l) w_n dt        dM_t = (E I / l) w_t dt
-//   A = pi R^2,  I = pi R^4 / 4,  J = 2 I,  R = lambda min(R_i, R_j),  l = centre distance at creation
+//   A = pi R^2,  I = pi R^4 / 4,  J = 2 I,  R = lambda min(R_i, R_j),  l = centre distance at
+//   creation
 //
 // Kinematics. d = x_i - x_j, n = d / |d|. The bond is cut at the middle of the centre line, so both
 // arms are d/2 whatever the radii, overlap or gap, and the relative velocity at the cut is
 //   u = v_i - v_j - (w_i + w_j) / 2 x d.
-// A rigid motion gives u = 0 identically. Stored vectors follow the pair's rigid rotation during the
-// step: swing from the centres' velocities, twist from the mean spin along n, as one Cayley rotation
-// (exact for a finite turn between two positions).
+// A rigid motion gives u = 0 identically. Stored vectors follow the pair's rigid rotation during
+// the step: swing from the centres' velocities, twist from the mean spin along n, as one Cayley
+// rotation (exact for a finite turn between two positions).
 //
 // Signs: F_n > 0 is tension. F_t, M_n n and M_t act on particle i, their opposites on j.
 // Energy: conservative (F_n^2/2k_n + F_t^2/2k_t + M_n^2/2k_w + M_t^2/2k_b) up to O(dt^2); `damping`
@@ -34,7 +35,7 @@ struct BondMaterial {
   double youngs_modulus = 0.0; ///< E_b [kPa], > 0
   double shear_modulus = 0.0;  ///< G_b [kPa], > 0
   double radius_ratio = 1.0;   ///< lambda [-], (0, 1.5]
-  double damping = 0.0;        ///< fraction of critical damping of the pair's axial mode [-], [0, 1]
+  double damping = 0.0; ///< fraction of critical damping of the pair's axial mode [-], [0, 1]
 };
 
 inline double shear_modulus(double youngs_modulus, double poisson_ratio) {
@@ -142,8 +143,8 @@ struct BondDamping : BondCoefficients {
   }
 };
 
-/// Total action of the bond: elastic loads, tension and damping, with the moments of the shear force
-/// about both centres, so that linear and angular momentum are conserved to round-off.
+/// Total action of the bond: elastic loads, tension and damping, with the moments of the shear
+/// force about both centres, so that linear and angular momentum are conserved to round-off.
 inline BondAction action(const BondLoads &loads, double tension, const PairMotion &m,
                          const BondDamping &c) {
   Vec3 shear = loads.shear;

@@ -3,12 +3,14 @@
 // displacement; dwell; up until contact is lost or the start is reached.
 //
 // Speeds. `touch` while the averaged pressure is below `touch_pressure`, `load` above, so that the
-// stress wave rho c v stays below the pressure being measured. From one to the other and from rest the
-// speed follows a smoothstep over `ramp_time`. Towards a pressure the speed is the lesser of that and
+// stress wave rho c v stays below the pressure being measured. From one to the other and from rest
+// the speed follows a smoothstep over `ramp_time`. Towards a pressure the speed is the lesser of
+// that and
 //   v = max((P_max - P)/3, 0.002 P_max) / (dP/dz * averaging window),
 // a first-order approach over three windows that ends with 0.2 % of the target per window.
 // Signs: z is up, closing speed is positive downwards. Source: project design (contract.md).
-// Deviations: none. Verified by tests/unit/physics/platen_motion_test.cpp and tests/verification/platen.
+// Deviations: none. Verified by tests/unit/physics/platen_motion_test.cpp and
+// tests/verification/platen.
 #ifndef CALENDEM_PHYSICS_PLATEN_MOTION_H
 #define CALENDEM_PHYSICS_PLATEN_MOTION_H
 
@@ -22,16 +24,16 @@ enum class PlatenControl { Hold, Pressure, Position };
 /// What the user sets. Lengths um, times us, speeds um/us = m/s, pressures kPa.
 struct PlatenProgramme {
   PlatenControl control = PlatenControl::Hold;
-  double start = 0.0;           ///< position at the beginning
-  double target = 0.0;          ///< kPa or position, by `control`
-  double load_speed = 0.0;      ///< > 0
-  double touch_speed = 0.0;     ///< > 0
-  double release_speed = 0.0;   ///< > 0
-  double touch_pressure = 0.0;  ///< >= 0
-  double dwell = 0.0;           ///< >= 0
-  double ramp_time = 0.0;       ///< >= 0
-  double lost_fraction = 0.01;  ///< of the maximum pressure: contact is lost below it
-  double lowest = 0.0;          ///< the platen never goes below
+  double start = 0.0;          ///< position at the beginning
+  double target = 0.0;         ///< kPa or position, by `control`
+  double load_speed = 0.0;     ///< > 0
+  double touch_speed = 0.0;    ///< > 0
+  double release_speed = 0.0;  ///< > 0
+  double touch_pressure = 0.0; ///< >= 0
+  double dwell = 0.0;          ///< >= 0
+  double ramp_time = 0.0;      ///< >= 0
+  double lost_fraction = 0.01; ///< of the maximum pressure: contact is lost below it
+  double lowest = 0.0;         ///< the platen never goes below
 };
 
 /// What changes; restarts store it as it is.
@@ -98,7 +100,8 @@ inline void compress(const PlatenProgramme &p, PlatenState &s, double average, d
   enter(s, PlatenStage::Dwell, time);
 }
 
-inline void relax(const PlatenProgramme &p, PlatenState &s, double average, double time, double dt) {
+inline void relax(const PlatenProgramme &p, PlatenState &s, double average, double time,
+                  double dt) {
   s.speed = approach_speed(s.speed, -p.release_speed, p.release_speed, p.ramp_time, dt);
   s.position -= s.speed * dt;
   const bool lost = average < p.lost_fraction * s.max_pressure;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Simplified JKR cohesion (Xu et al., eq. 3): attraction F_C = CED * A with A the area of the circle
-// in which two spheres of radii R_i, R_j at centre distance r intersect (the lens's section)
+// Simplified JKR cohesion (Xu et al., eq. 3): attraction F_C = CED * A with A the area of the
+// circle in which two spheres of radii R_i, R_j at centre distance r intersect (the lens's section)
 //   A = pi/4 * [(R_i+R_j)^2 - r^2] [r^2 - (R_i-R_j)^2] / r^2
 // and 0 outside |R_i-R_j| < r < R_i+R_j. CED: cohesion energy density [kPa = 1e3 J/m^3], >= 0.
 // Not conservative at pull-off only through Hertz; the pair force depends on r alone.

@@ -47,10 +47,10 @@ inline double stable_step(const BondRowSum &stiffness, const BondRowSum &damping
   const double inertia = 0.4 * mass * radius * radius;
   double least = HUGE_VAL;
   for (int a = 0; a < 3; ++a) {
-    const double dt_t = stable_step(2.0 * stiffness.translation[a] / mass,
-                                    2.0 * damping.translation[a] / mass);
-    const double dt_r = stable_step(2.0 * stiffness.rotation[a] / inertia,
-                                    2.0 * damping.rotation[a] / inertia);
+    const double dt_t =
+        stable_step(2.0 * stiffness.translation[a] / mass, 2.0 * damping.translation[a] / mass);
+    const double dt_r =
+        stable_step(2.0 * stiffness.rotation[a] / inertia, 2.0 * damping.rotation[a] / inertia);
     least = std::fmin(least, std::fmin(dt_t, dt_r));
   }
   return least;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Three-component vectors for the laws of this folder. Every operation is written so that exchanging
-// the two particles of a pair changes signs only, never bits: both copies of a pair that straddles
-// two processors then follow the same arithmetic.
+// Three-component vectors for the laws of this folder. Every operation is written so that
+// exchanging the two particles of a pair changes signs only, never bits: both copies of a pair that
+// straddles two processors then follow the same arithmetic.
 #ifndef CALENDEM_PHYSICS_VECTOR3_H
 #define CALENDEM_PHYSICS_VECTOR3_H
 

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The command line. Exit status: 0 done, 1 usage, 2 bad input, 3 the simulation failed, 4 a check
+// did not hold.
+#include "pack/verb.h"
+#include "report/verb.h"
+#include "run/verb.h"
+#include "spec/messages.h"
+#include "spec/verb.h"
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+int main(int argc, char **argv) {
+  CLI::App app{"Calendering of battery electrodes: pack an electrode, press it, report."};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", CALENDEM_VERSION);
+  calendem::add_pack_verb(app);
+  calendem::add_run_verb(app);
+  calendem::add_report_verb(app);
+  calendem::add_validate_verb(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success &e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError &e) {
+    app.exit(e);
+    return 1;
+  } catch (const calendem::Failure &e) {
+    fmt::print(stderr, "{}\n", e.what());
+    return e.exit_status();
+  } catch (const std::exception &e) {
+    fmt::print(stderr, "calendem: {}\n", e.what());
+    return 2;
+  }
+  return 0;
+}

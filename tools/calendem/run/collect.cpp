@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/collect.h"
+#include "spec/provenance.h"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+namespace calendem {
+namespace {
+
+const char *const kStageNames[] = {"hold", "compression", "dwell", "relaxation", "relaxation"};
+
+double total_porosity(const ElectrodeFacts &e, double gap) {
+  return 1.0 - e.solid / (e.area * gap);
+}
+
+/// Gap at which the averaged pressure first falls below `fraction` of the maximum during
+/// relaxation.
+double gap_at_loss(const std::vector<RawRow> &rows, double fraction, double max_pressure) {
+  double gap = rows.back().gap;
+  for (const RawRow &r : rows)
+    if (r.stage > 2.5 && r.p_top < fraction * max_pressure)
+      return r.gap;
+  return gap;
+}
+
+std::string curve(const std::vector<RawRow> &rows, const ElectrodeFacts &e,
+                  const UnionVolume &filled) {
+  std::string out =
+      "time_us,stage,displacement_um,thickness_um,pressure_MPa,pressure_bottom_MPa,bonds_broken,"
+      "broken_fraction,broken_tension,broken_bending,broken_shear,broken_torsion,porosity_total,"
+      "porosity_macro,kinetic_to_strain,kinetic_fJ,strain_fJ,work_platen_fJ,work_bonds_lost_fJ,"
+      "work_collector_fJ\n";
+  for (const RawRow &r : rows)
+    out += fmt::format(
+        "{:.6f},{},{:.6f},{:.6f},{:.6g},{:.6g},{:.0f},{:.6f},{:.0f},{:.0f},{:.0f},{:.0f},{:.6f},"
+        "{:.6f},{:.4g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n",
+        r.time, kStageNames[static_cast<int>(r.stage)], r.displacement, r.gap, r.p_top, r.p_bottom,
+        r.broken, r.made > 0 ? r.broken / r.made : 0.0, r.tension, r.bending, r.shear, r.torsion,
+        total_porosity(e, r.gap), 1.0 - filled.at(r.time) / (e.area * r.gap),
+        r.strain > 0 ? r.kinetic / r.strain : 0.0, r.kinetic, r.strain, r.work_platen, r.work_lost,
+        r.work_collector);
+  return out;
+}
+
+nlohmann::json quasi_static(const std::vector<RawRow> &rows) {
+  double worst = 0.0, sum = 0.0;
+  int n = 0, over = 0;
+  for (const RawRow &r : rows)
+    if (r.stage < 2.5 && r.p_top > 5.0) {
+      const double d = std::fabs(r.p_top - r.p_bottom) / r.p_top;
+      worst = std::max(worst, d);
+      sum += d;
+      over += d > 0.05;
+      ++n;
+    }
+  return {{"pressure_difference_max_above_5_MPa", worst},
+          {"pressure_difference_mean_above_5_MPa", n > 0 ? sum / n : 0.0},
+          {"rows_above_5_MPa", n},
+          {"rows_with_difference_above_5_percent", over}};
+}
+
+void check(const std::string &folder, const std::vector<RawRow> &rows, const ElectrodeFacts &e,
+           long logged) {
+  Mistakes wrong(folder);
+  const RawRow &last = rows.back();
+  if (last.made != e.bonds)
+    wrong.add(
+        0, fmt::format("{} bonds were made, but the electrode has {} pairs of one body that touch",
+                       last.made, e.bonds));
+  if (last.broken != logged)
+    wrong.add(0, fmt::format("the curve ends with {} broken bonds, breaks.csv holds {}",
+                             last.broken, logged));
+  if (last.tension + last.bending + last.shear + last.torsion != last.broken)
+    wrong.add(0, "the four modes do not add up to the broken bonds");
+  if (!wrong.empty())
+    throw Failure(kCheckFailed, wrong.text());
+}
+
+long count_rows(const std::string &file) {
+  std::ifstream in(file);
+  std::string line;
+  long n = -1;
+  while (std::getline(in, line))
+    ++n;
+  return std::max(n, 0L);
+}
+
+} // namespace
+
+std::vector<RawRow> read_raw(const std::string &file) {
+  std::map<long, RawRow> rows;
+  std::ifstream in(file);
+  std::string line;
+  while (std::getline(in, line)) {
+    if (in.eof()) // a line without its end is being written
+      break;
+    double v[18];
+    int n = 0;
+    std::istringstream fields(line);
+    std::string field;
+    while (n < 18 && std::getline(fields, field, ',')) {
+      char *end = nullptr;
+      v[n] = std::strtod(field.c_str(), &end);
+      if (end == field.c_str())
+        break;
+      ++n;
+    }
+    if (n == 18)
+      rows[static_cast<long>(v[0])] = {v[0],  v[1],  v[2],  v[3],  v[4],  v[5],
+                                       v[6],  v[7],  v[8],  v[9],  v[10], v[11],
+                                       v[12], v[13], v[14], v[15], v[16], v[17]};
+  }
+  std::vector<RawRow> out;
+  for (const auto &[step, row] : rows)
+    out.push_back(row);
+  return out;
+}
+
+nlohmann::json collect(const std::string &folder, const Settings &settings, const ElectrodeFacts &e,
+                       const RunFacts &facts) {
+  const std::vector<RawRow> rows = read_raw(folder + "/curve_raw.csv");
+  if (rows.size() < 2)
+    throw Failure(kSimulationFailed, fmt::format("'{}/curve_raw.csv' holds no curve", folder));
+  const double dt = rows.back().time / rows.back().step;
+  const auto frames = write_series(folder, dt);
+  const UnionVolume filled = union_volumes(folder, e, frames);
+  write_file(folder + "/curve.csv", curve(rows, e, filled));
+  const auto [bodies, cracked] = write_bodies(folder, e, settings.text("electrode"), frames);
+
+  const RawRow top = *std::max_element(
+      rows.begin(), rows.end(), [](const RawRow &a, const RawRow &b) { return a.p_top < b.p_top; });
+  const double lost = settings.number("platen.contact_lost_fraction");
+  const double gap = gap_at_loss(rows, lost, top.p_top);
+  nlohmann::json s;
+  s["max_pressure_MPa"] = top.p_top;
+  s["thickness_at_max_um"] = top.gap;
+  s["porosity_at_max"] = total_porosity(e, top.gap);
+  s["thickness_after_relaxation_um"] = gap;
+  s["porosity_after_relaxation"] = total_porosity(e, gap);
+  s["porosity_initial"] = total_porosity(e, e.thickness);
+  s["contact_lost_fraction"] = lost;
+  for (double f : {0.005, 0.01, 0.02, 0.05})
+    s["porosity_after_relaxation_by_threshold"][fmt::format("{}", f)] =
+        total_porosity(e, gap_at_loss(rows, f, top.p_top));
+  s["broken_fraction_at_max"] = top.made > 0 ? top.broken / top.made : 0.0;
+  s["broken_fraction_after"] = top.made > 0 ? rows.back().broken / top.made : 0.0;
+  s["springback"] = (gap - top.gap) / top.gap;
+  s["bonds_initial"] = static_cast<long>(rows.back().made);
+  s["bodies"] = bodies;
+  s["cracked_bodies"] = cracked;
+  s["cracked_criterion"] = "at least 8 % of its bonds broken and more than one fragment";
+  s["quasi_static"] = quasi_static(rows);
+  s["energy_fJ"] = {{"work_of_platen", rows.back().work_platen},
+                    {"released_by_breaks", rows.back().work_lost},
+                    {"bond_strain_at_end", rows.back().strain},
+                    {"kinetic_at_end", rows.back().kinetic}};
+  s["wall_clock_s"] = facts.wall_clock_s;
+  s["ranks"] = facts.ranks;
+  s["timestep_us"] = dt;
+  s["steps"] = static_cast<long>(rows.back().step);
+  s["atom_steps_per_second"] =
+      facts.wall_clock_s > 0 ? rows.back().step * e.atoms / facts.wall_clock_s : 0.0;
+  s["case_hash"] = facts.case_hash;
+  s["finished"] = rows.back().stage > 3.5;
+  s["provenance"] = {
+      {"calendem", version()},
+      {"case_toml", hash_of_file(folder + "/case.toml")},
+      {"electrode_data", hash_of_file(settings.text("electrode") + "/electrode.data")},
+      {"liggghts", "LIGGGHTS-PUBLIC 3.8.0 with the plugin"}};
+  check(folder, rows, e, count_rows(folder + "/breaks.csv"));
+  write_file(folder + "/summary.json", s.dump(2) + "\n");
+  return s;
+}
+
+} // namespace calendem

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Turns what the input scripts wrote into the files of a run's directory: curve.csv, summary.json,
+// bodies.csv, vtk/*.pvd; and checks them against each other.
+#ifndef CALENDEM_RUN_COLLECT_H
+#define CALENDEM_RUN_COLLECT_H
+
+#include "run/run.h"
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace calendem {
+
+/// One row of curve_raw.csv, in the order of its columns.
+struct RawRow {
+  double step, time, stage, displacement, gap, p_top, p_bottom, made, broken, tension, bending,
+      shear, torsion, kinetic, strain, work_platen, work_lost, work_collector;
+};
+
+/// Rows by time; after a resumption the last of equal steps counts. Cut lines are dropped.
+std::vector<RawRow> read_raw(const std::string &file);
+
+/// Union volume [um3] of body envelopes and CBD spheres against time, from the frames.
+struct UnionVolume {
+  std::vector<double> time, volume;
+  double at(double t) const;
+};
+
+/// Facts of the run that only the caller knows.
+struct RunFacts {
+  double wall_clock_s = 0.0;
+  int ranks = 0;
+  std::string case_hash;
+};
+
+/// Writes the files; returns the summary. Throws Failure(4) if created != intact + broken, if the
+/// log of breaks and the curve disagree, or if the bonds made are not those of the electrode.
+nlohmann::json collect(const std::string &folder, const Settings &settings,
+                       const ElectrodeFacts &electrode, const RunFacts &facts);
+
+/// vtk/{particles,bonds,platen}.pvd over the frames; returns step -> time of the particle frames.
+std::vector<std::pair<long, double>> write_series(const std::string &folder, double dt);
+UnionVolume union_volumes(const std::string &folder, const ElectrodeFacts &electrode,
+                          const std::vector<std::pair<long, double>> &frames);
+
+/// bodies.csv; returns {bodies, cracked}.
+std::pair<int, int> write_bodies(const std::string &folder, const ElectrodeFacts &electrode,
+                                 const std::string &electrode_folder,
+                                 const std::vector<std::pair<long, double>> &frames);
+
+} // namespace calendem
+
+#endif

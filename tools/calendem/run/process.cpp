@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/process.h"
+#include "spec/messages.h"
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+extern char **environ;
+
+namespace calendem {
+namespace {
+
+volatile sig_atomic_t asked_to_stop = 0;
+void on_signal(int number) { asked_to_stop = number; }
+
+std::vector<std::string> command_line(const LiggghtsJob &job) {
+  std::vector<std::string> words = {"mpirun",    "--oversubscribe",
+                                    "-np",       std::to_string(job.ranks),
+                                    job.program, "-in",
+                                    job.script,  "-log",
+                                    job.log};
+  for (const auto &[name, value] : job.variables) {
+    if (!value.empty() && value.front() == '-')
+      throw Failure(kBadInput,
+                    fmt::format("{} = {}: LIGGGHTS takes a negative value on its command line "
+                                "for a switch; none of these settings may be negative",
+                                name, value));
+    words.insert(words.end(), {"-var", name, value});
+  }
+  return words;
+}
+
+pid_t start(const LiggghtsJob &job) {
+  std::vector<std::string> words = command_line(job);
+  std::vector<char *> argv;
+  for (std::string &w : words)
+    argv.push_back(w.data());
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, 1, job.screen.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
+                                   0644);
+  posix_spawn_file_actions_adddup2(&actions, 1, 2);
+  if (geteuid() == 0) {
+    setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+    setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+  }
+  pid_t pid = 0;
+  const int error = posix_spawnp(&pid, "mpirun", &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0)
+    throw Failure(kBadInput,
+                  fmt::format("cannot start mpirun: {}. Install OpenMPI (openmpi-bin) or load "
+                              "its module",
+                              std::strerror(error)));
+  return pid;
+}
+
+std::string own_error(const std::string &screen) {
+  std::ifstream in(screen);
+  std::string line, errors, last;
+  while (std::getline(in, line)) {
+    if (line.rfind("ERROR", 0) == 0 && errors.find(line) == std::string::npos)
+      errors += line + "\n";
+    if (!line.empty() && line.find("---") == std::string::npos)
+      last = line;
+  }
+  return errors.empty() ? last + "\n" : errors;
+}
+
+} // namespace
+
+void run_liggghts(const LiggghtsJob &job, const std::function<void()> &tick) {
+  if (!std::filesystem::exists(job.program))
+    throw Failure(kBadInput,
+                  fmt::format("no program '{}'. Build it with tools/build, or give its path "
+                              "with --liggghts",
+                              job.program));
+  asked_to_stop = 0;
+  const auto old_int = std::signal(SIGINT, on_signal), old_term = std::signal(SIGTERM, on_signal);
+  const pid_t pid = start(job);
+  int status = 0;
+  bool told = false;
+  while (waitpid(pid, &status, WNOHANG) == 0) {
+    if (asked_to_stop && !told) {
+      kill(pid, SIGTERM);
+      told = true;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(400));
+    tick();
+  }
+  std::signal(SIGINT, old_int);
+  std::signal(SIGTERM, old_term);
+  if (asked_to_stop)
+    throw Failure(kSimulationFailed,
+                  "stopped on request; what was computed is kept and --resume goes on");
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw Failure(kSimulationFailed,
+                  fmt::format("LIGGGHTS failed ({}):\n{}The whole output is in {}",
+                              WIFSIGNALED(status)
+                                  ? fmt::format("signal {}", WTERMSIG(status))
+                                  : fmt::format("exit status {}", WEXITSTATUS(status)),
+                              own_error(job.screen), job.screen));
+}
+
+} // namespace calendem

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Starts LIGGGHTS under mpirun and waits for it.
+#ifndef CALENDEM_RUN_PROCESS_H
+#define CALENDEM_RUN_PROCESS_H
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace calendem {
+
+struct LiggghtsJob {
+  std::string program; ///< path of liggghts
+  int ranks = 2;       ///< >= 1
+  std::string script;  ///< input script
+  std::string log;     ///< log.liggghts
+  std::string screen;  ///< file that takes what the program prints
+  std::vector<std::pair<std::string, std::string>> variables; ///< -var NAME VALUE
+};
+
+/// Runs the job; calls `tick` about twice a second meanwhile. SIGINT and SIGTERM are passed on.
+/// Throws Failure(3) with LIGGGHTS's own error if it fails, Failure(2) if it cannot be started.
+void run_liggghts(const LiggghtsJob &job, const std::function<void()> &tick);
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// One compression and relaxation: checks, starts LIGGGHTS on in.calendering, follows it, collects.
+#ifndef CALENDEM_RUN_RUN_H
+#define CALENDEM_RUN_RUN_H
+
+#include "spec/toml_reader.h"
+#include <string>
+
+namespace calendem {
+
+struct RunOptions {
+  std::string folder;
+  std::string liggghts;
+  int ranks = 2;
+  bool resume = false;
+  bool force = false; ///< overwrite a finished run of another case
+};
+
+/// Throws Failure: 2 bad input, 3 the simulation failed, 4 a check did not hold.
+void run_case(Settings settings, const RunOptions &options);
+
+/// The electrode that a case names.
+struct ElectrodeFacts {
+  double thickness = 0.0; ///< um
+  double area = 0.0;      ///< um2
+  double solid = 0.0;     ///< AM envelopes + solid carbon and binder [um3]
+  double cbd_envelope = 0.0;
+  double am = 0.0;
+  double lx = 0.0, ly = 0.0;
+  double lattice = 0.0, primary_diameter = 0.0;
+  long bonds = 0, atoms = 0, bodies = 0;
+};
+
+/// Throws Failure(2) if a file is missing or cut.
+ElectrodeFacts read_electrode(const std::string &folder);
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A calendering case (case.toml): what `calendem run` simulates. One row per key; `variable` is the
+// name that the input scripts know it by.
+#ifndef CALENDEM_SPEC_CASE_H
+#define CALENDEM_SPEC_CASE_H
+
+#include "spec/toml_reader.h"
+
+namespace calendem {
+
+const std::vector<Key> &case_keys();
+
+/// Throws Failure(2) with every mistake of the file. `electrode` is made absolute, relative to the
+/// file.
+Settings read_case(const std::string &file);
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// How the command line tells a user what is wrong: all mistakes of a file at once, each with the
+// value received, what is allowed and what to do.
+#ifndef CALENDEM_SPEC_MESSAGES_H
+#define CALENDEM_SPEC_MESSAGES_H
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace calendem {
+
+enum ExitStatus { kDone = 0, kUsage = 1, kBadInput = 2, kSimulationFailed = 3, kCheckFailed = 4 };
+
+/// Ends the program with a message and an exit status.
+class Failure : public std::runtime_error {
+public:
+  Failure(int exit_status, const std::string &message)
+      : std::runtime_error(message), exit_status_(exit_status) {}
+  int exit_status() const { return exit_status_; }
+
+private:
+  int exit_status_;
+};
+
+/// The mistakes of one file.
+class Mistakes {
+public:
+  explicit Mistakes(std::string file) : file_(std::move(file)) {}
+  /// `line` 0: not bound to a line.
+  void add(int line, const std::string &text);
+  bool empty() const { return list_.empty(); }
+  std::string text() const;
+  /// Throws Failure with exit status 2 if there are any.
+  void stop_if_any() const;
+
+private:
+  std::string file_;
+  std::vector<std::string> list_;
+};
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "spec/provenance.h"
+#include "spec/messages.h"
+#include <cstdint>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+
+namespace calendem {
+namespace fs = std::filesystem;
+
+std::string hash_of_text(const std::string &text) {
+  std::uint64_t h = 0xcbf29ce484222325ULL;
+  for (unsigned char c : text)
+    h = (h ^ c) * 0x100000001b3ULL;
+  return fmt::format("{:016x}", h);
+}
+
+std::string hash_of_file(const std::string &file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in)
+    return "";
+  return hash_of_text({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+}
+
+std::string version() { return CALENDEM_VERSION; }
+
+namespace {
+fs::path program_folder() {
+  std::error_code error;
+  return fs::read_symlink("/proc/self/exe", error).parent_path();
+}
+} // namespace
+
+std::string input_scripts() {
+  const fs::path beside = program_folder() / "../../input_scripts";
+  return fs::exists(beside) ? fs::canonical(beside).string()
+                            : std::string(CALENDEM_SOURCE_DIR) + "/input_scripts";
+}
+
+std::string liggghts_program() { return (program_folder() / "liggghts").string(); }
+
+void write_file(const std::string &name, const std::string &content) {
+  const std::string part = name + ".part";
+  std::ofstream out(part, std::ios::binary);
+  out << content;
+  out.close();
+  std::error_code error;
+  if (out)
+    fs::rename(part, name, error);
+  if (!out || error)
+    throw Failure(kBadInput, fmt::format("cannot write '{}'. Is the disk full or the folder "
+                                         "read-only? What was there before is kept.",
+                                         name));
+}
+
+} // namespace calendem

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Where a result comes from: version, inputs, seeds.
+#ifndef CALENDEM_SPEC_PROVENANCE_H
+#define CALENDEM_SPEC_PROVENANCE_H
+
+#include <string>
+
+namespace calendem {
+
+/// 64-bit FNV-1a of a file's bytes as 16 hex digits; empty if it cannot be read.
+std::string hash_of_file(const std::string &file);
+std::string hash_of_text(const std::string &text);
+
+std::string version();
+
+/// Folder with the input scripts: beside the installed program, else the source tree.
+std::string input_scripts();
+/// The LIGGGHTS program that lies beside this one.
+std::string liggghts_program();
+
+/// Writes via a file `name.part` that is renamed when complete; throws Failure(2) on a full disk.
+void write_file(const std::string &name, const std::string &content);
+
+} // namespace calendem
+
+#endif

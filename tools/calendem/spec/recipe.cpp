@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "spec/recipe.h"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace calendem {
+
+const std::vector<Key> &recipe_keys() {
+  static const std::vector<Key> keys = {
+      {"name", "", "electrode", 0, 0, "", "a name for reports", "", true},
+      {"seed", "", "1", 0, 4e9, "", "of all random numbers"},
+      {"composition.am_weight_percent", "", "96", 50, 100, "%",
+       "active material in the dry coating"},
+      {"composition.carbon_weight_percent", "", "2", 0, 50, "%", "carbon black"},
+      {"composition.binder_weight_percent", "", "2", 0, 50, "%", "binder"},
+      {"density.am_g_cm3", "", "4.65", 0.5, 20, "g/cm3", "true density of the active material"},
+      {"density.cbd_solid_g_cm3", "", "1.83", 0.5, 5, "g/cm3", "dense carbon and binder"},
+      {"coating.loading_mg_cm2", "", "17.46", 0.5, 100, "mg/cm2", "dry coating without foil"},
+      {"coating.porosity_total_percent", "", "47.97", 20, 80, "%", "before calendering"},
+      {"particles.median_um", "", "4.35", 1, 50, "um", "by number, of secondary particles"},
+      {"particles.sigma_ln", "", "0.487", 0.01, 1, "", "of the lognormal size distribution"},
+      {"particles.min_um", "", "1.3", 0.5, 50, "um", "smallest secondary particle"},
+      {"particles.max_um", "", "16.2", 1, 100, "um", "largest secondary particle"},
+      {"particles.max_width_fraction", "", "0.7", 0.1, 0.7, "", "of the shortest periodic side"},
+      {"particles.irregularity", "", "0.1", 0, 0.3, "", "rms of the surface's radius"},
+      {"particles.primary_diameter_um", "", "1.59", 0.1, 10, "um", "sphere of the lattice"},
+      {"particles.lattice_um", "", "1.28", 0.1, 10, "um", "spacing of the cubic lattice"},
+      {"cbd.nanoporosity_percent", "", "50", 0, 80, "%", "pores inside a CBD sphere"},
+      {"cbd.diameter_um", "", "1.316", 0.1, 10, "um", "of a CBD sphere"},
+      {"cell.x_um", "", "15", 5, 1000, "um", "periodic side"},
+      {"cell.y_um", "", "15", 5, 1000, "um", "periodic side"},
+  };
+  return keys;
+}
+
+double Recipe::am_column() const { return 10.0 * loading * am_weight / am_density; }
+double Recipe::cbd_solid_column() const {
+  return 10.0 * loading * (1.0 - am_weight) / cbd_solid_density;
+}
+double Recipe::thickness() const {
+  return (am_column() + cbd_solid_column()) / (1.0 - porosity_total);
+}
+double Recipe::largest_body() const {
+  return std::min(max_diameter, max_width_fraction * std::min(cell_x, cell_y));
+}
+
+Recipe read_recipe(const std::string &file) {
+  Mistakes mistakes(file);
+  const Settings s = read_toml(file, recipe_keys(), mistakes);
+  mistakes.stop_if_any();
+  Recipe r;
+  r.settings = s;
+  const double am = s.number("composition.am_weight_percent");
+  const double sum = am + s.number("composition.carbon_weight_percent") +
+                     s.number("composition.binder_weight_percent");
+  if (std::fabs(sum - 100.0) > 0.01)
+    mistakes.add(0, fmt::format("[composition] adds up to {} %; it must be 100 %.", sum));
+  r.am_weight = am / 100.0;
+  r.am_density = s.number("density.am_g_cm3");
+  r.cbd_solid_density = s.number("density.cbd_solid_g_cm3");
+  r.loading = s.number("coating.loading_mg_cm2");
+  r.porosity_total = s.number("coating.porosity_total_percent") / 100.0;
+  r.median = s.number("particles.median_um");
+  r.sigma_ln = s.number("particles.sigma_ln");
+  r.min_diameter = s.number("particles.min_um");
+  r.max_diameter = s.number("particles.max_um");
+  r.max_width_fraction = s.number("particles.max_width_fraction");
+  r.irregularity = s.number("particles.irregularity");
+  r.primary_diameter = s.number("particles.primary_diameter_um");
+  r.lattice = s.number("particles.lattice_um");
+  r.nanoporosity = s.number("cbd.nanoporosity_percent") / 100.0;
+  r.cbd_diameter = s.number("cbd.diameter_um");
+  r.cell_x = s.number("cell.x_um");
+  r.cell_y = s.number("cell.y_um");
+  r.seed = static_cast<unsigned long>(s.number("seed"));
+  if (r.lattice >= r.primary_diameter || r.primary_diameter >= std::sqrt(2.0) * r.lattice)
+    mistakes.add(
+        0, fmt::format("particles.primary_diameter_um = {} must lie between 1 and 1.414 times "
+                       "lattice_um = {}, so that primaries touch along the lattice's axes only.",
+                       r.primary_diameter, r.lattice));
+  if (r.min_diameter >= r.largest_body())
+    mistakes.add(0,
+                 fmt::format("no particle fits: the smallest is {} um, the largest that this cell "
+                             "allows {} um. Make the cell larger.",
+                             r.min_diameter, r.largest_body()));
+  mistakes.stop_if_any();
+  return r;
+}
+
+} // namespace calendem

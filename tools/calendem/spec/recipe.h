@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The recipe of an electrode (electrode.toml): what `calendem pack` makes.
+#ifndef CALENDEM_SPEC_RECIPE_H
+#define CALENDEM_SPEC_RECIPE_H
+
+#include "spec/toml_reader.h"
+
+namespace calendem {
+
+const std::vector<Key> &recipe_keys();
+
+/// Lengths um, densities g/cm3 (= pg/um3), loading mg/cm2, fractions 0-1.
+struct Recipe {
+  Settings settings;
+  double am_weight, am_density, cbd_solid_density;
+  double loading, porosity_total;
+  double median, sigma_ln, min_diameter, max_diameter, max_width_fraction, irregularity;
+  double primary_diameter, lattice;
+  double nanoporosity, cbd_diameter;
+  double cell_x, cell_y;
+  unsigned long seed;
+
+  double area() const { return cell_x * cell_y; }
+  double am_column() const;        ///< solid AM per area [um]
+  double cbd_solid_column() const; ///< solid carbon + binder per area [um]
+  double thickness() const;        ///< of the coating [um]
+  double largest_body() const;     ///< diameter limit from the cell and the distribution [um]
+};
+
+/// Throws Failure(2) with every mistake of the file.
+Recipe read_recipe(const std::string &file);
+
+} // namespace calendem
+
+#endif
