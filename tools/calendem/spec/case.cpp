@@ -43,7 +43,7 @@ const std::vector<Key> &case_keys() {
       {"platen.thickness_um", "h_target_um", "0", 0, 1000, "um", "with control = thickness"},
       {"platen.displacement_um", "d_target_um", "0", 0, 1000, "um", "with control = displacement"},
       {"platen.speed_m_s", "speed_m_s", "1", 1e-4, 20, "m/s", "under load"},
-      {"platen.touch_speed_m_s", "touch_speed_m_s", "0.5", 1e-4, 20, "m/s",
+      {"platen.touch_speed_m_s", "touch_speed_m_s", "1", 1e-4, 20, "m/s",
        "below touch_pressure_MPa"},
       {"platen.touch_pressure_MPa", "touch_pressure_MPa", "5", 0, 1000, "MPa",
        "ends the slow approach"},
