@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "physics/sjkr_cohesion.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+using calendem::lens_area;
+using calendem::sjkr_force;
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+// Area of the circle in which two spheres meet, without the closed form: bisection for the plane at
+// distance x from centre i in which both sections have the same radius.
+double area_by_bisection(double r, double radius_i, double radius_j) {
+  const auto section2 = [](double R, double x) { return R * R - x * x; };
+  double low = -radius_i, high = radius_i; // section i - section j falls with x
+  for (int n = 0; n < 200; ++n) {
+    const double x = 0.5 * (low + high);
+    (section2(radius_i, x) > section2(radius_j, r - x) ? low : high) = x;
+  }
+  return kPi * section2(radius_i, 0.5 * (low + high));
+}
+
+} // namespace
+
+// Requirement: known values. Unit spheres at distance 1 meet in a circle of radius sqrt(3)/2; a
+// 3-4-5 triangle of radii 3, 4 at distance 5 gives a circle of radius 12/5. 4 ulp: five products.
+TEST(SjkrCohesion, KnownAreas) {
+  EXPECT_DOUBLE_EQ(lens_area(1.0, 1.0, 1.0), 0.75 * kPi);
+  EXPECT_DOUBLE_EQ(lens_area(5.0, 3.0, 4.0), 5.76 * kPi);
+}
+
+// Requirement: the closed form is the circle of intersection, for all ratios of radii and overlaps.
+// 1e-12 of the smaller great circle: bisection to 1 ulp of x, cancellation in R^2 - x^2.
+TEST(SjkrCohesion, AreaAgainstBisection) {
+  for (double ratio : {1.0, 0.7, 0.5, 0.1})
+    for (double share : {1e-3, 0.01, 0.1, 0.5, 0.99}) {
+      const double Ri = 0.795, Rj = ratio * Ri, r = Ri + Rj - share * 2.0 * Rj;
+      EXPECT_NEAR(lens_area(r, Ri, Rj), area_by_bisection(r, Ri, Rj), 1e-12 * kPi * Ri * Ri);
+    }
+}
+
+// Requirement: no attraction without overlap or when one sphere holds the other; both sides of a
+// pair compute the same.
+TEST(SjkrCohesion, EndsAndSymmetry) {
+  EXPECT_EQ(lens_area(2.0, 1.0, 1.0), 0.0);
+  EXPECT_EQ(lens_area(2.5, 1.0, 1.0), 0.0);
+  EXPECT_EQ(lens_area(0.4, 1.0, 0.5), 0.0);
+  EXPECT_EQ(sjkr_force(6e5, 1.3, 0.795, 0.795), 6e5 * lens_area(1.3, 0.795, 0.795));
+  for (double r = 0.55; r < 1.5; r += 0.01) // 4 ulp: the order of two factors differs
+    EXPECT_DOUBLE_EQ(lens_area(r, 1.0, 0.5), lens_area(r, 0.5, 1.0));
+}
