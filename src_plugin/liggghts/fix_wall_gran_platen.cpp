@@ -182,7 +182,8 @@ void FixWallGranPlaten::measure() {
   record_.load = sign_ * all;
   record_.work += 0.5 * record_.load * record_.state.speed * update->dt;
   if (record_.average.add(record_.load / area()))
-    update_slope(record_.state, record_.average.value(), record_.average.block_length * update->dt);
+    update_slope(programme_, record_.state, record_.average.value(),
+                 record_.average.block_length * update->dt);
 }
 
 double FixWallGranPlaten::compute_vector(int n) {

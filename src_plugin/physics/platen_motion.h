@@ -132,14 +132,14 @@ inline void advance(const PlatenProgramme &p, PlatenState &s, double average, do
   }
 }
 
-/// Call once per window: keeps the stiffness of the film that the approach needs.
-inline void update_slope(PlatenState &s, double average, double window) {
-  const double moved = s.speed * window;
-  if (moved > 0.0) {
-    const double slope = (average - s.last_average) / moved;
-    if (slope > 0.0)
-      s.slope = s.slope > 0.0 ? 0.5 * (s.slope + slope) : slope;
-  }
+/// Call whenever the average has moved on by `interval` [us]: keeps the stiffness of the film that
+/// the approach needs. Measured at a good part of the loading speed only; when the platen creeps,
+/// single breaking bonds outweigh its motion.
+inline void update_slope(const PlatenProgramme &p, PlatenState &s, double average,
+                         double interval) {
+  const double slope = (average - s.last_average) / (s.speed * interval);
+  if (s.speed > 0.2 * p.load_speed && slope > 0.0)
+    s.slope = s.slope > 0.0 ? 0.9 * s.slope + 0.1 * slope : slope;
   s.last_average = average;
 }
 

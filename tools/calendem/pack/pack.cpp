@@ -174,8 +174,9 @@ void densify(const PackOptions &o, const Placement &placement, const Recipe &r) 
 
 } // namespace
 
-void pack_electrode(const Recipe &recipe, const PackOptions &o) {
+void pack_electrode(const Recipe &recipe, PackOptions o) {
   std::error_code error;
+  o.folder = fs::absolute(o.folder).lexically_normal().string();
   fs::create_directories(o.folder, error);
   if (error)
     throw Failure(kBadInput,

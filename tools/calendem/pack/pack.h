@@ -16,7 +16,7 @@ struct PackOptions {
 
 /// Throws Failure: 2 bad recipe or folder, 3 the simulation failed, 4 the packing misses its
 /// targets.
-void pack_electrode(const Recipe &recipe, const PackOptions &options);
+void pack_electrode(const Recipe &recipe, PackOptions options);
 
 /// What is checked of a packing; see physics.md, section 5, for the reference overlap.
 struct PackingState {

@@ -22,11 +22,12 @@ volatile sig_atomic_t asked_to_stop = 0;
 void on_signal(int number) { asked_to_stop = number; }
 
 std::vector<std::string> command_line(const LiggghtsJob &job) {
-  std::vector<std::string> words = {"mpirun",    "--oversubscribe",
-                                    "-np",       std::to_string(job.ranks),
-                                    job.program, "-in",
-                                    job.script,  "-log",
-                                    job.log};
+  std::vector<std::string> words = {"mpirun", "-np", std::to_string(job.ranks)};
+  // Only when there are more ranks than cores: it makes idle ranks give their core away at every
+  // step.
+  if (job.ranks > static_cast<int>(std::thread::hardware_concurrency()))
+    words.push_back("--oversubscribe");
+  words.insert(words.end(), {job.program, "-in", job.script, "-log", job.log});
   for (const auto &[name, value] : job.variables) {
     if (!value.empty() && value.front() == '-')
       throw Failure(kBadInput,
@@ -50,6 +51,9 @@ pid_t start(const LiggghtsJob &job) {
   posix_spawn_file_actions_addopen(&actions, 1, job.screen.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
                                    0644);
   posix_spawn_file_actions_adddup2(&actions, 1, 2);
+  // the host writes a forced restart file into its working folder when it is told to stop
+  const std::string folder = std::filesystem::path(job.log).parent_path().string();
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
   if (geteuid() == 0) {
     setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
     setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);

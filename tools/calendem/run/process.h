@@ -14,8 +14,8 @@ struct LiggghtsJob {
   std::string program; ///< path of liggghts
   int ranks = 2;       ///< >= 1
   std::string script;  ///< input script
-  std::string log;     ///< log.liggghts
-  std::string screen;  ///< file that takes what the program prints
+  std::string log;    ///< log.liggghts; its folder is the working folder, so paths must be absolute
+  std::string screen; ///< file that takes what the program prints
   std::vector<std::pair<std::string, std::string>> variables; ///< -var NAME VALUE
 };
 

@@ -1,0 +1,64 @@
+#!/usr/bin/env bash
+# One case of the calendering path on a small cell: calendering_test.sh CASE BIN WORK
+set -euo pipefail
+case=$1 bin=$2 work=$3
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+scripts=$(cd "$here/../../../input_scripts" && pwd)
+fail() { echo "FAILED: $*" >&2; exit 1; }
+number() { sed -n "s/^ *\"$1\": \([-+0-9.e]*\),*$/\1/p" "$2"; } # of a summary
+rows() { sed -n '/^[0-9]/p' "$1"; }
+holds() { awk "BEGIN { exit !($1) }" || fail "$2"; }
+plain() { # SCRIPT DIR: the input scripts without the command line tool, with the run's settings
+  mkdir -p "$2/vtk"
+  mpirun -np 1 "$bin/liggghts" -in "$scripts/$1" -log "$2/log.liggghts" -var scripts "$scripts" \
+    -var electrode "$work/electrode" -var out "$2" -var sigma_c_MPa 200 -var tau_c_MPa 200 \
+    -var p_max_MPa 40 -var speed_m_s 2 -var touch_speed_m_s 2 -var release_speed_m_s 2 \
+    -var restart_every_us 0.5 -var vtk_every_us 2 >"$2/screen.txt" || { tail "$2/screen.txt"; exit 1; }
+}
+
+mkdir -p "$work"
+cp "$here/case.toml" "$work/"
+case $case in
+  pack)
+    rm -rf "$work/electrode"
+    "$bin/calendem" pack "$here/electrode.toml" -o "$work/electrode" --ranks 1
+    "$bin/calendem" pack "$here/electrode.toml" -o "$work/electrode" --ranks 1 | grep -q already ||
+      fail "a second pack of the same recipe should find it done" ;;
+  run)
+    rm -rf "$work/run"
+    "$bin/calendem" run "$work/case.toml" -o "$work/run" --ranks 1
+    p=$(number max_pressure_MPa "$work/run/summary.json")
+    holds "$p >= 40 && $p <= 40.4" "maximum pressure $p MPa is not within 1 % above 40"
+    before=$(number porosity_initial "$work/run/summary.json")
+    after=$(number porosity_after_relaxation "$work/run/summary.json")
+    holds "$after < $before" "porosity $before -> $after did not fall"
+    [ "$(rows "$work/run/breaks.csv" | wc -l)" -gt 0 ] || fail "no bond broke"
+    for f in curve.csv bodies.csv case.toml vtk/particles.pvd vtk/bonds.pvd vtk/platen.pvd; do
+      [ -s "$work/run/$f" ] || fail "$f is missing"
+    done ;;
+  split_scripts) # in.compression then in.relaxation give in.calendering's bytes
+    rm -rf "$work/split"
+    plain in.compression "$work/split"
+    plain in.relaxation "$work/split"
+    cmp <(rows "$work/run/curve_raw.csv") <(rows "$work/split/curve_raw.csv") || fail "curves differ"
+    cmp "$work/run/breaks.csv" "$work/split/breaks.csv" || fail "break logs differ" ;;
+  killed_and_resumed) # kill -9 in mid-run, resume: the uninterrupted run's bytes
+    rm -rf "$work/killed"
+    "$bin/calendem" run "$work/case.toml" -o "$work/killed" --ranks 1 >"$work/killed.log" 2>&1 &
+    for _ in $(seq 400); do
+      [ -s "$work/killed/breaks.csv" ] && [ "$(wc -l <"$work/killed/breaks.csv")" -gt 3 ] && break
+      sleep 0.05
+    done
+    pkill -9 -f "out $work/killed " || fail "the run ended before it could be killed"
+    wait $! && fail "a killed run must not end with exit status 0"
+    "$bin/calendem" run "$work/case.toml" -o "$work/killed" --ranks 1 --resume
+    cmp "$work/run/breaks.csv" "$work/killed/breaks.csv" || fail "break logs differ after --resume"
+    cmp "$work/run/curve.csv" "$work/killed/curve.csv" || fail "curves differ after --resume" ;;
+  two_ranks) # same bonds, same first break; later the order of sums parts the trajectories
+    rm -rf "$work/ranks"
+    "$bin/calendem" run "$work/case.toml" -o "$work/ranks" --ranks 2
+    [ "$(number bonds_initial "$work/run/summary.json")" = "$(number bonds_initial "$work/ranks/summary.json")" ] ||
+      fail "1 and 2 ranks made different numbers of bonds"
+    cmp <(rows "$work/run/breaks.csv" | head -n 1 | cut -d, -f2-5) \
+      <(rows "$work/ranks/breaks.csv" | head -n 1 | cut -d, -f2-5) || fail "first breaks differ" ;;
+esac
