@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pack/body.h"
+#include "pack/sizes.h"
 #include <algorithm>
-#include <map>
-#include <numeric>
+#include <fmt/format.h>
+#include <set>
 
 namespace calendem {
 namespace {
@@ -19,106 +20,90 @@ double legendre(int degree, double x) {
   return degree == 0 ? 1.0 : p;
 }
 
-double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
+using Site = std::array<int, 3>;
 
-// Quantile of the lognormal law truncated to [low, high], by bisection.
-double truncated_quantile(double q, double mu, double sigma, double low, double high) {
-  const double a = normal_cdf((std::log(low) - mu) / sigma);
-  const double b = normal_cdf((std::log(high) - mu) / sigma);
-  const double wanted = a + q * (b - a);
-  double lo = std::log(low), hi = std::log(high);
-  for (int i = 0; i < 80; ++i) {
-    const double mid = 0.5 * (lo + hi);
-    (normal_cdf((mid - mu) / sigma) < wanted ? lo : hi) = mid;
-  }
-  return std::exp(0.5 * (lo + hi));
-}
-
-// Share of a truncated law's volume above `limit`: the third moment of a lognormal shifts mu by 3
-// s^2.
-double volume_above(double limit, double mu, double sigma, double low, double high) {
-  const double m = mu + 3.0 * sigma * sigma;
-  const auto F = [&](double d) { return normal_cdf((std::log(d) - m) / sigma); };
-  return limit >= high ? 0.0 : (F(high) - F(limit)) / (F(high) - F(low));
-}
-
-double sphere_volume(double d) { return kPi / 6.0 * d * d * d; }
-
-// Lattice points of the smallest scaled radii; grown from the innermost so that the body is
-// connected.
-std::vector<Eigen::Vector3d> fill(const Shape &shape, const Eigen::Quaterniond &turn,
-                                  const Eigen::Vector3d &offset, double s, int count, double R0) {
-  struct Site {
-    double measure;
-    Eigen::Vector3i index;
-  };
-  const int n = static_cast<int>(std::ceil(1.8 * R0 / s)) + 2;
-  std::vector<Site> sites;
+// Lattice sites in the order of their radius over the shape's, innermost first; none beyond
+// `farthest` from the centre.
+std::vector<Site> sites_by_depth(const Shape &shape, const Lattice &lattice, int count,
+                                 double farthest) {
+  const double R0 = std::cbrt(0.75 / kPi * count) * lattice.spacing;
+  const int n = static_cast<int>(std::ceil(1.8 * R0 / lattice.spacing)) + 2;
+  std::vector<std::pair<double, Site>> sites;
   for (int i = -n; i <= n; ++i)
     for (int j = -n; j <= n; ++j)
       for (int k = -n; k <= n; ++k) {
-        const Eigen::Vector3d p = turn * (s * (Eigen::Vector3d(i, j, k) + offset));
+        const Eigen::Vector3d p = lattice.point({i, j, k});
         const double r = p.norm();
-        const Eigen::Vector3d u = r > 0.0 ? Eigen::Vector3d(p / r) : Eigen::Vector3d(1.0, 0.0, 0.0);
-        sites.push_back({r / shape.radius(u), Eigen::Vector3i(i, j, k)});
+        if (r <= farthest)
+          sites.push_back({r > 0.0 ? r / shape.radius(p / r) : 0.0, {i, j, k}});
       }
-  std::sort(sites.begin(), sites.end(),
-            [](const Site &a, const Site &b) { return a.measure < b.measure; });
-  const auto key = [](const Eigen::Vector3i &v) { return std::array<int, 3>{v.x(), v.y(), v.z()}; };
-  std::map<std::array<int, 3>, bool> in;
-  std::vector<Eigen::Vector3d> points;
-  std::vector<bool> used(sites.size(), false);
-  while (static_cast<int>(points.size()) < count) {
-    bool grew = false;
-    for (size_t q = 0; q < sites.size() && static_cast<int>(points.size()) < count; ++q) {
-      if (used[q])
-        continue;
-      bool touches = points.empty();
-      for (int axis = 0; axis < 3 && !touches; ++axis)
-        for (int side : {-1, 1}) {
-          Eigen::Vector3i v = sites[q].index;
-          v[axis] += side;
-          touches = touches || in.count(key(v));
-        }
-      if (!touches)
-        continue;
-      used[q] = grew = true;
-      in[key(sites[q].index)] = true;
-      points.push_back(turn * (s * (sites[q].index.cast<double>() + offset)));
-      break; // always the innermost site that touches the body
+  std::sort(sites.begin(), sites.end());
+  std::vector<Site> out;
+  for (const auto &[depth, site] : sites)
+    out.push_back(site);
+  return out;
+}
+
+bool touches(const Site &site, const std::set<Site> &body) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (int side : {-1, 1}) {
+      Site next = site;
+      next[axis] += side;
+      if (body.count(next))
+        return true;
     }
-    if (!grew)
+  return false;
+}
+
+// `count` sites, each time the innermost that touches the body, so that it is 6-connected; fewer if
+// there are no more.
+std::vector<Eigen::Vector3d> fill(const Shape &shape, const Lattice &lattice, int count,
+                                  double farthest) {
+  const std::vector<Site> sites = sites_by_depth(shape, lattice, count, farthest);
+  std::set<Site> body;
+  std::vector<Eigen::Vector3d> points;
+  while (static_cast<int>(points.size()) < count) {
+    const auto next = std::find_if(sites.begin(), sites.end(), [&](const Site &s) {
+      return !body.count(s) && (body.empty() || touches(s, body));
+    });
+    if (next == sites.end())
       break;
+    body.insert(*next);
+    points.push_back(lattice.point(*next));
   }
   return points;
 }
 
-std::vector<int> primary_counts(const std::vector<double> &diameters, double s, int total) {
-  std::vector<double> ideal;
-  for (double d : diameters)
-    ideal.push_back(sphere_volume(d) / (s * s * s));
-  const double scale = total / std::accumulate(ideal.begin(), ideal.end(), 0.0);
-  std::vector<int> counts;
-  double carried = 0.0; // rounding is carried on, so the sum is exact
-  for (double v : ideal) {
-    const double wanted = v * scale + carried;
-    const int n = std::max(1, static_cast<int>(std::lround(wanted)));
-    carried = wanted - n;
-    counts.push_back(n);
-  }
-  counts.front() += total - std::accumulate(counts.begin(), counts.end(), 0);
-  return counts;
+// Largest distance between two points of the spheres' surfaces.
+double width_of(const std::vector<Eigen::Vector3d> &centres, double diameter) {
+  double most = 0.0;
+  for (const Eigen::Vector3d &a : centres)
+    for (const Eigen::Vector3d &b : centres)
+      most = std::max(most, (a - b).squaredNorm());
+  return std::sqrt(most) + diameter;
+}
+
+void centre_on_mass(Body &b) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d &p : b.primaries)
+    mean += p / static_cast<double>(b.primaries.size());
+  for (Eigen::Vector3d &p : b.primaries)
+    p -= mean;
 }
 
 } // namespace
 
 Shape::Shape(Random &random, double irregularity) {
-  for (int degree = 2; degree <= 5; ++degree)
-    for (int copy = 0; copy < 3; ++copy) {
-      // P_l has variance 1/(2l+1) over the sphere; degree l is given the share 1/l of the roughness
-      const double share = irregularity / std::sqrt(3.0 * 4.0) * 2.0 / degree;
-      terms_.push_back(
-          {random.direction(), degree, share * std::sqrt(2.0 * degree + 1.0) * random.normal()});
+  constexpr int kCopies = 3, kHighest = 5;
+  double variance = 0.0;
+  for (int degree = 2; degree <= kHighest; ++degree)
+    variance += 1.0 / (degree * degree);
+  for (int degree = 2; degree <= kHighest; ++degree)
+    for (int copy = 0; copy < kCopies; ++copy) {
+      // P_l has the variance 1/(2l+1) over the sphere; degree l takes part in proportion to 1/l
+      const double rms = irregularity / (degree * std::sqrt(variance * kCopies));
+      const Eigen::Vector3d axis = random.direction();
+      terms_.push_back({axis, degree, rms * std::sqrt(2.0 * degree + 1.0) * random.normal()});
     }
 }
 
@@ -151,66 +136,45 @@ double Shape::sphericity() const {
   return std::cbrt(kPi) * std::pow(6.0 * volume, 2.0 / 3.0) / area;
 }
 
-std::vector<double> draw_diameters(const Recipe &recipe, double volume, Random &random,
-                                   BodyReport &report) {
-  const double mu = std::log(recipe.median), high = recipe.largest_body();
-  report.volume_cut_off_fraction =
-      volume_above(high, mu, recipe.sigma_ln, recipe.min_diameter, recipe.max_diameter);
-  std::vector<double> best;
-  double best_error = HUGE_VAL;
-  const double jitter = random.uniform();
-  const double mean = [&] {
-    double sum = 0.0;
-    for (int k = 0; k < 2000; ++k)
-      sum += sphere_volume(
-          truncated_quantile((k + 0.5) / 2000, mu, recipe.sigma_ln, recipe.min_diameter, high));
-    return sum / 2000;
-  }();
-  const int guess = std::max(2, static_cast<int>(std::lround(volume / mean)));
-  for (int n = std::max(2, guess * 9 / 10); n <= guess * 11 / 10 + 1; ++n) {
-    std::vector<double> d;
-    double sum = 0.0;
-    for (int k = 0; k < n; ++k) {
-      d.push_back(
-          truncated_quantile((k + jitter) / n, mu, recipe.sigma_ln, recipe.min_diameter, high));
-      sum += sphere_volume(d.back());
-    }
-    if (std::fabs(sum - volume) < best_error) {
-      best_error = std::fabs(sum - volume);
-      best = d;
-    }
+Body make_body(const Recipe &recipe, int count, Random &random) {
+  constexpr int kTries = 100;
+  const double widest = recipe.max_width_fraction * std::min(recipe.cell_x, recipe.cell_y);
+  Body b;
+  for (int tries = 0; tries <= kTries; ++tries) {
+    // the last try cuts the shape off where the limit of the width is
+    const double farthest = tries < kTries ? HUGE_VAL : 0.5 * (widest - recipe.primary_diameter);
+    const Shape shape(random, recipe.irregularity);
+    const Lattice lattice{random.rotation(), random.uniform3() - Eigen::Vector3d::Constant(0.5),
+                          recipe.lattice};
+    b.primaries = fill(shape, lattice, count, farthest);
+    b.lattice = lattice.turn;
+    b.sphericity = count == 1 ? 1.0 : shape.sphericity();
+    b.width = width_of(b.primaries, recipe.primary_diameter);
+    b.redrawn = tries;
+    if (static_cast<int>(b.primaries.size()) == count && b.width <= widest)
+      break;
   }
-  std::sort(best.rbegin(), best.rend());
-  report.below_3_um =
-      static_cast<int>(std::count_if(best.begin(), best.end(), [](double d) { return d < 3.0; }));
-  return best;
+  if (static_cast<int>(b.primaries.size()) != count)
+    throw Failure(kBadInput,
+                  fmt::format("a secondary particle of {} primaries cannot be kept below "
+                              "a width of {:.2f} um. Make the cell larger or lower "
+                              "particles.irregularity",
+                              count, widest));
+  centre_on_mass(b);
+  for (const Eigen::Vector3d &p : b.primaries)
+    b.reach = std::max(b.reach, p.norm() + 0.5 * recipe.primary_diameter);
+  b.volume = count * std::pow(recipe.lattice, 3);
+  return b;
 }
 
-std::vector<Body> make_bodies(const Recipe &recipe, BodyReport &report) {
-  const double s = recipe.lattice, volume = recipe.area() * recipe.am_column();
+std::vector<Body> make_bodies(const Recipe &recipe) {
+  const double volume = recipe.area() * recipe.am_column();
   Random sizes(recipe.seed, 1), shapes(recipe.seed, 2);
-  const std::vector<double> diameters = draw_diameters(recipe, volume, sizes, report);
-  const int total = static_cast<int>(std::lround(volume / (s * s * s)));
-  const std::vector<int> counts = primary_counts(diameters, s, total);
+  const std::vector<double> diameters = draw_diameters(recipe, volume, sizes);
+  const int total = static_cast<int>(std::lround(volume / std::pow(recipe.lattice, 3)));
   std::vector<Body> bodies;
-  for (int n : counts) {
-    const Shape shape(shapes, recipe.irregularity);
-    Body b;
-    b.lattice = shapes.rotation();
-    const Eigen::Vector3d offset(shapes.uniform() - 0.5, shapes.uniform() - 0.5,
-                                 shapes.uniform() - 0.5);
-    b.primaries = fill(shape, b.lattice, offset, s, n, std::cbrt(0.75 / kPi * n) * s);
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    for (const Eigen::Vector3d &p : b.primaries)
-      mean += p / b.primaries.size();
-    for (Eigen::Vector3d &p : b.primaries) {
-      p -= mean;
-      b.reach = std::max(b.reach, p.norm() + 0.5 * recipe.primary_diameter);
-    }
-    b.volume = n * s * s * s;
-    b.sphericity = n == 1 ? 1.0 : shape.sphericity();
-    bodies.push_back(b);
-  }
+  for (int count : primary_counts(diameters, recipe.lattice, total))
+    bodies.push_back(make_body(recipe, count, shapes));
   return bodies;
 }
 

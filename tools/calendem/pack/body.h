@@ -6,6 +6,7 @@
 
 #include "pack/random.h"
 #include "spec/recipe.h"
+#include <array>
 #include <vector>
 
 namespace calendem {
@@ -29,27 +30,33 @@ private:
   std::vector<Term> terms_;
 };
 
+/// Simple cubic lattice with a random turn and offset.
+struct Lattice {
+  Eigen::Quaterniond turn;
+  Eigen::Vector3d offset; ///< in spacings
+  double spacing;         ///< [um]
+  Eigen::Vector3d point(const std::array<int, 3> &site) const {
+    return turn * (spacing * (Eigen::Vector3d(site[0], site[1], site[2]) + offset));
+  }
+};
+
 struct Body {
   std::vector<Eigen::Vector3d> primaries; ///< about the centre of mass [um]
   Eigen::Quaterniond lattice;             ///< orientation of the cubic lattice
   double volume = 0.0;                    ///< of the envelope, N s^3 [um^3]
-  double sphericity = 1.0;
-  double reach = 0.0; ///< farthest surface of a primary from the centre [um]
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double sphericity = 1.0;                ///< of the smooth shape; 1 for a single primary
+  double width = 0.0;                     ///< largest distance on its primaries' surfaces [um]
+  double reach = 0.0;                     ///< farthest surface of a primary from the centre [um]
+  int redrawn = 0;                        ///< shapes drawn before because they were too wide
 };
 
-struct BodyReport {
-  double volume_cut_off_fraction = 0.0; ///< of the distribution's volume, above the size limit
-  int below_3_um = 0;                   ///< bodies drawn below 3 um, made of 1-7 primaries
-};
+/// One body of exactly `count` primaries, not wider than the recipe's limit: shapes that are wider
+/// are drawn again, the hundredth is cut off. Throws Failure(2) where even that has no room.
+Body make_body(const Recipe &recipe, int count, Random &random);
 
-/// Diameters [um], largest first: stratified quantiles of the truncated law, as many as fill
-/// `volume`.
-std::vector<double> draw_diameters(const Recipe &recipe, double volume, Random &random,
-                                   BodyReport &report);
-
-/// Bodies whose primaries add up to round(A * am_column / s^3), largest first.
-std::vector<Body> make_bodies(const Recipe &recipe, BodyReport &report);
+/// Bodies whose primaries add up to round(A * am_column / s^3), largest first. Bodies below about
+/// 3 um are made of few primaries (1-7), those below 1 s^3 of one.
+std::vector<Body> make_bodies(const Recipe &recipe);
 
 } // namespace calendem
 

@@ -2,14 +2,19 @@
 #include "pack/electrode_files.h"
 #include <fmt/format.h>
 #include <fstream>
-#include <map>
 #include <sstream>
 
 namespace calendem {
 namespace {
 
-// Length of a periodic side as it comes nearest: -L/2 ... L/2.
-double nearest(double d, double side) { return d - side * std::round(d / side); }
+// A VTK data array of one value per particle.
+template <class Value>
+std::string array(const char *attributes, const std::vector<Particle> &particles, Value value) {
+  std::string out = fmt::format("<DataArray {} format=\"ascii\">\n", attributes);
+  for (const Particle &p : particles)
+    out += value(p) + "\n";
+  return out + "</DataArray>\n";
+}
 
 } // namespace
 
@@ -43,27 +48,46 @@ std::string script_variables(const Recipe &r, double thickness) {
       thickness, r.area(), solid, r.primary_diameter, r.lattice, r.cbd_diameter);
 }
 
-std::string bodies_table(const std::vector<Body> &bodies, const std::vector<Particle> &particles,
-                         const Recipe &recipe) {
-  std::map<int, int> bonds;
-  for (const auto &[i, j] : bonds_by_distance(particles, recipe.cell_x, recipe.cell_y))
-    ++bonds[particles[i].body];
-  std::map<int, double> depth;
-  for (const Particle &p : particles)
-    if (p.body > 0)
-      depth[p.body] += p.x.z() / bodies[p.body - 1].primaries.size();
-  std::string out =
-      "body,primaries,bonds,volume_um3,equivalent_diameter_um,sphericity,z_um,quat_w,quat_x,"
-      "quat_y,quat_z\n";
+std::string bodies_table(const std::vector<Body> &bodies, const std::vector<Pose> &poses,
+                         const PackingState &state) {
+  std::string out = "body,primaries,bonds,volume_um3,equivalent_diameter_um,width_um,sphericity,"
+                    "x_um,y_um,z_um,quat_w,quat_x,quat_y,quat_z\n";
   for (size_t k = 0; k < bodies.size(); ++k) {
     const Body &b = bodies[k];
-    const int n = static_cast<int>(k) + 1;
-    out += fmt::format("{},{},{},{:.6g},{:.6g},{:.4f},{:.4f},{:.6f},{:.6f},{:.6f},{:.6f}\n", n,
-                       b.primaries.size(), bonds[n], b.volume,
-                       std::cbrt(6.0 / 3.14159265358979 * b.volume), b.sphericity, depth[n],
-                       b.lattice.w(), b.lattice.x(), b.lattice.y(), b.lattice.z());
+    const Eigen::Vector3d &c = poses[k].centre;
+    const Eigen::Quaterniond &q = poses[k].turn;
+    out += fmt::format("{},{},{},{:.6g},{:.6g},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.6f},{:.6f},"
+                       "{:.6f},{:.6f}\n",
+                       k + 1, b.primaries.size(), state.body_bonds[k], b.volume,
+                       std::cbrt(6.0 / 3.14159265358979323846 * b.volume), b.width, b.sphericity,
+                       c.x(), c.y(), c.z(), q.w(), q.x(), q.y(), q.z());
   }
   return out;
+}
+
+std::string picture_file(const std::vector<Particle> &particles) {
+  std::string out = fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" "
+                                "version=\"0.1\">\n<PolyData>\n<Piece NumberOfPoints=\"{0}\" "
+                                "NumberOfVerts=\"{0}\">\n<Points>\n",
+                                particles.size());
+  out += array("type=\"Float64\" NumberOfComponents=\"3\"", particles, [](const Particle &p) {
+    return fmt::format("{:.9g} {:.9g} {:.9g}", p.x.x(), p.x.y(), p.x.z());
+  });
+  out += "</Points>\n<Verts>\n";
+  out += array("type=\"Int32\" Name=\"connectivity\"", particles,
+               [](const Particle &p) { return fmt::format("{}", p.tag - 1); });
+  out += array("type=\"Int32\" Name=\"offsets\"", particles,
+               [](const Particle &p) { return fmt::format("{}", p.tag); });
+  out += "</Verts>\n<PointData>\n";
+  out += array("type=\"Int32\" Name=\"id\"", particles,
+               [](const Particle &p) { return fmt::format("{}", p.tag); });
+  out += array("type=\"Int32\" Name=\"type\"", particles,
+               [](const Particle &p) { return fmt::format("{}", p.type); });
+  out += array("type=\"Int32\" Name=\"body\"", particles,
+               [](const Particle &p) { return fmt::format("{}", p.body); });
+  out += array("type=\"Float64\" Name=\"radius\"", particles,
+               [](const Particle &p) { return fmt::format("{:.6g}", 0.5 * p.diameter); });
+  return out + "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
 }
 
 void read_positions(const std::string &dump, std::vector<Particle> &particles) {
@@ -87,25 +111,6 @@ void read_positions(const std::string &dump, std::vector<Particle> &particles) {
         kSimulationFailed,
         fmt::format("'{}' holds {} of {} particles: the packing lost some, or the file is cut",
                     dump, found, particles.size()));
-}
-
-std::vector<std::pair<int, int>> bonds_by_distance(const std::vector<Particle> &particles,
-                                                   double lx, double ly) {
-  std::map<int, std::vector<int>> members;
-  for (size_t i = 0; i < particles.size(); ++i)
-    if (particles[i].body > 0)
-      members[particles[i].body].push_back(static_cast<int>(i));
-  std::vector<std::pair<int, int>> bonds;
-  for (const auto &[body, list] : members)
-    for (size_t a = 0; a < list.size(); ++a)
-      for (size_t b = a + 1; b < list.size(); ++b) {
-        const Particle &p = particles[list[a]], &q = particles[list[b]];
-        const Eigen::Vector3d d(nearest(p.x.x() - q.x.x(), lx), nearest(p.x.y() - q.x.y(), ly),
-                                p.x.z() - q.x.z());
-        if (d.norm() < 0.5 * (p.diameter + q.diameter))
-          bonds.emplace_back(list[a], list[b]);
-      }
-  return bonds;
 }
 
 } // namespace calendem

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The files of an electrode: electrode.data, bodies.map, electrode.in (for scripts), bodies.csv.
+// The files of an electrode: electrode.data, bodies.map, electrode.in (for scripts), bodies.csv and
+// a picture for ParaView.
 #ifndef CALENDEM_PACK_ELECTRODE_FILES_H
 #define CALENDEM_PACK_ELECTRODE_FILES_H
 
-#include "pack/placement.h"
+#include "pack/packing_state.h"
+#include "pack/pose.h"
 #include <string>
 
 namespace calendem {
@@ -13,15 +15,14 @@ std::string data_file(const Recipe &recipe, const std::vector<Particle> &particl
 std::string body_map(const std::vector<Particle> &particles);
 /// Variables that the input scripts include.
 std::string script_variables(const Recipe &recipe, double thickness);
-std::string bodies_table(const std::vector<Body> &bodies, const std::vector<Particle> &particles,
-                         const Recipe &recipe);
+/// One row per body; centre and orientation as they are after the packing.
+std::string bodies_table(const std::vector<Body> &bodies, const std::vector<Pose> &poses,
+                         const PackingState &state);
+/// VTK polydata (text): points with id, type, body, radius.
+std::string picture_file(const std::vector<Particle> &particles);
 
 /// Takes positions from a LIGGGHTS dump with columns id x y z; throws Failure(3) if any is missing.
 void read_positions(const std::string &dump, std::vector<Particle> &particles);
-
-/// Bonds of the lattice: pairs of one body closer than the sum of radii, periodic in x and y.
-std::vector<std::pair<int, int>> bonds_by_distance(const std::vector<Particle> &particles,
-                                                   double lx, double ly);
 
 } // namespace calendem
 

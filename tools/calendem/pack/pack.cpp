@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pack/pack.h"
+#include "pack/description.h"
 #include "pack/electrode_files.h"
-#include "physics/hertz_contact.h"
-#include "physics/sjkr_cohesion.h"
 #include "run/process.h"
 #include "spec/provenance.h"
 #include <chrono>
@@ -18,53 +17,6 @@ namespace calendem {
 namespace fs = std::filesystem;
 namespace {
 
-// Final stiffness and cohesion of in.pack; 5 % of sigma_c A_b at the default strength of 500 MPa.
-constexpr double kEam = 2e8, kNuAm = 0.3, kCedAm = 6e5;
-constexpr double kForceLimit = 0.05 * 5e5 * 1.98557;
-constexpr double kPressureLimit_MPa = 0.1;
-
-PackingState examine(const std::vector<Particle> &p, const Recipe &r) {
-  PackingState s;
-  int pairs = 0;
-  const double E = effective_modulus(kEam, kNuAm, kEam, kNuAm);
-  for (size_t i = 0; i < p.size(); ++i) {
-    s.highest_particle_um = std::max(s.highest_particle_um, p[i].x.z() + 0.5 * p[i].diameter);
-    for (size_t j = i + 1; j < p.size(); ++j) {
-      if (p[i].type != p[j].type)
-        continue;
-      Eigen::Vector3d d = p[i].x - p[j].x;
-      const double sum = 0.5 * (p[i].diameter + p[j].diameter);
-      if (std::fabs(d.z()) > sum)
-        continue;
-      d.x() -= r.cell_x * std::round(d.x() / r.cell_x);
-      d.y() -= r.cell_y * std::round(d.y() / r.cell_y);
-      const double distance = d.norm();
-      if (distance >= sum)
-        continue;
-      if (p[i].type == 2) {
-        const double overlap = (sum - distance) / p[i].diameter;
-        s.cbd_overlap_mean += overlap;
-        s.cbd_overlap_max = std::max(s.cbd_overlap_max, overlap);
-        ++pairs;
-      } else if (p[i].body == p[j].body) {
-        s.largest_bond_strain =
-            std::max(s.largest_bond_strain, std::fabs(distance / r.lattice - 1.0));
-      } else {
-        const double R = 0.5 * p[i].diameter;
-        const double force =
-            hertz_force(E, 0.5 * R, sum - distance) - sjkr_force(kCedAm, distance, R, R);
-        s.largest_body_force_nN = std::max(s.largest_body_force_nN, std::fabs(force));
-      }
-    }
-  }
-  s.cbd_overlap_mean /= std::max(pairs, 1);
-  return s;
-}
-
-struct LastRow {
-  double gap = 0.0, pressure = 0.0, kinetic = 0.0;
-};
-
 LastRow last_row(const std::string &file) {
   std::ifstream in(file);
   std::string line, last;
@@ -74,154 +26,121 @@ LastRow last_row(const std::string &file) {
   LastRow row;
   double step = 0;
   char comma = 0;
-  std::istringstream(last) >> step >> comma >> row.gap >> comma >> row.pressure >> comma >>
-      row.kinetic;
+  std::istringstream(last) >> step >> comma >> row.gap_um >> comma >> row.pressure_MPa >> comma >>
+      row.kinetic_fJ;
   return row;
 }
 
-nlohmann::json describe(const Recipe &r, const std::vector<Body> &bodies, const BodyReport &report,
-                        const std::vector<Particle> &particles, const PackingState &s,
-                        const LastRow &end) {
-  double am_mass = 0.0, cbd_mass = 0.0, sphericity = 0.0;
-  for (const Particle &p : particles)
-    (p.type == 1 ? am_mass : cbd_mass) +=
-        p.density * 3.14159265358979 / 6.0 * std::pow(p.diameter, 3);
-  for (const Body &b : bodies)
-    sphericity += b.sphericity / bodies.size();
-  const double h = r.thickness(), volume = r.area() * h;
-  const double am = am_mass / r.am_density, cbd_solid = cbd_mass / r.cbd_solid_density;
-  const double cbd_envelope = cbd_solid / (1.0 - r.nanoporosity);
-  const double total = 1.0 - (am + cbd_solid) / volume;
-  const double macro = 1.0 - (am + cbd_envelope) / volume;
-  nlohmann::json j;
-  j["name"] = r.settings.text("name");
-  j["cell_um"] = {r.cell_x, r.cell_y};
-  j["thickness_um"] = h;
-  j["loading_mg_cm2"] = (am_mass + cbd_mass) / r.area() / 10.0;
-  j["porosity_total"] = total;
-  j["porosity_macro"] = macro;
-  j["porosity_nano"] = total - macro;
-  j["bodies"] = bodies.size();
-  j["bodies_below_3_um"] = report.below_3_um;
-  j["volume_fraction_cut_off_by_size_limit"] = report.volume_cut_off_fraction;
-  j["sphericity_mean"] = sphericity;
-  j["primaries"] = std::count_if(particles.begin(), particles.end(),
-                                 [](const Particle &p) { return p.type == 1; });
-  j["cbd"] = std::count_if(particles.begin(), particles.end(),
-                           [](const Particle &p) { return p.type == 2; });
-  j["bonds"] = bonds_by_distance(particles, r.cell_x, r.cell_y).size();
-  j["largest_body_force_nN"] = s.largest_body_force_nN;
-  j["largest_body_force_limit_nN"] = kForceLimit;
-  j["largest_bond_strain"] = s.largest_bond_strain;
-  j["cbd_overlap_mean"] = s.cbd_overlap_mean;
-  j["cbd_overlap_max"] = s.cbd_overlap_max;
-  j["highest_particle_um"] = s.highest_particle_um;
-  j["platen_pressure_MPa"] = end.pressure;
-  j["kinetic_energy_fJ"] = end.kinetic;
-  j["recipe"] = r.settings.all();
-  j["provenance"] = {{"calendem", version()}, {"seed", r.seed}};
-  return j;
+void show_progress(const PackOptions &o, const Recipe &r, std::string &shown) {
+  const LastRow row = last_row(o.folder + "/packing.csv");
+  const std::string text =
+      fmt::format("packing: gap {:.1f} um of {:.1f}, platen {:.3f} MPa, kinetic {:.3g} fJ",
+                  row.gap_um, r.thickness(), row.pressure_MPa, row.kinetic_fJ);
+  if (row.gap_um > 0.0 && text != shown)
+    std::cout << "\r\033[K" << text << std::flush;
+  shown = text;
 }
 
-void check(const nlohmann::json &j, const Recipe &r, const std::string &folder) {
-  Mistakes missed(folder);
-  const double loading = j["loading_mg_cm2"], porosity = j["porosity_total"];
-  if (std::fabs(loading / r.loading - 1.0) > 0.01)
-    missed.add(0, fmt::format("loading {:.3f} mg/cm2 is more than 1 % off {}", loading, r.loading));
-  if (std::fabs(porosity - r.porosity_total) > 0.005)
-    missed.add(0, fmt::format("total porosity {:.4f} is more than half a point off {}", porosity,
-                              r.porosity_total));
-  const double force = j["largest_body_force_nN"], pressure = j["platen_pressure_MPa"];
-  if (force > kForceLimit)
-    missed.add(
-        0,
-        fmt::format("a force of {:.0f} nN between bodies exceeds {:.0f} nN (5 % of a 500 MPa bond)",
-                    force, kForceLimit));
-  if (pressure > kPressureLimit_MPa)
-    missed.add(
-        0,
-        fmt::format("the platen still carries {:.3f} MPa; the limit is {} MPa. Lower the porosity "
-                    "target's demand or take another seed",
-                    pressure, kPressureLimit_MPa));
-  if (!missed.empty())
-    throw Failure(kCheckFailed, "the packing misses its targets; the files are kept for a look\n" +
-                                    missed.text());
-}
-
-void densify(const PackOptions &o, const Placement &placement, const Recipe &r) {
+void densify(const PackOptions &o, const Recipe &r) {
+  const FinalMaterial m;
   LiggghtsJob job;
   job.program = o.liggghts;
   job.ranks = o.ranks;
   job.script = input_scripts() + "/in.pack";
   job.log = o.folder + "/packing.log";
   job.screen = o.folder + "/packing.screen";
-  job.variables = {{"out", o.folder}, {"scripts", input_scripts()}};
+  job.variables = {{"out", o.folder},
+                   {"scripts", input_scripts()},
+                   {"E_am_GPa", fmt::format("{}", m.E_am_GPa)},
+                   {"E_cbd_GPa", fmt::format("{}", m.E_cbd_GPa)},
+                   {"ced_am_J_m3", fmt::format("{}", m.ced_am_J_m3)},
+                   {"ced_cbd_J_m3", fmt::format("{}", m.ced_cbd_J_m3)}};
   const bool terminal = isatty(1);
   std::string shown;
   run_liggghts(job, [&] {
-    const LastRow row = last_row(o.folder + "/packing.csv");
-    const std::string text =
-        fmt::format("packing: gap {:.1f} um of {:.1f}, platen {:.3f} MPa, kinetic {:.3g} fJ",
-                    row.gap, r.thickness(), row.pressure, row.kinetic);
-    if (row.gap > 0.0 && text != shown && terminal)
-      std::cout << "\r\033[K" << text << std::flush;
-    shown = text;
+    if (terminal)
+      show_progress(o, r, shown);
   });
   if (terminal)
     std::cout << "\r\033[K";
-  (void)placement;
+}
+
+// Everything the result depends on.
+std::string identity_of(const Recipe &recipe) {
+  std::string text = version() + hash_of_file(input_scripts() + "/in.pack");
+  for (const auto &[key, value] : recipe.settings.all())
+    text += key + "=" + value + "\n";
+  return hash_of_text(text);
+}
+
+bool holds_already(const std::string &summary, const std::string &identity) {
+  std::ifstream in(summary);
+  const nlohmann::json old = nlohmann::json::parse(in, nullptr, false);
+  return old.is_object() && old.value("identity", "") == identity;
+}
+
+void make_folder(const std::string &folder) {
+  std::error_code error;
+  fs::create_directories(folder + "/vtk", error);
+  if (error)
+    throw Failure(kBadInput, fmt::format("cannot make the folder '{}': {}. Give a folder that can "
+                                         "be written with -o",
+                                         folder, error.message()));
+}
+
+// Bodies and CBD, placed loosely, written for in.pack.
+Placement start(const Recipe &recipe, const std::vector<Body> &bodies, const std::string &folder) {
+  Placement loose = place(recipe, bodies);
+  fmt::print("pack: {} bodies, {} particles, densifying from {:.0f} to {:.1f} um\n", bodies.size(),
+             loose.particles.size(), loose.height, recipe.thickness());
+  std::cout << std::flush;
+  write_file(folder + "/start.data", data_file(recipe, loose.particles, loose.height));
+  write_file(folder + "/bodies.map", body_map(loose.particles));
+  write_file(folder + "/electrode.in", script_variables(recipe, recipe.thickness()));
+  return loose;
+}
+
+nlohmann::json finish(const Recipe &recipe, const std::vector<Body> &bodies,
+                      std::vector<Particle> &particles, const std::string &folder) {
+  read_positions(folder + "/packed.dump", particles);
+  const PackingState state = examine(recipe, bodies, particles);
+  const std::vector<Pose> poses = find_poses(recipe, bodies, particles);
+  const double height = std::max(recipe.thickness(), state.highest_um) + 1.0;
+  write_file(folder + "/electrode.data", data_file(recipe, particles, height));
+  write_file(folder + "/bodies.csv", bodies_table(bodies, poses, state));
+  write_file(folder + "/vtk/electrode.vtp", picture_file(particles));
+  return describe({recipe, bodies, particles, poses, state, last_row(folder + "/packing.csv")});
 }
 
 } // namespace
 
 void pack_electrode(const Recipe &recipe, PackOptions o) {
-  std::error_code error;
-  o.folder = fs::absolute(o.folder).lexically_normal().string();
-  fs::create_directories(o.folder, error);
-  if (error)
-    throw Failure(kBadInput,
-                  fmt::format("cannot make the folder '{}': {}", o.folder, error.message()));
-  std::string identity = version() + hash_of_file(input_scripts() + "/in.pack");
-  for (const auto &[key, value] : recipe.settings.all())
-    identity += key + "=" + value + "\n";
-  identity = hash_of_text(identity);
-  const std::string summary = o.folder + "/electrode.json";
-  if (std::ifstream in(summary); in) {
-    const nlohmann::json old = nlohmann::json::parse(in, nullptr, false);
-    if (!old.is_discarded() && old.value("identity", "") == identity) {
-      fmt::print("pack: {} already holds this electrode\n", o.folder);
-      return;
-    }
+  o.folder = fs::absolute(o.folder).lexically_normal().string(); // LIGGGHTS runs in that folder
+  o.liggghts = fs::absolute(o.liggghts).lexically_normal().string();
+  const std::string summary = o.folder + "/electrode.json", identity = identity_of(recipe);
+  if (holds_already(summary, identity)) {
+    fmt::print("pack: {} already holds this electrode\n", o.folder);
+    return;
   }
-  fs::remove(summary, error);
   const auto begin = std::chrono::steady_clock::now();
-  BodyReport report;
-  std::vector<Body> bodies = make_bodies(recipe, report);
-  Placement placement = place(recipe, bodies);
-  fmt::print("pack: {} bodies, {} particles, densifying from {:.0f} to {:.1f} um\n", bodies.size(),
-             placement.particles.size(), placement.height, recipe.thickness());
-  std::cout << std::flush;
-  write_file(o.folder + "/start.data", data_file(recipe, placement.particles, placement.height));
-  write_file(o.folder + "/bodies.map", body_map(placement.particles));
-  write_file(o.folder + "/electrode.in", script_variables(recipe, recipe.thickness()));
-  densify(o, placement, recipe);
-  read_positions(o.folder + "/packed.dump", placement.particles);
-  const PackingState state = examine(placement.particles, recipe);
-  nlohmann::json j = describe(recipe, bodies, report, placement.particles, state,
-                              last_row(o.folder + "/packing.csv"));
-  const double height = std::max(recipe.thickness(), state.highest_particle_um) + 1.0;
-  write_file(o.folder + "/electrode.data", data_file(recipe, placement.particles, height));
-  write_file(o.folder + "/bodies.csv", bodies_table(bodies, placement.particles, recipe));
+  const std::vector<Body> bodies = make_bodies(recipe);
+  make_folder(o.folder);
+  std::error_code none;
+  fs::remove(summary, none);
+  fs::remove(o.folder + "/electrode.rejected.json", none);
+  Placement loose = start(recipe, bodies, o.folder);
+  densify(o, recipe);
+  nlohmann::json j = finish(recipe, bodies, loose.particles, o.folder);
   j["wall_clock_s"] =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  j["ranks"] = o.ranks;
   fmt::print("pack: loading {:.2f} mg/cm2, total porosity {:.2f} %, platen {:.3f} MPa, largest "
-             "force between "
-             "bodies {:.0f} nN, {:.0f} s\n",
+             "force between bodies {:.0f} nN, {:.0f} s\n",
              j["loading_mg_cm2"].get<double>(), 100 * j["porosity_total"].get<double>(),
-             j["platen_pressure_MPa"].get<double>(), state.largest_body_force_nN,
+             j["platen_pressure_MPa"].get<double>(), j["largest_body_force_nN"].get<double>(),
              j["wall_clock_s"].get<double>());
   try {
-    check(j, recipe, o.folder);
+    check_targets(j, recipe, o.folder);
   } catch (const Failure &) {
     write_file(o.folder + "/electrode.rejected.json", j.dump(2) + "\n");
     throw;

@@ -13,7 +13,7 @@ constexpr double kPi = 3.14159265358979323846;
 class Bins {
 public:
   Bins(const Recipe &r, double width)
-      : lx_(r.cell_x), ly_(r.cell_y), nx_(std::max(1, int(r.cell_x / width))),
+      : recipe_(r), nx_(std::max(1, int(r.cell_x / width))),
         ny_(std::max(1, int(r.cell_y / width))), width_(width) {}
 
   void add(const Eigen::Vector3d &x, double radius) { bins_[key(index(x))].push_back({x, radius}); }
@@ -28,7 +28,8 @@ public:
           if (bin == bins_.end())
             continue;
           for (const Sphere &s : bin->second)
-            if (separation(x, s.x).squaredNorm() < (radius + s.radius) * (radius + s.radius))
+            if (periodic_difference(recipe_, x, s.x).squaredNorm() <
+                (radius + s.radius) * (radius + s.radius))
               return true;
         }
     return false;
@@ -39,21 +40,15 @@ private:
     Eigen::Vector3d x;
     double radius;
   };
-  double lx_, ly_;
+  const Recipe &recipe_;
   int nx_, ny_;
   double width_;
   std::unordered_map<long, std::vector<Sphere>> bins_;
 
-  Eigen::Vector3d separation(const Eigen::Vector3d &a, const Eigen::Vector3d &b) const {
-    Eigen::Vector3d d = a - b;
-    d.x() -= lx_ * std::round(d.x() / lx_);
-    d.y() -= ly_ * std::round(d.y() / ly_);
-    return d;
-  }
   std::array<int, 3> index(const Eigen::Vector3d &x) const {
-    const double fx = x.x() / lx_ - std::floor(x.x() / lx_),
-                 fy = x.y() / ly_ - std::floor(x.y() / ly_);
-    return {int(fx * nx_), int(fy * ny_), int(std::floor(x.z() / width_))};
+    const Eigen::Vector3d p = in_cell(recipe_, x);
+    return {int(p.x() / recipe_.cell_x * nx_), int(p.y() / recipe_.cell_y * ny_),
+            int(std::floor(p.z() / width_))};
   }
   long key(const std::array<int, 3> &c) const {
     const long i = (c[0] + nx_) % nx_, j = (c[1] + ny_) % ny_;
@@ -70,6 +65,20 @@ bool body_hits(const Bins &bins, const Body &b, const Eigen::Vector3d &at, doubl
 
 } // namespace
 
+Eigen::Vector3d periodic_difference(const Recipe &r, const Eigen::Vector3d &a,
+                                    const Eigen::Vector3d &b) {
+  Eigen::Vector3d d = a - b;
+  d.x() -= r.cell_x * std::round(d.x() / r.cell_x);
+  d.y() -= r.cell_y * std::round(d.y() / r.cell_y);
+  return d;
+}
+
+Eigen::Vector3d in_cell(const Recipe &r, Eigen::Vector3d x) {
+  x.x() -= r.cell_x * std::floor(x.x() / r.cell_x);
+  x.y() -= r.cell_y * std::floor(x.y() / r.cell_y);
+  return x;
+}
+
 double primary_density(const Recipe &r) {
   return r.am_density * std::pow(r.lattice, 3) / (kPi / 6.0 * std::pow(r.primary_diameter, 3));
 }
@@ -81,7 +90,7 @@ int cbd_count(const Recipe &r) {
   return static_cast<int>(std::lround(r.cbd_solid_column() * r.area() / sphere));
 }
 
-Placement place(const Recipe &recipe, std::vector<Body> &bodies) {
+Placement place(const Recipe &recipe, const std::vector<Body> &bodies) {
   Random random(recipe.seed, 3);
   const double R = 0.5 * recipe.primary_diameter, Rc = 0.5 * recipe.cbd_diameter;
   const double envelope =
@@ -90,17 +99,17 @@ Placement place(const Recipe &recipe, std::vector<Body> &bodies) {
   out.height = 3.0 * envelope;
   Bins bins(recipe, 1.05 * std::max(recipe.primary_diameter, recipe.cbd_diameter));
   const auto anywhere = [&](double reach) {
-    return Eigen::Vector3d(recipe.cell_x * random.uniform(), recipe.cell_y * random.uniform(),
-                           reach + (out.height - 2.0 * reach) * random.uniform());
+    const Eigen::Vector3d u = random.uniform3();
+    return Eigen::Vector3d(recipe.cell_x * u.x(), recipe.cell_y * u.y(),
+                           reach + (out.height - 2.0 * reach) * u.z());
   };
   int number = 0;
-  for (Body &b : bodies) {
+  for (const Body &b : bodies) {
     ++number;
     Eigen::Vector3d at = anywhere(b.reach);
     for (int tries = 1; body_hits(bins, b, at, 1.02 * R); ++tries, at = anywhere(b.reach))
       if (tries % 20000 == 0)
         out.height *= 1.1; // no room: a taller cell
-    b.centre = at;
     for (const Eigen::Vector3d &p : b.primaries) {
       bins.add(at + p, R);
       out.particles.push_back({static_cast<int>(out.particles.size()) + 1, 1,
@@ -116,10 +125,8 @@ Placement place(const Recipe &recipe, std::vector<Body> &bodies) {
     out.particles.push_back({static_cast<int>(out.particles.size()) + 1, 2, recipe.cbd_diameter,
                              cbd_density(recipe), at, 0});
   }
-  for (Particle &p : out.particles) {
-    p.x.x() -= recipe.cell_x * std::floor(p.x.x() / recipe.cell_x);
-    p.x.y() -= recipe.cell_y * std::floor(p.x.y() / recipe.cell_y);
-  }
+  for (Particle &p : out.particles)
+    p.x = in_cell(recipe, p.x);
   return out;
 }
 

@@ -27,8 +27,15 @@ double primary_density(const Recipe &recipe);
 double cbd_density(const Recipe &recipe);
 int cbd_count(const Recipe &recipe);
 
-/// Moves `bodies` to their places.
-Placement place(const Recipe &recipe, std::vector<Body> &bodies);
+/// a - b as it comes nearest in a cell that is periodic in x and y.
+Eigen::Vector3d periodic_difference(const Recipe &recipe, const Eigen::Vector3d &a,
+                                    const Eigen::Vector3d &b);
+/// The image of x inside the cell.
+Eigen::Vector3d in_cell(const Recipe &recipe, Eigen::Vector3d x);
+
+/// Bodies (largest first) and then CBD spheres at random places without overlap, in a cell three
+/// times as high as they need, or higher where they find no room.
+Placement place(const Recipe &recipe, const std::vector<Body> &bodies);
 
 } // namespace calendem
 

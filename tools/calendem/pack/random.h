@@ -20,11 +20,14 @@ public:
     return (static_cast<double>(split_mix(state_) >> 11) + 0.5) / 9007199254740992.0;
   }
   double normal() {
-    return std::sqrt(-2.0 * std::log(uniform())) * std::cos(6.283185307179586 * uniform());
+    const double length = std::sqrt(-2.0 * std::log(uniform()));
+    return length * std::cos(6.283185307179586 * uniform());
   }
-  Eigen::Vector3d direction() { return Eigen::Vector3d(normal(), normal(), normal()).normalized(); }
+  // Braces: the draws follow in the order written, with every compiler.
+  Eigen::Vector3d uniform3() { return Eigen::Vector3d{uniform(), uniform(), uniform()}; }
+  Eigen::Vector3d direction() { return Eigen::Vector3d{normal(), normal(), normal()}.normalized(); }
   Eigen::Quaterniond rotation() {
-    return Eigen::Quaterniond(normal(), normal(), normal(), normal()).normalized();
+    return Eigen::Quaterniond{normal(), normal(), normal(), normal()}.normalized();
   }
 
 private:

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What is measured of a finished packing, from positions alone.
+#ifndef CALENDEM_PACK_PACKING_STATE_H
+#define CALENDEM_PACK_PACKING_STATE_H
+
+#include "pack/placement.h"
+
+namespace calendem {
+
+/// Stiffness and cohesion at which a packing is relaxed and its forces are judged: the defaults of
+/// input_scripts/common/defaults.in. Handed to in.pack as variables.
+struct FinalMaterial {
+  double E_am_GPa = 200.0, E_cbd_GPa = 2.0;
+  double nu_am = 0.3, nu_cbd = 0.49;
+  double ced_am_J_m3 = 6e8, ced_cbd_J_m3 = 7e7;
+};
+
+/// Overlaps of touching pairs over the radius of the CBD sphere.
+struct Overlaps {
+  int pairs = 0;
+  double mean = 0.0, largest = 0.0;
+};
+
+struct PackingState {
+  double body_force_nN = 0.0;   ///< largest |Hertz - SJKR| between primaries of different bodies
+  double am_cbd_force_nN = 0.0; ///< the same between primaries and CBD
+  Overlaps cbd_cbd, cbd_am;
+  int bonds = 0;               ///< pairs of a body's primaries that touch
+  int lattice_pairs = 0;       ///< nearest neighbours on the lattice: there must be as many bonds
+  double bond_strain = 0.0;    ///< largest |r/s - 1| of them
+  double highest_um = 0.0;     ///< top of the highest particle
+  std::vector<int> body_bonds; ///< per body
+};
+
+PackingState examine(const Recipe &recipe, const std::vector<Body> &bodies,
+                     const std::vector<Particle> &particles, const FinalMaterial &material = {});
+
+/// Bonds of the lattice: index pairs of one body's particles that touch, periodic in x and y.
+std::vector<std::pair<int, int>> bonds_by_distance(const std::vector<Particle> &particles,
+                                                   double lx, double ly);
+
+} // namespace calendem
+
+#endif
