@@ -4,6 +4,7 @@ set -euo pipefail
 case=$1 bin=$2 work=$3
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 scripts=$(cd "$here/../../../input_scripts" && pwd)
+if [ "$(id -u)" -eq 0 ]; then export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; fi
 fail() { echo "FAILED: $*" >&2; exit 1; }
 number() { sed -n "s/^ *\"$1\": \([-+0-9.e]*\),*$/\1/p" "$2"; } # of a summary
 rows() { sed -n '/^[0-9]/p' "$1"; }

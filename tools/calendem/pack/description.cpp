@@ -139,7 +139,7 @@ void check_targets(const nlohmann::json &j, const Recipe &r, const std::string &
           0, fmt::format("{} {:.4g}; at most {:.4g} is allowed. {}", what, value, limit, advice));
   };
   const char *size = "Make the cell larger: whole particles cannot come nearer to the target.";
-  const char *longer = "Let it relax longer (relax_stiff in in.pack) or take another seed.";
+  const char *longer = "Let it relax longer (relax_most in in.pack) or take another seed.";
   const char *other = "Take another seed.";
   at_most("relative error of the loading is",
           std::fabs(j["loading_mg_cm2"].get<double>() / r.loading - 1.0), 0.01, size);
