@@ -105,17 +105,13 @@ ParticleFrame read_particles(const std::string &file, Problems &problems) {
   if (data == nullptr)
     return frame;
   vtkDataArray *radius = array_of(data->GetPointData(), "radius", file, problems);
-  // The host's own dump packs compute bond/bpm/atom into one vector: intact, broken, body.
-  vtkDataArray *packed = data->GetPointData()->GetArray("c_batom[1-3]");
-  vtkDataArray *body =
-      packed != nullptr ? packed : array_of(data->GetPointData(), "body", file, problems);
+  vtkDataArray *body = array_of(data->GetPointData(), "body", file, problems);
   if (radius == nullptr || body == nullptr)
     return frame;
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
     frame.centre.push_back(point_of(data, i));
     frame.radius.push_back(radius->GetTuple1(i));
-    frame.body.push_back(
-        static_cast<int>(std::lround(body->GetComponent(i, packed != nullptr ? 2 : 0))));
+    frame.body.push_back(static_cast<int>(std::lround(body->GetTuple1(i))));
   }
   return frame;
 }

@@ -302,6 +302,10 @@ std::vector<Chart> plots_of(const std::vector<Run> &runs) {
       charts.push_back(std::move(energy));
     charts.push_back(break_modes(runs[i], runs.size() == 1));
     charts.back().id = "modes-" + std::to_string(i + 1);
+    Chart shape = sphericities(runs[i], runs.size() == 1);
+    shape.id = "shape-" + std::to_string(i + 1);
+    if (!shape.series.empty())
+      charts.push_back(std::move(shape));
   }
   return charts;
 }

@@ -13,6 +13,9 @@ namespace calendem::report {
 
 std::vector<Chart> plots_of(const std::vector<Run> &runs);
 
+/// Histogram of the bodies' sphericity, from electrode.json; no series when that has none.
+Chart sphericities(const Run &run, bool single);
+
 } // namespace calendem::report
 
 #endif

@@ -21,7 +21,8 @@ RunPart part_of(Run &run) {
   part.unfinished = run.unfinished;
   part.headline = headline_of(run);
   part.facts = facts_of(run.summary, {"provenance"});
-  part.electrode = facts_of(run.electrode, {"provenance", "recipe"});
+  part.electrode =
+      facts_of(run.electrode, {"provenance", "recipe", "sphericity_histogram", "identity"});
   part.provenance = facts_of(run.summary.value("provenance", json::object()), {});
   part.files = json::array();
   for (const auto &file : run.files_read)

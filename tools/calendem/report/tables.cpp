@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "report/paper_reference.h"
 
 namespace calendem::report {
@@ -200,6 +202,27 @@ json comparison_of(const std::vector<Run> &runs) {
   for (const auto &point : paper_breaks())
     rows.push_back(breaks_row(runs, point));
   return {{"rows", rows}};
+}
+
+std::string comparison_text(const json &comparison) {
+  const auto text = [](const json &row, const char *key) { return row[key].get<std::string>(); };
+  const json &rows = comparison["rows"];
+  std::string out = fmt::format("{:<39}{:>7}{:>15}", "", "at MPa", "paper");
+  if (!rows.empty())
+    for (const json &c : rows[0]["cells"])
+      out += fmt::format("{:>18}", text(c, "run"));
+  out += '\n';
+  for (const json &r : rows) {
+    out += fmt::format("{:<39}{:>7}{:>15}", text(r, "quantity"), text(r, "pressure_text"),
+                       text(r, "paper_text"));
+    for (const json &c : r["cells"]) {
+      const bool compared = c["difference"].is_number();
+      out += fmt::format("{:>18}", text(c, "text") +
+                                       (compared ? " (" + text(c, "difference_text") + ")" : ""));
+    }
+    out += '\n';
+  }
+  return out;
 }
 
 json facts_of(const json &object, const std::vector<std::string> &left_out) {

@@ -22,6 +22,9 @@ nlohmann::json headline_of(const Run &run);
 /// one cell per run.
 nlohmann::json comparison_of(const std::vector<Run> &runs);
 
+/// The rows of a comparison as lines of text, for a terminal; one column per run.
+std::string comparison_text(const nlohmann::json &comparison);
+
 /// Every value in `object`, nested ones with joined names: array of {name, value, unit}. Keys that
 /// are in `left_out` are not listed.
 nlohmann::json facts_of(const nlohmann::json &object, const std::vector<std::string> &left_out);

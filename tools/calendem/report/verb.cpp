@@ -11,6 +11,7 @@
 #include "report/page.h"
 #include "report/report.h"
 #include "report/run_directory.h"
+#include "report/tables.h"
 #include "spec/messages.h"
 
 namespace calendem {
@@ -67,7 +68,8 @@ int write_report(const std::vector<std::string> &directories, std::string page) 
   const fs::path twin = fs::path(page).replace_extension(".json");
   if (!write(twin, to_json(report).dump(1) + "\n") || !write(page, to_html(report)))
     return kBadInput;
-  std::cout << "report: " << page << "\ndata:   " << twin.string() << '\n';
+  std::cout << comparison_text(report.comparison) << "report: " << page
+            << "\ndata:   " << twin.string() << '\n';
   return kDone;
 }
 

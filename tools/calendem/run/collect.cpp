@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <sstream>
 
 namespace calendem {
@@ -18,13 +19,13 @@ double total_porosity(const ElectrodeFacts &e, double gap) {
 }
 
 /// Gap at which the averaged pressure first falls below `fraction` of the maximum during
-/// relaxation.
-double gap_at_loss(const std::vector<RawRow> &rows, double fraction, double max_pressure) {
-  double gap = rows.back().gap;
+/// relaxation; none if the platen stopped before that.
+std::optional<double> gap_at_loss(const std::vector<RawRow> &rows, double fraction,
+                                  double max_pressure) {
   for (const RawRow &r : rows)
     if (r.stage > 2.5 && r.p_top < fraction * max_pressure)
       return r.gap;
-  return gap;
+  return std::nullopt;
 }
 
 std::string curve(const std::vector<RawRow> &rows, const ElectrodeFacts &e,
@@ -134,7 +135,7 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   const RawRow top = *std::max_element(
       rows.begin(), rows.end(), [](const RawRow &a, const RawRow &b) { return a.p_top < b.p_top; });
   const double lost = settings.number("platen.contact_lost_fraction");
-  const double gap = gap_at_loss(rows, lost, top.p_top);
+  const double gap = gap_at_loss(rows, lost, top.p_top).value_or(rows.back().gap);
   nlohmann::json s;
   s["max_pressure_MPa"] = top.p_top;
   s["thickness_at_max_um"] = top.gap;
@@ -144,8 +145,10 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   s["porosity_initial"] = total_porosity(e, e.thickness);
   s["contact_lost_fraction"] = lost;
   for (double f : {0.005, 0.01, 0.02, 0.05})
-    s["porosity_after_relaxation_by_threshold"][fmt::format("{}", f)] =
-        total_porosity(e, gap_at_loss(rows, f, top.p_top));
+    if (const auto at = gap_at_loss(rows, f, top.p_top))
+      s["porosity_after_relaxation_by_threshold"][fmt::format("{}", f)] = total_porosity(e, *at);
+  if (!frames.empty())
+    s["height_of_tops_after_um"] = height_of_tops(folder, frames.back().first);
   s["broken_fraction_at_max"] = top.made > 0 ? top.broken / top.made : 0.0;
   s["broken_fraction_after"] = top.made > 0 ? rows.back().broken / top.made : 0.0;
   s["springback"] = (gap - top.gap) / top.gap;

@@ -39,6 +39,8 @@ nlohmann::json collect(const std::string &folder, const Settings &settings,
 
 /// vtk/{particles,bonds,platen}.pvd over the frames; returns step -> time of the particle frames.
 std::vector<std::pair<long, double>> write_series(const std::string &folder, double dt);
+/// Height [um] below which 99.9 % of the particle tops of a frame lie.
+double height_of_tops(const std::string &folder, long step);
 UnionVolume union_volumes(const std::string &folder, const ElectrodeFacts &electrode,
                           const std::vector<std::pair<long, double>> &frames);
 

@@ -105,6 +105,22 @@ UnionVolume union_volumes(const std::string &folder, const ElectrodeFacts &e,
   return out;
 }
 
+double height_of_tops(const std::string &folder, long step) {
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName(fmt::format("{}/vtk/particles_{}.vtp", folder, step).c_str());
+  reader->Update();
+  vtkPolyData *data = reader->GetOutput();
+  vtkDataArray *radius = data->GetPointData()->GetArray("radius");
+  std::vector<double> tops;
+  for (vtkIdType i = 0; radius && i < data->GetNumberOfPoints(); ++i)
+    tops.push_back(data->GetPoint(i)[2] + radius->GetTuple1(i));
+  if (tops.empty())
+    return NAN;
+  const auto at = tops.begin() + std::lround(0.999 * double(tops.size() - 1));
+  std::nth_element(tops.begin(), at, tops.end());
+  return *at;
+}
+
 double UnionVolume::at(double t) const {
   if (time.empty())
     return NAN;
