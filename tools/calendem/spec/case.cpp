@@ -72,7 +72,7 @@ Settings read_case(const std::string &file) {
   const fs::path electrode = s.text("electrode");
   s.set(
       "electrode",
-      (electrode.is_absolute() ? electrode : fs::absolute(fs::path(file).parent_path()) / electrode)
+      (electrode.is_absolute() ? electrode : fs::absolute(file).parent_path() / electrode)
           .lexically_normal()
           .string());
   const std::string &control = s.text("platen.control");
