@@ -46,7 +46,12 @@ public:
     spring_ = fix_->friction_history_offset(offset_);
   }
 
-  bool checkSurfaceIntersect(SurfacesIntersectData &) { return true; }
+  // An intact bond that is not compressed has no contact: the host then passes it to surfacesClose
+  // and spares the Hertz and friction models.
+  bool checkSurfaceIntersect(SurfacesIntersectData &s) {
+    const BondHistory bond(s.contact_history + offset_);
+    return fix_->creating() || bond.state() != kIntact || s.rsq < bond.length() * bond.length();
+  }
 
   void surfacesIntersect(SurfacesIntersectData &s, ForceData &, ForceData &) {
     BondHistory bond(s.contact_history + offset_);
