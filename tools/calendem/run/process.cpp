@@ -58,6 +58,8 @@ pid_t start(const LiggghtsJob &job) {
     setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
     setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
   }
+  // OpenMPI would tie the ranks of every run to the same first cores.
+  setenv("OMPI_MCA_hwloc_base_binding_policy", "none", 0);
   pid_t pid = 0;
   const int error = posix_spawnp(&pid, "mpirun", &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
