@@ -54,13 +54,22 @@ double at_first_crossing(const Curve &curve, double pressure_MPa, const std::str
   return kNaN;
 }
 
+Column imbalance(const Curve &curve) {
+  if (curve.has("pressure_difference"))
+    return curve["pressure_difference"];
+  Column out;
+  for (std::size_t i = 0; i < curve.rows(); ++i)
+    out.push_back(std::abs(curve["pressure_MPa"][i] - curve["pressure_bottom_MPa"][i]) /
+                  curve["pressure_MPa"][i]);
+  return out;
+}
+
 double worst_imbalance(const Curve &curve, double threshold_MPa) {
-  const Column &top = curve["pressure_MPa"];
-  const Column &bottom = curve["pressure_bottom_MPa"];
+  const Column difference = imbalance(curve);
   double worst = kNaN;
   for (std::size_t i = 0; i < curve.rows(); ++i)
-    if (top[i] > threshold_MPa)
-      worst = std::fmax(worst, std::abs(top[i] - bottom[i]) / top[i]);
+    if (curve["pressure_MPa"][i] > threshold_MPa)
+      worst = std::fmax(worst, difference[i]);
   return worst;
 }
 

@@ -29,7 +29,11 @@ struct Curve {
 /// between rows; NaN if it never does.
 double at_first_crossing(const Curve &curve, double pressure_MPa, const std::string &name);
 
-/// Largest |P_top - P_bottom| / P_top over rows with P_top above `threshold_MPa`; NaN if none.
+/// |P_top - P_bottom| / P_top of every row: the column `pressure_difference`, which is averaged
+/// over a longer window than a row, or else from the row's own pressures.
+Column imbalance(const Curve &curve);
+
+/// The largest of them over rows with P_top above `threshold_MPa`; NaN if none.
 double worst_imbalance(const Curve &curve, double threshold_MPa);
 
 Column picked(const Column &values, const std::vector<std::size_t> &rows, double factor = 1);

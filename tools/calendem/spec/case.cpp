@@ -70,11 +70,10 @@ Settings read_case(const std::string &file) {
   Settings s = read_toml(file, case_keys(), mistakes);
   mistakes.stop_if_any();
   const fs::path electrode = s.text("electrode");
-  s.set(
-      "electrode",
-      (electrode.is_absolute() ? electrode : fs::absolute(file).parent_path() / electrode)
-          .lexically_normal()
-          .string());
+  s.set("electrode",
+        (electrode.is_absolute() ? electrode : fs::absolute(file).parent_path() / electrode)
+            .lexically_normal()
+            .string());
   const std::string &control = s.text("platen.control");
   if (control != "pressure") {
     const std::string key = "platen." + control + "_um";
