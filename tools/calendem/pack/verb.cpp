@@ -6,17 +6,6 @@
 #include <fmt/format.h>
 
 namespace calendem {
-namespace {
-
-std::string keys_of_a_recipe() {
-  std::string text = "Keys of a recipe, with their defaults:\n";
-  for (const Key &k : recipe_keys())
-    text += fmt::format("  {:<36} {:>8} {:<7} {}\n", k.name, k.fallback, k.unit, k.meaning);
-  return text;
-}
-
-} // namespace
-
 void add_pack_verb(CLI::App &app) {
   struct Arguments {
     std::string spec;
@@ -27,7 +16,7 @@ void add_pack_verb(CLI::App &app) {
   a->options.liggghts = liggghts_program();
   CLI::App *verb =
       app.add_subcommand("pack", "Make an electrode from a recipe by running LIGGGHTS");
-  verb->footer(keys_of_a_recipe());
+  verb->footer(list_of_keys(recipe_keys()));
   verb->add_option("SPEC", a->spec, "recipe (TOML)")->required();
   verb->add_option("-o,--output", a->options.folder, "folder of the electrode")->required();
   verb->add_option("--seed", a->seed, "instead of the recipe's")

@@ -15,6 +15,7 @@ void add_run_verb(CLI::App &app) {
   auto a = std::make_shared<Arguments>();
   a->options.liggghts = liggghts_program();
   CLI::App *verb = app.add_subcommand("run", "One compression and relaxation of an electrode");
+  verb->footer(list_of_keys(case_keys()));
   verb->add_option("CASE", a->spec, "case (TOML)")->required();
   verb->add_option("-o,--output", a->options.folder, "folder of the run")->required();
   verb->add_option("--ranks", a->options.ranks, "MPI ranks")->check(CLI::Range(1, 4096));

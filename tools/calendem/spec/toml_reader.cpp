@@ -148,4 +148,16 @@ std::string write_toml(const Settings &settings, const std::vector<Key> &keys,
   return heading + out;
 }
 
+std::string list_of_keys(const std::vector<Key> &keys) {
+  std::string text = "Keys of the file: name, default, unit, range, meaning\n";
+  for (const Key &k : keys) {
+    std::string range = k.choices;
+    if (range.empty() && !k.text)
+      range = fmt::format("{:g}..{:g}", k.low, k.high);
+    text += fmt::format("  {:<36} {:>8} {:<7} {:<27} {}\n", k.name,
+                        k.fallback.empty() ? "required" : k.fallback, k.unit, range, k.meaning);
+  }
+  return text;
+}
+
 } // namespace calendem

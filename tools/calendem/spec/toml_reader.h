@@ -42,6 +42,9 @@ Settings read_toml(const std::string &file, const std::vector<Key> &keys, Mistak
 std::string write_toml(const Settings &settings, const std::vector<Key> &keys,
                        const std::string &heading);
 
+/// One line per key for --help: name, default, unit, range or choices, meaning.
+std::string list_of_keys(const std::vector<Key> &keys);
+
 } // namespace calendem
 
 #endif
