@@ -3,6 +3,7 @@
 // did not hold.
 #include "pack/verb.h"
 #include "report/verb.h"
+#include "run/collect_verb.h"
 #include "run/verb.h"
 #include "spec/messages.h"
 #include "spec/verb.h"
@@ -15,6 +16,7 @@ int main(int argc, char **argv) {
   app.set_version_flag("--version", CALENDEM_VERSION);
   calendem::add_pack_verb(app);
   calendem::add_run_verb(app);
+  calendem::add_collect_verb(app);
   calendem::add_report_verb(app);
   calendem::add_validate_verb(app);
   try {

@@ -42,7 +42,11 @@ case $case in
     plain in.compression "$work/split"
     plain in.relaxation "$work/split"
     cmp <(rows "$work/run/curve_raw.csv") <(rows "$work/split/curve_raw.csv") || fail "curves differ"
-    cmp "$work/run/breaks.csv" "$work/split/breaks.csv" || fail "break logs differ" ;;
+    cmp "$work/run/breaks.csv" "$work/split/breaks.csv" || fail "break logs differ"
+    "$bin/calendem" collect "$work/split" # as `calendem run` does at its end
+    for f in curve.csv bodies.csv vtk/bonds.pvd; do
+      cmp "$work/run/$f" "$work/split/$f" || fail "$f of collect differs from that of run"
+    done ;;
   killed_and_resumed) # kill -9 in mid-run, resume: the uninterrupted run's bytes
     rm -rf "$work/killed"
     "$bin/calendem" run "$work/case.toml" -o "$work/killed" --ranks 1 >"$work/killed.log" 2>&1 &

@@ -186,12 +186,13 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
                     {"released_by_breaks", rows.back().work_lost},
                     {"bond_strain_at_end", rows.back().strain},
                     {"kinetic_at_end", rows.back().kinetic}};
-  s["wall_clock_s"] = facts.wall_clock_s;
-  s["ranks"] = facts.ranks;
+  if (facts.ranks > 0) {
+    s["wall_clock_s"] = facts.wall_clock_s;
+    s["ranks"] = facts.ranks;
+    s["atom_steps_per_second"] = rows.back().step * e.atoms / facts.wall_clock_s;
+  }
   s["timestep_us"] = dt;
   s["steps"] = static_cast<long>(rows.back().step);
-  s["atom_steps_per_second"] =
-      facts.wall_clock_s > 0 ? rows.back().step * e.atoms / facts.wall_clock_s : 0.0;
   s["case_hash"] = facts.case_hash;
   s["finished"] = rows.back().stage > 3.5;
   s["provenance"] = {

@@ -25,7 +25,7 @@ struct UnionVolume {
   double at(double t) const;
 };
 
-/// Facts of the run that only the caller knows.
+/// Facts of the run that only its caller knows; 0 ranks: nobody does.
 struct RunFacts {
   double wall_clock_s = 0.0;
   int ranks = 0;
