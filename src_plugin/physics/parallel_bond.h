@@ -10,9 +10,11 @@
 // Kinematics. d = x_i - x_j, n = d / |d|. The bond is cut at the middle of the centre line, so both
 // arms are d/2 whatever the radii, overlap or gap, and the relative velocity at the cut is
 //   u = v_i - v_j - (w_i + w_j) / 2 x d.
-// A rigid motion gives u = 0 identically. Stored vectors follow the pair's rigid rotation during
-// the step: swing from the centres' velocities, twist from the mean spin along n, as one Cayley
-// rotation (exact for a finite turn between two positions).
+// A rigid motion gives u = 0 identically. Over a step v is the chord (d_new - d_old)/dt, which
+// belongs to the middle of the step: the increment of shear takes d there, or a body that turns
+// about an axis oblique to its bonds would creep in proportion to dt. Stored vectors follow the
+// pair's rigid rotation during the step: swing from the centres' velocities, twist from the mean
+// spin along n, as one Cayley rotation (exact for a finite turn between two positions).
 //
 // Signs: F_n > 0 is tension. F_t, M_n n and M_t act on particle i, their opposites on j.
 // Energy: conservative (F_n^2/2k_n + F_t^2/2k_t + M_n^2/2k_w + M_t^2/2k_b) up to O(dt^2); `damping`
@@ -87,14 +89,17 @@ struct PairMotion {
   double r = 0; ///< |d| [um]
 };
 
-/// Velocity of i relative to j where the bond is cut, without the part along n.
-inline Vec3 shear_velocity(const PairMotion &m) {
-  return reject(m.v - 0.5 * cross(m.spin_i + m.spin_j, m.d), m.n);
+/// Velocity of i relative to j where the bond is cut, without the part along n; `d` is the centre
+/// line.
+inline Vec3 shear_velocity(const PairMotion &m, const Vec3 &d) {
+  return reject(m.v - 0.5 * cross(m.spin_i + m.spin_j, d), m.n);
 }
 
+/// Centre line in the middle of the step that ended at m.d.
+inline Vec3 middle_of(const PairMotion &m, double dt) { return m.d - (0.5 * dt) * m.v; }
+
 /// Rotation of the pair during a step as the Cayley vector tan(angle/2) * axis.
-inline Vec3 pair_rotation(const PairMotion &m, double dt) {
-  const Vec3 middle = m.d - (0.5 * dt) * m.v;
+inline Vec3 pair_rotation(const PairMotion &m, const Vec3 &middle, double dt) {
   const double scale = 0.5 * dt / norm_squared(middle);
   const double twist = 0.25 * dt * dot(m.spin_i + m.spin_j, m.n);
   return scale * cross(middle, m.v) + twist * m.n;
@@ -108,11 +113,12 @@ inline Vec3 turn(const Vec3 &a, const Vec3 &tau, double two_over_1_plus_tau2) {
 
 /// Carries the loads through one step of length dt [us] and adds that step's increments (eqs 4-5).
 inline void advance(BondLoads &loads, const PairMotion &m, const BondStiffness &k, double dt) {
-  const Vec3 tau = pair_rotation(m, dt);
+  const Vec3 middle = middle_of(m, dt);
+  const Vec3 tau = pair_rotation(m, middle, dt);
   const double c = 2.0 / (1.0 + norm_squared(tau));
   const Vec3 spin = m.spin_i - m.spin_j;
   const double spin_n = dot(spin, m.n);
-  const Vec3 shear = turn(loads.shear, tau, c) - (k.shear * dt) * shear_velocity(m);
+  const Vec3 shear = turn(loads.shear, tau, c) - (k.shear * dt) * shear_velocity(m, middle);
   const Vec3 bending = turn(loads.bending, tau, c) - (k.bend * dt) * (spin - spin_n * m.n);
   loads.shear = reject(shear, m.n);
   loads.bending = reject(bending, m.n);
@@ -153,7 +159,7 @@ inline BondAction action(const BondLoads &loads, double tension, const PairMotio
   if (c.normal > 0.0) {
     const Vec3 spin = m.spin_i - m.spin_j;
     const double spin_n = dot(spin, m.n);
-    shear = shear - c.shear * shear_velocity(m);
+    shear = shear - c.shear * shear_velocity(m, m.d);
     moment = moment - c.bend * (spin - spin_n * m.n) - (c.twist * spin_n) * m.n;
     normal += c.normal * dot(m.v, m.n);
   }

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Runs the program on a case's in-script in a fresh folder and reads what it wrote.
+// CALENDEM_LIGGGHTS (environment) names another program than the build's.
+#ifndef CALENDEM_TESTS_RUN_CASE_H
+#define CALENDEM_TESTS_RUN_CASE_H
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace calendem {
+
+using Settings = std::map<std::string, std::string>;
+using Files = std::map<std::string, std::string>;
+using Row = std::map<std::string, double>;
+
+inline std::string number(double x) {
+  std::ostringstream text;
+  text.precision(17);
+  text << x;
+  return text.str();
+}
+
+class CaseRun {
+public:
+  /// `script` relative to tests/verification; `settings` become `-var NAME VALUE`; `files` are
+  /// written into the run's folder beforehand.
+  CaseRun(const std::string &script, const Settings &settings, int ranks = 1,
+          const Files &files = {}) {
+    namespace fs = std::filesystem;
+    static int count = 0;
+    const auto *test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(CALENDEM_SCRATCH) /
+              (std::string(test->test_suite_name()) + "." + test->name()) / std::to_string(++count);
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    for (const auto &f : files)
+      std::ofstream(folder_ / f.first) << f.second;
+    const char *other = std::getenv("CALENDEM_LIGGGHTS");
+    setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+    setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+    std::string command = "cd '" + folder_.string() + "' && mpirun --oversubscribe -np " +
+                          std::to_string(ranks) + " '" + (other ? other : CALENDEM_PROGRAM) +
+                          "' -screen none -in '" CALENDEM_CASES "/" + script +
+                          "' -var cases '" CALENDEM_CASES "'";
+    for (const auto &s : settings)
+      command += " -var " + s.first + " " + s.second;
+    status_ = std::system((command + " > output.txt 2>&1").c_str());
+  }
+
+  bool finished() const { return status_ == 0; }
+
+  std::string text(const std::string &file) const {
+    std::ifstream in(folder_ / file);
+    std::ostringstream all;
+    all << in.rdbuf();
+    return all.str();
+  }
+
+  /// Rows of a CSV file by the names of its columns; cells that are no numbers are left out.
+  std::vector<Row> rows(const std::string &file) const {
+    std::istringstream in(text(file));
+    std::vector<std::string> names;
+    std::vector<Row> rows;
+    for (std::string line; std::getline(in, line);) {
+      std::vector<std::string> cells;
+      std::istringstream cut(line);
+      for (std::string cell; std::getline(cut, cell, ',');)
+        cells.push_back(cell);
+      if (names.empty()) {
+        names = cells;
+        continue;
+      }
+      Row row;
+      for (size_t c = 0; c < cells.size() && c < names.size(); ++c) {
+        char *end = nullptr;
+        const double value = std::strtod(cells[c].c_str(), &end);
+        if (end != cells[c].c_str())
+          row[names[c]] = value;
+      }
+      rows.push_back(row);
+    }
+    return rows;
+  }
+
+  /// What the run says about itself, for a failure's message.
+  std::string why() const { return text("output.txt") + text("log.liggghts"); }
+
+private:
+  std::filesystem::path folder_;
+  int status_ = -1;
+};
+
+} // namespace calendem
+
+#endif
