@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -35,21 +36,25 @@ public:
   CaseRun(const std::string &script, const Settings &settings, int ranks = 1,
           const Files &files = {}) {
     namespace fs = std::filesystem;
-    static int count = 0;
+    static std::map<std::string, int> runs; // of each test
     const auto *test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(CALENDEM_SCRATCH) /
-              (std::string(test->test_suite_name()) + "." + test->name()) / std::to_string(++count);
-    fs::remove_all(folder_);
+    const std::string name = std::string(test->test_suite_name()) + "." + test->name();
+    const int run = ++runs[name];
+    if (run == 1)
+      fs::remove_all(fs::path(CALENDEM_SCRATCH) / name);
+    folder_ = fs::path(CALENDEM_SCRATCH) / name / std::to_string(run);
     fs::create_directories(folder_);
     for (const auto &f : files)
       std::ofstream(folder_ / f.first) << f.second;
     const char *other = std::getenv("CALENDEM_LIGGGHTS");
     setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
     setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
-    std::string command = "cd '" + folder_.string() + "' && mpirun --oversubscribe -np " +
-                          std::to_string(ranks) + " '" + (other ? other : CALENDEM_PROGRAM) +
-                          "' -screen none -in '" CALENDEM_CASES "/" + script +
-                          "' -var cases '" CALENDEM_CASES "'";
+    const std::string start = // one rank needs no launcher
+        ranks == 1 ? "" : "mpirun --oversubscribe -np " + std::to_string(ranks) + " ";
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 1);
+    std::string command =
+        "cd '" + folder_.string() + "' && " + start + "'" + (other ? other : CALENDEM_PROGRAM) +
+        "' -screen none -in '" CALENDEM_CASES "/" + script + "' -var cases '" CALENDEM_CASES "'";
     for (const auto &s : settings)
       command += " -var " + s.first + " " + s.second;
     status_ = std::system((command + " > output.txt 2>&1").c_str());
@@ -88,6 +93,29 @@ public:
       rows.push_back(row);
     }
     return rows;
+  }
+
+  /// Frames of spheres.dump: for each sphere in the order of tags its columns by name.
+  std::vector<std::vector<Row>> frames() const {
+    std::istringstream in(text("spheres.dump"));
+    std::vector<std::vector<Row>> all;
+    std::vector<std::string> names;
+    for (std::string line; std::getline(in, line);) {
+      if (line.rfind("ITEM: ATOMS", 0) == 0) {
+        std::istringstream words(line.substr(11));
+        names.assign(std::istream_iterator<std::string>(words), {});
+        all.emplace_back();
+      } else if (line.rfind("ITEM:", 0) == 0) {
+        names.clear();
+      } else if (!names.empty()) {
+        std::istringstream cells(line);
+        Row row;
+        for (const std::string &n : names)
+          cells >> row[n];
+        all.back().push_back(row);
+      }
+    }
+    return all;
   }
 
   /// What the run says about itself, for a failure's message.

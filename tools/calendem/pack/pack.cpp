@@ -66,8 +66,9 @@ void densify(const PackOptions &o, const Recipe &r) {
 }
 
 // Everything the result depends on.
-std::string identity_of(const Recipe &recipe) {
-  std::string text = version() + hash_of_file(input_scripts() + "/in.pack");
+std::string identity_of(const Recipe &recipe, const std::string &liggghts) {
+  std::string text =
+      version() + hash_of_file(liggghts) + hash_of_file(input_scripts() + "/in.pack");
   for (const auto &[key, value] : recipe.settings.all())
     text += key + "=" + value + "\n";
   return hash_of_text(text);
@@ -117,7 +118,8 @@ nlohmann::json finish(const Recipe &recipe, const std::vector<Body> &bodies,
 void pack_electrode(const Recipe &recipe, PackOptions o) {
   o.folder = fs::absolute(o.folder).lexically_normal().string(); // LIGGGHTS runs in that folder
   o.liggghts = fs::absolute(o.liggghts).lexically_normal().string();
-  const std::string summary = o.folder + "/electrode.json", identity = identity_of(recipe);
+  const std::string summary = o.folder + "/electrode.json",
+                    identity = identity_of(recipe, o.liggghts);
   if (holds_already(summary, identity)) {
     fmt::print("pack: {} already holds this electrode\n", o.folder);
     return;

@@ -199,7 +199,9 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
       {"calendem", version()},
       {"case_toml", hash_of_file(folder + "/case.toml")},
       {"electrode_data", hash_of_file(settings.text("electrode") + "/electrode.data")},
-      {"liggghts", "LIGGGHTS-PUBLIC 3.8.0 with the plugin"}};
+      {"liggghts", facts.program.empty() ? "not known" : facts.program},
+      {"input_scripts", hash_of_folder(input_scripts() + "/common")},
+      {"hashes", "64-bit FNV-1a"}};
   check(folder, rows, e, count_rows(folder + "/breaks.csv"));
   write_file(folder + "/summary.json", s.dump(2) + "\n");
   return s;

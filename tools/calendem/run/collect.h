@@ -30,6 +30,7 @@ struct RunFacts {
   double wall_clock_s = 0.0;
   int ranks = 0;
   std::string case_hash;
+  std::string program; ///< hash of LIGGGHTS
 };
 
 /// Writes the files; returns the summary. Throws Failure(4) if created != intact + broken, if the

@@ -208,7 +208,11 @@ ElectrodeFacts read_electrode(const std::string &folder) {
 void run_case(Settings settings, const RunOptions &o) {
   const ElectrodeFacts electrode = read_electrode(settings.text("electrode"));
   check_case(settings, electrode, o);
-  std::string identity = version() + hash_of_file(settings.text("electrode") + "/electrode.data");
+  std::string identity = version() + hash_of_file(o.liggghts) +
+                         hash_of_file(input_scripts() + "/in.compression") +
+                         hash_of_file(input_scripts() + "/in.relaxation") +
+                         hash_of_folder(input_scripts() + "/common") +
+                         hash_of_file(settings.text("electrode") + "/electrode.data");
   for (const auto &[key, value] : settings.all())
     if (key != "electrode")
       identity += key + "=" + value + "\n";
@@ -254,6 +258,7 @@ void run_case(Settings settings, const RunOptions &o) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   facts.ranks = o.ranks;
   facts.case_hash = hash;
+  facts.program = hash_of_file(o.liggghts);
   const nlohmann::json s = collect(folder, settings, electrode, facts);
   fmt::print("run: maximum {:.1f} MPa, {:.2f} % of bonds broken, total porosity {:.2f} % after "
              "relaxation, {:.0f} s\n",

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "spec/provenance.h"
 #include "spec/messages.h"
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
+#include <vector>
 
 namespace calendem {
 namespace fs = std::filesystem;
@@ -22,6 +24,19 @@ std::string hash_of_file(const std::string &file) {
   if (!in)
     return "";
   return hash_of_text({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+}
+
+std::string hash_of_folder(const std::string &folder) {
+  std::vector<std::string> files;
+  std::error_code error;
+  for (const auto &entry : fs::recursive_directory_iterator(folder, error))
+    if (entry.is_regular_file())
+      files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  std::string text;
+  for (const std::string &file : files)
+    text += fs::path(file).lexically_relative(folder).string() + " " + hash_of_file(file) + "\n";
+  return hash_of_text(text);
 }
 
 std::string version() { return CALENDEM_VERSION; }

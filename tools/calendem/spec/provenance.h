@@ -11,6 +11,9 @@ namespace calendem {
 std::string hash_of_file(const std::string &file);
 std::string hash_of_text(const std::string &text);
 
+/// Of all files below `folder`, by name and bytes, in the order of their names.
+std::string hash_of_folder(const std::string &folder);
+
 std::string version();
 
 /// Folder with the input scripts: beside the installed program, else the source tree.
