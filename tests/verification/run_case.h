@@ -61,6 +61,7 @@ public:
   }
 
   bool finished() const { return status_ == 0; }
+  const std::filesystem::path &folder() const { return folder_; }
 
   std::string text(const std::string &file) const {
     std::ifstream in(folder_ / file);
