@@ -50,8 +50,8 @@ public:
     setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
     setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
     const std::string start = // one rank needs no launcher
-        ranks == 1 ? "" : "mpirun --oversubscribe -np " + std::to_string(ranks) + " ";
-    setenv("OMPI_MCA_ess_singleton_isolated", "1", 1);
+        ranks == 1 ? "OMPI_MCA_ess_singleton_isolated=1 OMPI_MCA_pml=ob1 OMPI_MCA_btl=self "
+                   : "mpirun --oversubscribe -np " + std::to_string(ranks) + " ";
     std::string command =
         "cd '" + folder_.string() + "' && " + start + "'" + (other ? other : CALENDEM_PROGRAM) +
         "' -screen none -in '" CALENDEM_CASES "/" + script + "' -var cases '" CALENDEM_CASES "'";

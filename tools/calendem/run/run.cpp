@@ -131,14 +131,14 @@ void prepare_folder(const RunOptions &o, const std::string &hash) {
   if (!old.is_discarded() && old.value("case_hash", "") != hash && !o.resume)
     throw Failure(
         kBadInput,
-        fmt::format("'{}' holds a finished run of another case. Give another -o, or --force "
-                    "to overwrite it",
+        fmt::format("'{}' holds a finished run of another case, electrode, program or scripts. Give "
+                    "another -o, or --force to overwrite it",
                     o.folder));
 }
 
 bool already_done(const RunOptions &o, const std::string &hash) {
   std::ifstream in(o.folder + "/summary.json");
-  if (!in || o.force)
+  if (!in)
     return false;
   const nlohmann::json old = nlohmann::json::parse(in, nullptr, false);
   return !old.is_discarded() && old.value("case_hash", "") == hash && old.value("finished", false);
