@@ -7,7 +7,7 @@
 #include "physics/hertz_contact.h"
 #include "physics/parallel_bond.h"
 #include "physics/sjkr_cohesion.h"
-#include "run_case.h"
+#include "spheres.h"
 
 using namespace calendem;
 
@@ -65,21 +65,32 @@ TEST(VerificationContact, HertzAgainstAWall) {
   EXPECT_LT(e, 1e-9);
 }
 
-TEST(VerificationContact, PullOffForceOfSjkr) {
+TEST(VerificationContact, PullOffForceAndWorkOfSjkr) {
   const CaseRun run("contact/in.contact", {{"restitution", "1"},
                                            {"friction", "0"},
                                            {"ced", number(ced)},
-                                           {"vz", "-0.001"},
+                                           {"vz", "0.001"},
+                                           {"z0", number(2 * R - 1e-3)},
                                            {"every", "1"},
-                                           {"steps", "10000"},
+                                           {"steps", "10010"},
                                            {"dt", "1e-4"}});
-  double least = 0.0, formula = 0.0;
-  for (const Row &row : run.rows("curve.csv"))
+  ASSERT_TRUE(run.finished()) << run.why();
+  double least = 0.0, work = 0.0, before = 0.0;
+  const double step = 0.001 * 1e-4;
+  for (const Row &row : run.rows("curve.csv")) { // work of the attraction, from equilibrium on
+    const double pull = std::fmax(-row.at("f"), 0.0);
     least = std::fmin(least, row.at("f"));
-  for (double d = 0.0; d < 0.02; d += 1e-7)
-    formula = std::fmin(formula, hertz_and_sjkr(2 * R - d));
-  std::printf("SJKR pull-off: %.6g nN, formula %.6g nN\n", least, formula);
-  EXPECT_NEAR(least / formula, 1.0, 1e-6);
+    work += 0.5 * (before + pull) * step;
+    before = pull;
+  }
+  const double R_eff = effective_radius(R, R), q = kPi * ced / E_eff;
+  const double force = 2.0 / 3.0 * kPi * R_eff * R_eff * q * q * ced;
+  const double overlap = sjkr_equilibrium_overlap(ced, E_eff, R_eff);
+  const double energy = kPi * R_eff * ced * overlap * overlap / 5.0;
+  std::printf("SJKR pull-off: force %.6g nN, formula %.6g nN; work %.6g fJ, formula %.6g fJ\n",
+              -least, force, work, energy);
+  EXPECT_NEAR(-least / force, 1.0, 2e-4);
+  EXPECT_NEAR(work / energy, 1.0, 4e-4);
 }
 
 TEST(VerificationContact, CollisionTimeAndSpeed) {
@@ -161,4 +172,66 @@ TEST(VerificationContact, RestitutionOfTheDampedContact) {
                 expected);
     EXPECT_NEAR(measured, expected, 2e-3 * expected);
   }
+}
+
+namespace {
+
+// A free bonded pair, thrown apart or together along its axis fast enough to break its bond.
+CaseRun thrown(double speed, const std::string &criterion, double dt) {
+  const std::vector<BodySphere> pair = {{{0, 0, 0}, R, 1, {-0.5 * speed, 0, 0}},
+                                        {{1.28, 0, 0}, R, 1, {0.5 * speed, 0, 0}}};
+  return CaseRun("in.body",
+                 {{"restitution", "1"},
+                  {"friction", "0"},
+                  {"ced", "0"},
+                  {"breakable", "yes"},
+                  {"criterion", criterion},
+                  {"dt", number(dt)},
+                  {"steps", number(std::round(6e-4 / dt))},
+                  {"every", "1"}},
+                 1, files_of(pair, {-20, -20, -20}, {20, 20, 20}));
+}
+
+struct Ledger {
+  double most, least; // change of kinetic + strain + lost + Hertz energy, in parts of the start
+  bool broken;
+};
+
+// Hertz beyond the reference, as the broken pair feels it.
+Ledger ledger(const CaseRun &run, double speed) {
+  const double start = 0.5 * (0.5 * mass) * speed * speed;
+  const auto frames = run.frames();
+  const std::vector<Row> rows = run.rows("curve.csv");
+  Ledger l = {0.0, 0.0, false};
+  EXPECT_EQ(frames.size(), rows.size() + 1) << run.why(); // the dump has the start as well
+  for (size_t n = 0; n < rows.size(); ++n) {
+    const double d = 1.28 - (frames[n + 1][1].at("x") - frames[n + 1][0].at("x"));
+    const double hertz =
+        d > 0.0 ? 8.0 / 15.0 * E_eff * std::sqrt(effective_radius(R, R)) * std::pow(d, 2.5) : 0.0;
+    const double sum = rows[n].at("kinetic") + rows[n].at("strain") + rows[n].at("lost") + hertz;
+    l.most = std::fmax(l.most, sum / start - 1.0);
+    l.least = std::fmin(l.least, sum / start - 1.0);
+    l.broken = l.broken || rows[n].at("intact") == 0;
+  }
+  return l;
+}
+
+} // namespace
+
+TEST(VerificationContact, ABreakReleasesNoEnergy) {
+  const double speed = 15.0; // m/s; at 10 m/s the bond would just hold
+  const double force = 2e5 * kPi * R * R, energy = 0.25 * mass * speed * speed;
+  const double stored = 0.5 * force * force / (2e8 * kPi * R * R / 1.28);
+  const double at_break = speed * std::sqrt(1.0 - stored / energy);
+  for (const std::string criterion : {"signed", "unsigned"})
+    for (const double dt : {2e-6, 1e-6}) {
+      const double v = criterion == "signed" ? speed : -speed; // apart; together
+      const Ledger l = ledger(thrown(v, criterion, dt), v);
+      const double last_pull = 0.5 * force * at_break * dt / energy;
+      std::printf("break, %s, step %g us: energy changes by %+.1e %+.1e; half a step's pull %.1e\n",
+                  criterion.c_str(), dt, l.most, l.least, last_pull);
+      EXPECT_TRUE(l.broken);
+      EXPECT_LT(l.most, 6.4e-5); // (omega dt)^2 / 4, as without a break
+      EXPECT_NEAR(-l.least / last_pull, 1.0, 0.05);
+    }
 }

@@ -47,6 +47,7 @@ TEST(VerificationRest, FreshBodiesStayWhereTheyAre) {
     std::printf("%d ranks: largest force %.1e of the bond's strength, kinetic energy %.1e fJ\n",
                 ranks, force, rows.back().at("kinetic"));
     EXPECT_LT(force, 1e-6);
+    EXPECT_LT(rows.back().at("kinetic"), 1e-6 * strength_force * 1.28e-9);
     EXPECT_TRUE(run.rows("breaks.csv").empty());
   }
 }
