@@ -7,7 +7,8 @@
 // the speed follows a smoothstep over `ramp_time`. Towards a pressure the speed is the lesser of
 // that and
 //   v = max((P_max - P)/3, 0.002 P_max) / (dP/dz * averaging window),
-// a first-order approach over three windows that ends with 0.2 % of the target per window.
+// a first-order approach over three windows that ends with 0.2 % of the target per window. P is the
+// pressure now, ahead of its average; the platen waits while P is there and the average is not.
 // Signs: z is up, closing speed is positive downwards. Source: project design (contract.md).
 // Deviations: none. Verified by tests/unit/physics/platen_motion_test.cpp and
 // tests/verification/platen.
@@ -44,6 +45,7 @@ struct PlatenState {
   double stage_start = 0.0;
   double max_pressure = 0.0; ///< largest averaged pressure
   double slope = 0.0;        ///< smoothed dP/d(closing) [kPa/um]
+  double rate = 0.0;         ///< smoothed rise of the averaged pressure [kPa/us]
   double last_average = 0.0;
   double reached = 0.0; ///< 1 if the target was met
 };
@@ -70,13 +72,22 @@ inline double approach_speed(double speed, double wanted, double scale, double r
   return speed + (change > most ? most : (change < -most ? -most : change));
 }
 
-/// Closing speed wanted during compression towards a pressure or a position.
+/// Pressure now: the average is that of half a window ago, its smoothed rate that of a quarter
+/// more.
+inline double pressure_now(const PlatenState &s, double average, double window) {
+  return average + 0.75 * window * std::fmax(s.rate, 0.0);
+}
+
+/// Closing speed wanted during compression towards a pressure or a position. On the second half of
+/// the way to a pressure the platen takes three windows for what is left, and waits while the
+/// average catches up.
 inline double closing_speed(const PlatenProgramme &p, const PlatenState &s, double average,
                             double window) {
   double wanted = average < p.touch_pressure ? p.touch_speed : p.load_speed;
   if (p.control == PlatenControl::Pressure && s.slope > 0.0 && window > 0.0) {
     const double per_window = s.slope * window; // rise of pressure in one window at unit speed
-    const double limit = std::fmax((p.target - average) / 3.0, 0.002 * p.target) / per_window;
+    const double left = p.target - pressure_now(s, average, window);
+    const double limit = left > 0.0 ? std::fmax(left / 3.0, 0.002 * p.target) / per_window : 0.0;
     if (average > 0.5 * p.target && limit < wanted)
       wanted = limit;
   }
@@ -137,9 +148,10 @@ inline void advance(const PlatenProgramme &p, PlatenState &s, double average, do
 /// single breaking bonds outweigh its motion.
 inline void update_slope(const PlatenProgramme &p, PlatenState &s, double average,
                          double interval) {
-  const double slope = (average - s.last_average) / (s.speed * interval);
-  if (s.speed > 0.2 * p.load_speed && slope > 0.0)
-    s.slope = s.slope > 0.0 ? 0.9 * s.slope + 0.1 * slope : slope;
+  const double rate = (average - s.last_average) / interval;
+  s.rate = 0.9 * s.rate + 0.1 * rate;
+  if (s.speed > 0.2 * p.load_speed && rate > 0.0)
+    s.slope = s.slope > 0.0 ? 0.9 * s.slope + 0.1 * rate / s.speed : rate / s.speed;
   s.last_average = average;
 }
 

@@ -51,7 +51,7 @@ case $case in
     rm -rf "$work/killed"
     "$bin/calendem" run "$work/case.toml" -o "$work/killed" --ranks 1 >"$work/killed.log" 2>&1 &
     for _ in $(seq 400); do
-      [ -s "$work/killed/breaks.csv" ] && [ "$(wc -l <"$work/killed/breaks.csv")" -gt 3 ] && break
+      [ -s "$work/killed/running.restart" ] && [ "$(wc -l <"$work/killed/curve_raw.csv")" -gt 12 ] && break
       sleep 0.05
     done
     pkill -9 -f "out $work/killed " || fail "the run ended before it could be killed"
@@ -59,6 +59,25 @@ case $case in
     "$bin/calendem" run "$work/case.toml" -o "$work/killed" --ranks 1 --resume
     cmp "$work/run/breaks.csv" "$work/killed/breaks.csv" || fail "break logs differ after --resume"
     cmp "$work/run/curve.csv" "$work/killed/curve.csv" || fail "curves differ after --resume" ;;
+  many_kills) # twenty kill -9 at random moments, every time gone on with: the uninterrupted run's bytes
+    [ "${CALENDEM_HEAVY:-0}" = 1 ] || { echo "skipped: calendering.many_kills runs with tools/test --all"; exit 77; }
+    rm -rf "$work/kills"
+    RANDOM=4
+    kills=0
+    for _ in $(seq 400); do
+      "$bin/calendem" run "$work/case.toml" -o "$work/kills" --ranks 1 --resume >"$work/kills.log" 2>&1 &
+      run=$!
+      [ $kills -ge 20 ] || sleep "$(awk "BEGIN { print 0.1 + $RANDOM / 32768 * 1.2 }")"
+      if [ $kills -lt 20 ] && pkill -9 -f "out $work/kills "; then kills=$((kills + 1)); fi
+      if wait $run; then break; fi
+      for f in curve.csv summary.json bodies.csv; do
+        [ ! -e "$work/kills/$f" ] || fail "$f is there before the run has ended"
+      done
+    done
+    echo "$kills kills"
+    [ $kills -gt 0 ] || fail "nothing was killed"
+    cmp "$work/run/breaks.csv" "$work/kills/breaks.csv" || fail "break logs differ after $kills kills"
+    cmp "$work/run/curve.csv" "$work/kills/curve.csv" || fail "curves differ after $kills kills" ;;
   two_ranks) # same bonds, same first break; later the order of sums parts the trajectories
     rm -rf "$work/ranks"
     "$bin/calendem" run "$work/case.toml" -o "$work/ranks" --ranks 2
