@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Requirement, formulas and tolerances: README.md of this folder.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "physics/weibull_strength.h"
+#include "spheres.h"
+
+using namespace calendem;
+
+namespace {
+
+constexpr double kModulus = 5.0, kMean = 2e5, kLength = 1.28, E = 2e8; // -, kPa, um, kPa
+constexpr std::uint64_t kSeed = 7;
+
+// `chains` chains of `bonds` bonds along x on a square grid, one body each; tags run along y and z
+// first, so that sphere k of chain c has the tag k chains + c + 1.
+Files chains_of(int bonds, int chains) {
+  const int row = static_cast<int>(std::ceil(std::sqrt(chains)));
+  std::vector<BodySphere> all;
+  for (int k = 0; k <= bonds; ++k)
+    for (int c = 0; c < chains; ++c)
+      all.push_back({{k * kLength, 3.0 * (c % row), 3.0 * (c / row)}, 0.795, c + 1});
+  const double wide = 3.0 * row;
+  return files_of(all, {-5, -5, -5}, {bonds * kLength + 5, wide, wide});
+}
+
+// Every bond is stretched alike (v = rate x) up to a stress of `upto` x kMean in `steps` steps.
+CaseRun stretch(int bonds, int chains, double upto, int steps) {
+  const double dt = 1e-4, rate = upto * kMean / E / (steps * dt);
+  Files files = chains_of(bonds, chains);
+  files["start.in"] += "unfix integrate\nvariable v atom " + number(rate) +
+                       "*x\nfix pull all move variable NULL NULL NULL v_v NULL NULL units box\n";
+  return CaseRun("in.body",
+                 {{"Ey", "1e3"},
+                  {"restitution", "1"},
+                  {"friction", "0"},
+                  {"ced", "0"},
+                  {"breakable", "yes"},
+                  {"weibull", number(kModulus)},
+                  {"seed", std::to_string(kSeed)},
+                  {"skin", "0.15"},
+                  {"dt", number(dt)},
+                  {"steps", std::to_string(steps)},
+                  {"every", std::to_string(steps)}},
+                 1, files);
+}
+
+struct Weibull {
+  double modulus, scale;
+};
+
+// Maximum likelihood: bisection on the modulus.
+Weibull fitted(const std::vector<double> &x) {
+  const auto slope = [&](double m) {
+    double p = 0.0, pl = 0.0, l = 0.0;
+    for (const double v : x) {
+      p += std::pow(v, m);
+      pl += std::pow(v, m) * std::log(v);
+      l += std::log(v);
+    }
+    return pl / p - 1.0 / m - l / x.size();
+  };
+  double low = 0.5, high = 50.0;
+  while (high - low > 1e-9) {
+    const double middle = 0.5 * (low + high);
+    (slope(middle) < 0.0 ? low : high) = middle;
+  }
+  double p = 0.0;
+  for (const double v : x)
+    p += std::pow(v, low);
+  return {low, std::pow(p / x.size(), 1.0 / low)};
+}
+
+} // namespace
+
+TEST(VerificationStrength, WeibullFromTenThousandBonds) {
+  const int bonds = 10000, steps = 1000;
+  const double upto = 2.0, increment = upto * kMean / steps;
+  const CaseRun run = stretch(1, bonds, upto, steps);
+  const std::vector<Row> breaks = run.rows("breaks.csv");
+  ASSERT_EQ(breaks.size(), static_cast<size_t>(bonds)) << run.why();
+  std::vector<double> strengths;
+  double worst = 0.0; // distance of the stress at the break beyond the bond's own strength
+  for (const Row &b : breaks) {
+    const double sigma = 1e3 * b.at("sigma_MPa");
+    const double own = kMean * weibull_factor(kModulus, kSeed, std::lround(b.at("tag_i")),
+                                              std::lround(b.at("tag_j")));
+    EXPECT_GE(sigma, own * (1.0 - 1e-5)); // six digits in the log
+    worst = std::fmax(worst, (sigma - own) / increment);
+    strengths.push_back((sigma - 0.5 * increment) / kMean);
+  }
+  const Weibull w = fitted(strengths);
+  const double scale = 1.0 / std::tgamma(1.0 + 1.0 / kModulus), root = std::sqrt(double(bonds));
+  const double z_modulus = (w.modulus / kModulus - 1.0) * root / 0.7797;
+  const double z_scale = (w.scale / scale - 1.0) * root * kModulus / 1.0526;
+  std::printf(
+      "Weibull: modulus %.4f of %g (%.2f standard errors), scale %.5f of %.5f (%.2f); break "
+      "at most %.3f increments late\n",
+      w.modulus, kModulus, z_modulus, w.scale, scale, z_scale, worst);
+  EXPECT_LT(std::fabs(z_modulus), 3.0);
+  EXPECT_LT(std::fabs(z_scale), 3.0);
+  EXPECT_LT(worst, 1.02);
+}
+
+TEST(VerificationStrength, AChainIsAsStrongAsItsWeakestBond) {
+  const int chains = 300, steps = 400;
+  for (const int bonds : {4, 32}) {
+    const CaseRun run = stretch(bonds, chains, 1.6, steps);
+    std::map<int, double> first; // by body; the log is in the order of time
+    for (const Row &b : run.rows("breaks.csv"))
+      first.insert({std::lround(b.at("body")), 1e3 * b.at("sigma_MPa") - 0.8 * kMean / steps});
+    ASSERT_EQ(first.size(), static_cast<size_t>(chains)) << run.why();
+    std::vector<double> strengths;
+    double mean = 0.0;
+    for (const auto &f : first) {
+      strengths.push_back(f.second / kMean);
+      mean += f.second / kMean / chains;
+    }
+    const double expected = std::pow(bonds, -1.0 / kModulus);
+    const double variation = std::sqrt(
+        std::tgamma(1.0 + 2.0 / kModulus) / std::pow(std::tgamma(1.0 + 1.0 / kModulus), 2) - 1.0);
+    const double z = (mean / expected - 1.0) * std::sqrt(double(chains)) / variation;
+    std::printf("chains of %d: strength %.4f, N^(-1/m) %.4f (%.2f standard errors), modulus %.2f\n",
+                bonds, mean, expected, z, fitted(strengths).modulus);
+    EXPECT_LT(std::fabs(z), 3.0);
+    EXPECT_NEAR(fitted(strengths).modulus / kModulus, 1.0,
+                3.0 * 0.7797 / std::sqrt(double(chains)));
+  }
+}
