@@ -121,7 +121,7 @@ Crushed crushed(const CaseRun &run) {
   }
   const size_t broken = run.rows("breaks.csv").size();
   EXPECT_EQ(curve.back().at("made") - curve.back().at("intact"), double(broken));
-  EXPECT_GT(broken, 10u);
+  EXPECT_GT(broken, 0u);
   return c;
 }
 
