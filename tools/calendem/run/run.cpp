@@ -131,9 +131,10 @@ void prepare_folder(const RunOptions &o, const std::string &hash) {
   if (!old.is_discarded() && old.value("case_hash", "") != hash && !o.resume)
     throw Failure(
         kBadInput,
-        fmt::format("'{}' holds a finished run of another case, electrode, program or scripts. Give "
-                    "another -o, or --force to overwrite it",
-                    o.folder));
+        fmt::format(
+            "'{}' holds a finished run of another case, electrode, program or scripts. Give "
+            "another -o, or --force to overwrite it",
+            o.folder));
 }
 
 bool already_done(const RunOptions &o, const std::string &hash) {
