@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "meeting.h"
 #include "spheres.h"
 
 using namespace calendem;
@@ -19,20 +20,6 @@ Vec3 rotated(const Vec3 &a, const Vec3 &u, double angle) {
 }
 
 Vec3 unit(const Vec3 &a) { return (1.0 / norm(a)) * a; }
-
-// Two shaken bodies that meet: bonds under all loads, contact with friction and cohesion between
-// them.
-std::vector<BodySphere> meeting() {
-  std::vector<BodySphere> all = cube(2, 1.28, {-2.1, -0.9, -0.8}, 1);
-  for (BodySphere s : cube(2, 1.28, {0.8, -0.3, -0.5}, 2))
-    all.push_back(s);
-  for (size_t n = 0; n < all.size(); ++n) {
-    all[n].v = {(all[n].body == 1 ? 2.0 : -2.0) + std::sin(1.0 + n), std::sin(2.0 + 3.0 * n),
-                std::cos(5.0 * n)};
-    all[n].omega = {std::cos(1.0 + n), std::cos(2.0 + 3.0 * n), std::sin(5.0 * n)};
-  }
-  return all;
-}
 
 constexpr int kSteps = 4000;
 constexpr double kStep = 2e-5, kHalf = 20.0;
