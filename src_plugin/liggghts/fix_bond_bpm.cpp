@@ -81,6 +81,7 @@ int FixBondBpm::friction_history_offset(int bond_offset) {
 }
 
 void FixBondBpm::init() {
+  check_materials();
   if (!created_)
     read_bodies();
   if (!log_ready_)

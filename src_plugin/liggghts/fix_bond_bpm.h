@@ -113,7 +113,13 @@ private:
   void parse(int narg, char **arg);
   int parse_keyword(int iarg, int narg, char **arg);
   double positive(const char *keyword, const char *text, bool zero_allowed);
+  std::uint64_t seed(const char *text);
   void check_settings();
+  void check_modulus(const char *what, double value);
+  void pair_error(const char *what, double value, int i, int j, const char *why);
+  const double *property(const char *name, const char *kind, int pairs_of);
+  void check_materials();
+  void check_collapse(int i, int j, double ced, double effective_modulus);
   void read_bodies();
   void check_box();
   bigint count_intact();

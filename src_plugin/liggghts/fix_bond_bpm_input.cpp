@@ -3,7 +3,9 @@
 #include "comm.h"
 #include "error.h"
 #include "fix_bond_bpm.h"
+#include "fix_property_global.h"
 #include "modify.h"
+#include "physics/hertz_contact.h"
 #include "update.h"
 #include <cerrno>
 #include <cmath>
@@ -25,6 +27,13 @@ double FixBondBpm::positive(const char *keyword, const char *text, bool zero_all
     error->fix_error(FLERR, this, message);
   }
   return value;
+}
+
+std::uint64_t FixBondBpm::seed(const char *text) {
+  const double value = positive("weibull seed", text, true);
+  if (value != std::floor(value) || value > 4294967295.0)
+    error->fix_error(FLERR, this, "the seed of 'weibull' must be a whole number below 2^32");
+  return static_cast<std::uint64_t>(value);
 }
 
 int FixBondBpm::parse_keyword(int iarg, int narg, char **arg) {
@@ -51,7 +60,7 @@ int FixBondBpm::parse_keyword(int iarg, int narg, char **arg) {
     settings_.strength.shear = positive("shear", value, false);
   else if (key == "weibull") {
     settings_.weibull_modulus = positive("weibull", value, true);
-    settings_.seed = static_cast<std::uint64_t>(positive("weibull seed", arg[iarg + 2], true));
+    settings_.seed = seed(arg[iarg + 2]);
   } else if (key == "log")
     log_file_ = value;
   else if (key == "pressure")
@@ -89,6 +98,7 @@ void FixBondBpm::check_settings() {
     error->fix_error(FLERR, this, "needs at least 'bodies FILE youngs_modulus E nu NU'");
   if (nu > 0.5)
     error->fix_error(FLERR, this, "'nu' must be between 0 and 0.5");
+  check_modulus("'youngs_modulus'", m.youngs_modulus);
   if (m.radius_ratio > 1.5)
     error->fix_error(FLERR, this, "'radius_ratio' must be between 0 and 1.5");
   if (m.damping > 1.0)
@@ -98,8 +108,72 @@ void FixBondBpm::check_settings() {
     error->fix_error(FLERR, this, "breakable bonds need 'tensile' and 'shear' strengths (kPa) > 0");
 }
 
+// Ten times diamond in units micro, where 1 is 1 kPa: such a value is in Pa.
+void FixBondBpm::check_modulus(const char *what, double value) {
+  const double most = 1e10;
+  char message[256];
+  snprintf(message, sizeof message,
+           "%s is %g kPa = %g GPa; at most %g GPa is allowed. Is it given in Pa? The input scripts "
+           "take GPa",
+           what, value, 1e-6 * value, 1e-6 * most);
+  if (!strcmp(update->unit_style, "micro") && value > most)
+    error->fix_error(FLERR, this, message);
+}
+
+void FixBondBpm::pair_error(const char *what, double value, int i, int j, const char *why) {
+  char message[400];
+  snprintf(message, sizeof message, "%s of atom types %d and %d is %g in the script's units; %s",
+           what, i, j, value, why);
+  error->fix_error(FLERR, this, message);
+}
+
+// Values of a global property, one per type or pair of types; NULL if the script sets none.
+const double *FixBondBpm::property(const char *name, const char *kind, int pairs_of) {
+  const int n = atom->ntypes;
+  FixPropertyGlobal *fix = static_cast<FixPropertyGlobal *>(
+      modify->find_fix_property(name, "property/global", kind, n, pairs_of * n, style, false));
+  return fix ? fix->get_values() : NULL;
+}
+
+void FixBondBpm::check_materials() {
+  const int n = atom->ntypes;
+  const double *E = property("youngsModulus", "peratomtype", 0);
+  const double *nu = property("poissonsRatio", "peratomtype", 0);
+  const double *ced = property("cohesionEnergyDensity", "peratomtypepair", 1);
+  char what[64];
+  for (int i = 0; E && i < n; ++i) {
+    snprintf(what, sizeof what, "youngsModulus of atom type %d", i + 1);
+    check_modulus(what, E[i]);
+  }
+  const double *friction = property("coefficientFriction", "peratomtypepair", 1);
+  for (int i = 0; i < n; ++i)
+    for (int j = i; j < n; ++j) {
+      if (friction && !(friction[i * n + j] >= 0.0))
+        pair_error("coefficientFriction", friction[i * n + j], i + 1, j + 1, "it must be >= 0");
+      if (ced && !(ced[i * n + j] >= 0.0))
+        pair_error("cohesionEnergyDensity", ced[i * n + j], i + 1, j + 1, "it must be >= 0");
+      if (E && nu && ced)
+        check_collapse(i + 1, j + 1, ced[i * n + j],
+                       calendem::effective_modulus(E[i], nu[i], E[j], nu[j]));
+    }
+}
+
+// Two spheres that nothing but SJKR and Hertz act on; the overlap scales as (CED/E)^2.
+void FixBondBpm::check_collapse(int i, int j, double ced, double effective_modulus) {
+  const double most = 0.3; // the paper's own values give up to 0.07
+  const double overlap = calendem::sjkr_equilibrium_overlap(ced, effective_modulus, 0.5);
+  char message[256];
+  snprintf(message, sizeof message,
+           "it pulls equal spheres into each other by %.3g of their radius and at most %g is "
+           "allowed, or the packing collapses. Lower it or raise youngsModulus: the overlap scales "
+           "as (CED/E)^2",
+           overlap, most);
+  if (overlap > most)
+    pair_error("cohesionEnergyDensity", ced, i, j, message);
+}
+
 // The file has rows `tag body`, body >= 1; '#' starts a comment. Atoms without a row belong to
-// none.
+// none. A comment `# tag body, N rows` says how many rows must follow.
 void FixBondBpm::read_bodies() {
   const int highest = atom->tag_max();
   std::vector<int> &body_of = body_of_tag_;
@@ -111,10 +185,12 @@ void FixBondBpm::read_bodies() {
       snprintf(problem, sizeof problem, "cannot open the body map '%.300s': %s",
                bodies_file_.c_str(), strerror(errno));
     char line[256];
+    int announced = -1, rows = 0;
     for (int row = 1; fp && !problem[0] && fgets(line, sizeof line, fp); ++row) {
       int tag = 0, body = 0;
       char rest = 0;
       const int n = sscanf(line, "%d %d %c", &tag, &body, &rest);
+      sscanf(line, "# tag body, %d rows", &announced);
       if (line[strspn(line, " \t\r\n")] == '\0' || line[strspn(line, " \t")] == '#')
         continue;
       if (n != 2 || tag < 1 || tag > highest || body < 1 || body_of[tag])
@@ -122,9 +198,17 @@ void FixBondBpm::read_bodies() {
                  "%.200s:%d: '%.60s' is not a row 'tag body' with 1 <= tag <= %d (each once) and "
                  "body >= 1",
                  bodies_file_.c_str(), row, strtok(line, "\r\n"), highest);
-      else
+      else {
         body_of[tag] = body;
+        ++rows;
+      }
     }
+    if (!problem[0] && announced >= 0 && rows != announced)
+      snprintf(
+          problem, sizeof problem,
+          "the body map '%.300s' announces %d rows and holds %d: it is cut. Make the electrode "
+          "again",
+          bodies_file_.c_str(), announced, rows);
     if (fp)
       fclose(fp);
   }

@@ -124,8 +124,18 @@ void FixWallGranPlaten::parse() {
       programme_.release_speed <= 0.0)
     error->fix_error(FLERR, this,
                      "a moving platen needs 'touch_speed', 'load_speed' and 'release_speed' > 0");
+  if (programme_.lost_fraction >= 1.0)
+    error->fix_error(FLERR, this, "'lost' is a fraction of the maximum pressure, below 1");
+  if (programme_.control == PlatenControl::Pressure && !strcmp(update->unit_style, "micro") &&
+      programme_.target > 1e8)
+    error->fix_error(
+        FLERR, this,
+        "'pressure' is more than 100 GPa (units micro: 1 is 1 kPa). Is it given in Pa? "
+        "The input scripts take MPa");
   if (programme_.control == PlatenControl::Position && programme_.target >= programme_.start)
-    error->fix_error(FLERR, this, "the target position must lie below the start");
+    error->fix_error(FLERR, this,
+                     "the target position must lie below the start ('zplane'); nothing would be "
+                     "compressed");
   enter(record_.state, PlatenStage::Compression, update->ntimestep * update->dt);
 }
 

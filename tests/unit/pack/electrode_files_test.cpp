@@ -31,7 +31,7 @@ TEST(DataFile, HoldsEveryParticleAndTheBox) {
     EXPECT_NE(all.find(part), std::string::npos) << part;
 }
 
-TEST(BodyMap, HasPrimariesOnly) { EXPECT_EQ(body_map(three()), "# tag body\n1 1\n2 1\n"); }
+TEST(BodyMap, HasPrimariesOnly) { EXPECT_EQ(body_map(three()), "# tag body, 2 rows\n1 1\n2 1\n"); }
 
 TEST(ScriptVariables, AgreeWithTheRecipe) {
   const Recipe recipe = cell(15.0);

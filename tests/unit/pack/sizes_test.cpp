@@ -87,4 +87,13 @@ TEST(PrimaryCounts, AddUpExactlyAndKeepTheSizes) {
   }
 }
 
+// 20 bodies of a third of a primary and one of two cannot all be kept in 8 primaries.
+TEST(PrimaryCounts, TinyBodiesAreLeftOutRatherThanTheLargestSpent) {
+  std::vector<double> d(20, 1.28 * std::cbrt(2.0 / kPi));
+  d.insert(d.begin(), 1.28 * std::cbrt(12.0 / kPi));
+  const std::vector<int> counts = primary_counts(d, 1.28, 8);
+  EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0), 8);
+  EXPECT_GE(*std::min_element(counts.begin(), counts.end()), 1);
+}
+
 } // namespace

@@ -31,11 +31,14 @@ std::string data_file(const Recipe &recipe, const std::vector<Particle> &particl
 }
 
 std::string body_map(const std::vector<Particle> &particles) {
-  std::string out = "# tag body\n";
+  std::string rows;
+  size_t n = 0;
   for (const Particle &p : particles)
-    if (p.body > 0)
-      out += fmt::format("{} {}\n", p.tag, p.body);
-  return out;
+    if (p.body > 0) {
+      rows += fmt::format("{} {}\n", p.tag, p.body);
+      ++n;
+    }
+  return fmt::format("# tag body, {} rows\n", n) + rows;
 }
 
 std::string script_variables(const Recipe &r, double thickness) {

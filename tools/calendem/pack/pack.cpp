@@ -80,6 +80,19 @@ bool holds_already(const std::string &summary, const std::string &identity) {
   return old.is_object() && old.value("identity", "") == identity;
 }
 
+void check_machine(const Recipe &r, const PackOptions &o) {
+  Mistakes mistakes("pack");
+  const int most = most_ranks(r.cell_x, r.cell_y, std::max(r.primary_diameter, r.cbd_diameter));
+  if (o.ranks > most)
+    mistakes.add(0,
+                 fmt::format("--ranks {}: a cell of {} x {} um can be shared by at most {} ranks "
+                             "whose parts are wider than a cut-off.",
+                             o.ranks, r.cell_x, r.cell_y, most));
+  if (const std::string wrong = wrong_program(o.liggghts); !wrong.empty())
+    mistakes.add(0, wrong);
+  mistakes.stop_if_any();
+}
+
 void make_folder(const std::string &folder) {
   std::error_code error;
   fs::create_directories(folder + "/vtk", error);
@@ -124,6 +137,7 @@ void pack_electrode(const Recipe &recipe, PackOptions o) {
     fmt::print("pack: {} already holds this electrode\n", o.folder);
     return;
   }
+  check_machine(recipe, o);
   const auto begin = std::chrono::steady_clock::now();
   const std::vector<Body> bodies = make_bodies(recipe);
   make_folder(o.folder);

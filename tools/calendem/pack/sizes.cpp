@@ -98,8 +98,17 @@ std::vector<int> primary_counts(const std::vector<double> &diameters, double lat
     counts.push_back(std::max(1, static_cast<int>(std::lround(wanted))));
     carried = wanted - counts.back();
   }
-  // only where small bodies became one whole primary
-  counts.front() += total - std::accumulate(counts.begin(), counts.end(), 0);
+  // Where small bodies became one whole primary, there are too many: the largest give theirs, then
+  // bodies of one are left out.
+  int excess = std::accumulate(counts.begin(), counts.end(), 0) - total;
+  for (; excess > 0; --excess) {
+    const auto largest = std::max_element(counts.begin(), counts.end());
+    if (*largest > 1)
+      --*largest;
+    else
+      counts.pop_back();
+  }
+  counts.front() -= excess;
   return counts;
 }
 

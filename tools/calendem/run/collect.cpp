@@ -16,6 +16,8 @@ const char *const kStageNames[] = {"hold", "compression", "dwell", "relaxation",
 
 // Waves after a burst of breaks swing for some tenths of a microsecond.
 constexpr double kImbalanceWindow = 0.5; // us
+// Rows are 0.1 us apart: the highest of them lies a little below the pressure that was met.
+constexpr double kTargetTolerance = 0.02;
 
 double total_porosity(const ElectrodeFacts &e, double gap) {
   return 1.0 - e.solid / (e.area * gap);
@@ -89,21 +91,44 @@ nlohmann::json quasi_static(const std::vector<RawRow> &rows, double average) {
           {"rows_with_difference_above_5_percent", over}};
 }
 
-void check(const std::string &folder, const std::vector<RawRow> &rows, const ElectrodeFacts &e,
-           long logged) {
-  Mistakes wrong(folder);
+std::string platen_stopped(const std::vector<RawRow> &rows, const Settings &s) {
+  double pressure = 0.0, gap = rows.front().gap, moved = 0.0;
+  for (const RawRow &r : rows) {
+    pressure = std::max(pressure, r.p_top);
+    gap = std::min(gap, r.gap);
+    moved = std::max(moved, r.displacement);
+  }
+  const std::string &control = s.text("platen.control");
+  const std::string key =
+      control == "pressure" ? "platen.max_pressure_MPa" : "platen." + control + "_um";
+  const double target = s.number(key);
+  const bool reached = control == "pressure"    ? pressure >= (1.0 - kTargetTolerance) * target
+                       : control == "thickness" ? gap <= (1.0 + kTargetTolerance) * target
+                                                : moved >= (1.0 - kTargetTolerance) * target;
+  return reached
+             ? ""
+             : fmt::format("the platen stopped at its lowest position, {:.2f} um, at {:.1f} MPa "
+                           "and did not reach {} = {}. Ask for less, or check the units of the "
+                           "moduli",
+                           gap, pressure, key, target);
+}
+
+std::vector<std::string> failed_checks(const std::vector<RawRow> &rows, const Settings &settings,
+                                       const ElectrodeFacts &e, long logged) {
+  std::vector<std::string> failed;
   const RawRow &last = rows.back();
+  if (const std::string short_of = platen_stopped(rows, settings); !short_of.empty())
+    failed.push_back(short_of);
   if (last.made != e.bonds)
-    wrong.add(
-        0, fmt::format("{} bonds were made, but the electrode has {} pairs of one body that touch",
-                       last.made, e.bonds));
+    failed.push_back(
+        fmt::format("{} bonds were made, but the electrode has {} pairs of one body that touch",
+                    last.made, e.bonds));
   if (last.broken != logged)
-    wrong.add(0, fmt::format("the curve ends with {} broken bonds, breaks.csv holds {}",
-                             last.broken, logged));
+    failed.push_back(fmt::format("the curve ends with {} broken bonds, breaks.csv holds {}",
+                                 last.broken, logged));
   if (last.tension + last.bending + last.shear + last.torsion != last.broken)
-    wrong.add(0, "the four modes do not add up to the broken bonds");
-  if (!wrong.empty())
-    throw Failure(kCheckFailed, wrong.text());
+    failed.push_back("the four modes do not add up to the broken bonds");
+  return failed;
 }
 
 long count_rows(const std::string &file) {
@@ -160,6 +185,7 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   const RawRow top = *std::max_element(
       rows.begin(), rows.end(), [](const RawRow &a, const RawRow &b) { return a.p_top < b.p_top; });
   const double lost = settings.number("platen.contact_lost_fraction");
+  // a run that was stopped has no gap after relaxation: the last one stands for it
   const double gap = gap_at_loss(rows, lost, top.p_top).value_or(rows.back().gap);
   nlohmann::json s;
   s["max_pressure_MPa"] = top.p_top;
@@ -194,7 +220,7 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   s["timestep_us"] = dt;
   s["steps"] = static_cast<long>(rows.back().step);
   s["case_hash"] = facts.case_hash;
-  s["finished"] = rows.back().stage > 3.5;
+  s["finished"] = rows.back().stage > 3.5 && facts.stopped_because.empty();
   s["provenance"] = {
       {"calendem", version()},
       {"case_toml", hash_of_file(folder + "/case.toml")},
@@ -202,9 +228,20 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
       {"liggghts", facts.program.empty() ? "not known" : facts.program},
       {"input_scripts", hash_of_folder(input_scripts() + "/common")},
       {"hashes", "64-bit FNV-1a"}};
-  check(folder, rows, e, count_rows(folder + "/breaks.csv"));
+  if (facts.stopped_because.empty())
+    s["failed_checks"] = failed_checks(rows, settings, e, count_rows(folder + "/breaks.csv"));
+  else
+    s["stopped_because"] = facts.stopped_because;
   write_file(folder + "/summary.json", s.dump(2) + "\n");
   return s;
+}
+
+void stop_if_checks_failed(const nlohmann::json &summary, const std::string &folder) {
+  Mistakes failed(folder);
+  for (const auto &text : summary.value("failed_checks", nlohmann::json::array()))
+    failed.add(0, text.get<std::string>() + ". What was computed is kept.");
+  if (!failed.empty())
+    throw Failure(kCheckFailed, failed.text());
 }
 
 } // namespace calendem

@@ -30,15 +30,22 @@ struct RunFacts {
   double wall_clock_s = 0.0;
   int ranks = 0;
   std::string case_hash;
-  std::string program; ///< hash of LIGGGHTS
+  std::string program;         ///< hash of LIGGGHTS
+  std::string stopped_because; ///< empty: it ran to its end
 };
 
-/// Writes the files; returns the summary. Throws Failure(4) if created != intact + broken, if the
-/// log of breaks and the curve disagree, or if the bonds made are not those of the electrode.
+/// Writes the files; returns the summary. Checks that did not hold are in its "failed_checks": the
+/// target was not reached, the log of breaks and the curve disagree, or the bonds made are not
+/// those of the electrode. A run that was stopped is not checked. Throws Failure(3) if there is no
+/// curve.
 nlohmann::json collect(const std::string &folder, const Settings &settings,
                        const ElectrodeFacts &electrode, const RunFacts &facts);
 
-/// vtk/{particles,bonds,platen}.pvd over the frames; returns step -> time of the particle frames.
+/// Throws Failure(4) with the summary's failed checks, if there are any.
+void stop_if_checks_failed(const nlohmann::json &summary, const std::string &folder);
+
+/// vtk/{particles,bonds,platen}.pvd over the frames; frames that
+/// were not written to their end are left out. Returns step -> time of the particle frames.
 std::vector<std::pair<long, double>> write_series(const std::string &folder, double dt);
 /// Height [um] below which 99.9 % of the particle tops of a frame lie.
 double height_of_tops(const std::string &folder, long step);

@@ -27,6 +27,8 @@ void collect_folder(const std::string &folder, const std::string &electrode) {
              read_raw(folder + "/curve_raw.csv").size(), s["max_pressure_MPa"].get<double>(),
              100 * s["broken_fraction_after"].get<double>(),
              s["finished"].get<bool>() ? "finished" : "not finished");
+  if (s["finished"].get<bool>())
+    stop_if_checks_failed(s, folder);
 }
 
 } // namespace

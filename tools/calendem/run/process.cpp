@@ -71,44 +71,90 @@ pid_t start(const LiggghtsJob &job) {
   return pid;
 }
 
+/// The lines that say why: LIGGGHTS's own errors, else mpirun's report of a rank that was killed,
+/// else the last line.
 std::string own_error(const std::string &screen) {
   std::ifstream in(screen);
-  std::string line, errors, last;
+  std::string line, errors, killed, last;
   while (std::getline(in, line)) {
     if (line.rfind("ERROR", 0) == 0 && errors.find(line) == std::string::npos)
       errors += line + "\n";
+    if (line.find("exited on signal") != std::string::npos)
+      killed += line + "\n";
     if (!line.empty() && line.find("---") == std::string::npos)
       last = line;
   }
-  return errors.empty() ? last + "\n" : errors;
+  if (!errors.empty())
+    return errors;
+  return killed.empty() ? last + "\n" : killed;
 }
 
-} // namespace
+std::string folder_of(const LiggghtsJob &job) {
+  return std::filesystem::path(job.log).parent_path().string();
+}
 
-void run_liggghts(const LiggghtsJob &job, const std::function<void()> &tick) {
-  if (!std::filesystem::exists(job.program))
-    throw Failure(kBadInput,
-                  fmt::format("no program '{}'. Build it with tools/build, or give its path "
-                              "with --liggghts",
-                              job.program));
-  asked_to_stop = 0;
-  const auto old_int = std::signal(SIGINT, on_signal), old_term = std::signal(SIGTERM, on_signal);
-  const pid_t pid = start(job);
-  int status = 0;
-  bool told = false;
+/// Why the job must be stopped, empty if it may go on.
+std::string reason_to_stop(const LiggghtsJob &job) {
+  if (asked_to_stop)
+    return fmt::format("stopped on request (signal {})", asked_to_stop);
+  const std::uintmax_t left = room_on_disk(folder_of(job));
+  if (left < job.room)
+    return fmt::format(
+        "stopped because the disk of '{}' is almost full: {:.1f} MB are left, {:.1f} "
+        "MB are needed for the next files. Make room",
+        folder_of(job), 1e-6 * left, 1e-6 * job.room);
+  return "";
+}
+
+/// Waits; returns the reason if the job was stopped. mpirun is told once and takes its ranks along;
+/// told twice it leaves at once and the ranks go on without it.
+std::string wait_for(pid_t pid, const LiggghtsJob &job, int &status,
+                     const std::function<void()> &tick) {
+  std::string stopped;
   while (waitpid(pid, &status, WNOHANG) == 0) {
-    if (asked_to_stop && !told) {
-      kill(pid, SIGTERM);
-      told = true;
+    if (stopped.empty()) {
+      stopped = reason_to_stop(job);
+      if (!stopped.empty())
+        kill(pid, SIGTERM);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(400));
     tick();
   }
+  return stopped;
+}
+
+} // namespace
+
+std::uintmax_t room_on_disk(const std::string &folder) {
+  std::error_code error;
+  const auto space = std::filesystem::space(folder, error);
+  return error ? UINTMAX_MAX : space.available;
+}
+
+std::string wrong_program(const std::string &program) {
+  std::error_code none;
+  if (!std::filesystem::exists(program, none))
+    return fmt::format("no program '{}'. Build it with tools/build, or give its path with "
+                       "--liggghts.",
+                       program);
+  if (std::filesystem::is_directory(program, none) || access(program.c_str(), X_OK) != 0)
+    return fmt::format("'{}' is not a program that can be started. Give the path of liggghts with "
+                       "--liggghts.",
+                       program);
+  return "";
+}
+
+void run_liggghts(const LiggghtsJob &job, const std::function<void()> &tick) {
+  if (const std::string wrong = wrong_program(job.program); !wrong.empty())
+    throw Failure(kBadInput, wrong);
+  asked_to_stop = 0;
+  const auto old_int = std::signal(SIGINT, on_signal), old_term = std::signal(SIGTERM, on_signal);
+  int status = 0;
+  const std::string stopped = wait_for(start(job), job, status, tick);
   std::signal(SIGINT, old_int);
   std::signal(SIGTERM, old_term);
-  if (asked_to_stop)
-    throw Failure(kSimulationFailed,
-                  "stopped on request; what was computed is kept and --resume goes on");
+  if (!stopped.empty())
+    throw Failure(kSimulationFailed, stopped);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
     throw Failure(kSimulationFailed,
                   fmt::format("LIGGGHTS failed ({}):\n{}The whole output is in {}",

@@ -3,6 +3,7 @@
 #ifndef CALENDEM_RUN_PROCESS_H
 #define CALENDEM_RUN_PROCESS_H
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
@@ -17,10 +18,19 @@ struct LiggghtsJob {
   std::string log;    ///< log.liggghts; its folder is the working folder, so paths must be absolute
   std::string screen; ///< file that takes what the program prints
   std::vector<std::pair<std::string, std::string>> variables; ///< -var NAME VALUE
+  std::uintmax_t room =
+      0; ///< bytes that must stay free on the disk of `log`, else the job is stopped
 };
 
+/// What is wrong with the program, what to do; empty if it can be started.
+std::string wrong_program(const std::string &program);
+
+/// Bytes that may still be written there.
+std::uintmax_t room_on_disk(const std::string &folder);
+
 /// Runs the job; calls `tick` about twice a second meanwhile. SIGINT and SIGTERM are passed on.
-/// Throws Failure(3) with LIGGGHTS's own error if it fails, Failure(2) if it cannot be started.
+/// Throws Failure(3) with LIGGGHTS's own error if it fails or is stopped, Failure(2) if it cannot
+/// be started.
 void run_liggghts(const LiggghtsJob &job, const std::function<void()> &tick);
 
 } // namespace calendem

@@ -4,6 +4,7 @@
 #define CALENDEM_RUN_RUN_H
 
 #include "spec/toml_reader.h"
+#include <cstdint>
 #include <string>
 
 namespace calendem {
@@ -13,11 +14,13 @@ struct RunOptions {
   std::string liggghts;
   int ranks = 2;
   bool resume = false;
-  bool force = false; ///< overwrite a finished run of another case
+  bool force = false; ///< overwrite a run of another case or an unfinished one
 };
 
-/// Throws Failure: 2 bad input, 3 the simulation failed, 4 a check did not hold.
-void run_case(Settings settings, const RunOptions &options);
+/// What was computed is collected and kept however the run ends, marked in summary.json
+/// ("finished", "stopped_because", "failed_checks"). Throws Failure: 2 bad input, 3 the simulation
+/// failed, 4 a check did not hold.
+void run_case(const Settings &settings, RunOptions options);
 
 /// The electrode that a case names.
 struct ElectrodeFacts {
@@ -28,7 +31,7 @@ struct ElectrodeFacts {
   double am = 0.0;
   double lx = 0.0, ly = 0.0;
   double lattice = 0.0, primary_diameter = 0.0;
-  long bonds = 0, atoms = 0, bodies = 0;
+  long bonds = 0, atoms = 0, bodies = 0, primaries = 0;
 };
 
 /// Throws Failure(2) if a file is missing or cut.

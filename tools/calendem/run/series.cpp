@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
 #include <vtkDataArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -18,13 +19,22 @@ namespace {
 
 constexpr double kVoxel = 0.2; // um
 
+/// A frame that LIGGGHTS was stopped in lacks its end.
+bool is_whole(const std::filesystem::path &file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string tail(20, ' ');
+  in.seekg(-std::streamoff(tail.size()), std::ios::end);
+  in.read(tail.data(), tail.size());
+  return in && tail.find("</VTKFile>") != std::string::npos;
+}
+
 std::vector<long> steps_of(const std::string &folder, const std::string &family) {
   std::vector<long> steps;
   const std::string prefix = family + "_";
   for (const auto &entry : fs::directory_iterator(folder + "/vtk")) {
     const std::string name = entry.path().filename().string();
     if (name.rfind(prefix, 0) == 0 && entry.path().extension() == ".vtp" &&
-        std::isdigit(static_cast<unsigned char>(name[prefix.size()])))
+        std::isdigit(static_cast<unsigned char>(name[prefix.size()])) && is_whole(entry.path()))
       steps.push_back(std::atol(name.c_str() + prefix.size()));
   }
   std::sort(steps.begin(), steps.end());
@@ -70,9 +80,9 @@ std::vector<std::pair<long, double>> write_series(const std::string &folder, dou
   for (const char *family : {"particles", "bonds", "platen"}) {
     std::string text =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n <Collection>\n";
-    frames.clear();
     for (long step : steps_of(folder, family)) {
-      frames.emplace_back(step, step * dt);
+      if (family == std::string("particles"))
+        frames.emplace_back(step, step * dt);
       text += fmt::format("  <DataSet timestep=\"{:.9g}\" file=\"{}_{}.vtp\"/>\n", step * dt,
                           family, step);
     }

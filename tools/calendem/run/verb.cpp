@@ -20,7 +20,8 @@ void add_run_verb(CLI::App &app) {
   verb->add_option("-o,--output", a->options.folder, "folder of the run")->required();
   verb->add_option("--ranks", a->options.ranks, "MPI ranks")->check(CLI::Range(1, 4096));
   verb->add_flag("--resume", a->options.resume, "go on from the newest restart file");
-  verb->add_flag("--force", a->options.force, "overwrite a finished run that is not this one");
+  verb->add_flag("--force", a->options.force,
+                 "overwrite a run of another case or an unfinished one");
   verb->add_option("--liggghts", a->options.liggghts, "program with the plugin");
   verb->callback([a] { run_case(read_case(a->spec), a->options); });
 }

@@ -1,15 +1,24 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "spec/messages.h"
+#include <algorithm>
+#include <climits>
 #include <fmt/format.h>
 
 namespace calendem {
 
-void Mistakes::add(int line, const std::string &text) {
-  list_.push_back(line > 0 ? fmt::format("{}:{}: {}", file_, line, text)
-                           : fmt::format("{}: {}", file_, text));
-}
+void Mistakes::add(int line, const std::string &text) { list_.emplace_back(line, text); }
 
-std::string Mistakes::text() const { return fmt::format("{}", fmt::join(list_, "\n")); }
+std::string Mistakes::text() const {
+  auto sorted = list_;
+  const auto rank = [](const auto &entry) { return entry.first > 0 ? entry.first : INT_MAX; };
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](const auto &a, const auto &b) { return rank(a) < rank(b); });
+  std::vector<std::string> rows;
+  for (const auto &[line, text] : sorted)
+    rows.push_back(line > 0 ? fmt::format("{}:{}: {}", file_, line, text)
+                            : fmt::format("{}: {}", file_, text));
+  return fmt::format("{}", fmt::join(rows, "\n"));
+}
 
 void Mistakes::stop_if_any() const {
   if (!empty())

@@ -6,6 +6,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace calendem {
@@ -30,13 +31,15 @@ public:
   /// `line` 0: not bound to a line.
   void add(int line, const std::string &text);
   bool empty() const { return list_.empty(); }
+  const std::string &file() const { return file_; }
+  /// One per line, in the order of the file; those without a line come last.
   std::string text() const;
   /// Throws Failure with exit status 2 if there are any.
   void stop_if_any() const;
 
 private:
   std::string file_;
-  std::vector<std::string> list_;
+  std::vector<std::pair<int, std::string>> list_;
 };
 
 } // namespace calendem

@@ -9,7 +9,7 @@ namespace calendem {
 const std::vector<Key> &recipe_keys() {
   static const std::vector<Key> keys = {
       {"name", "", "electrode", 0, 0, "", "a name for reports", "", true},
-      {"seed", "", "1", 0, 4e9, "", "of all random numbers"},
+      {"seed", "", "1", 0, 4e9, "", "of all random numbers", "", false, true},
       {"composition.am_weight_percent", "", "96", 50, 100, "%",
        "active material in the dry coating"},
       {"composition.carbon_weight_percent", "", "2", 0, 50, "%", "carbon black"},
@@ -45,18 +45,65 @@ double Recipe::largest_body() const {
   return std::min(max_diameter, max_width_fraction * std::min(cell_x, cell_y));
 }
 
-Recipe read_recipe(const std::string &file) {
-  Mistakes mistakes(file);
-  const Settings s = read_toml(file, recipe_keys(), mistakes);
-  mistakes.stop_if_any();
+namespace {
+
+void check_composition(const Settings &s, Mistakes &mistakes) {
+  const std::string at = "composition.", per = "_weight_percent";
+  if (!s.sound({at + "am" + per, at + "carbon" + per, at + "binder" + per}))
+    return;
+  const double am = s.number(at + "am" + per), carbon = s.number(at + "carbon" + per),
+               binder = s.number(at + "binder" + per), sum = am + carbon + binder;
+  if (std::fabs(sum - 100.0) <= 0.01)
+    return;
+  const bool fractions = std::fabs(am + 100.0 * (carbon + binder) - 100.0) <= 0.01;
+  mistakes.add(s.line(at + "am" + per),
+               fmt::format("[composition] adds up to {:.6g} % (active material {:.6g}, carbon "
+                           "{:.6g}, binder {:.6g}); it must be 100 %.{}",
+                           sum, am, carbon, binder,
+                           fractions ? " Carbon and binder look like fractions." : ""));
+}
+
+void check_spheres(const Settings &s, const Recipe &r, Mistakes &mistakes) {
+  const double nano = s.number("cbd.nanoporosity_percent");
+  if (s.sound({"cbd.nanoporosity_percent"}) && nano > 0.0 && nano < 1.0)
+    mistakes.add(s.line("cbd.nanoporosity_percent"),
+                 fmt::format("cbd.nanoporosity_percent is {}, which looks like a fraction; give "
+                             "{:.4g} for {} of the sphere's volume, or 0.",
+                             nano, 100.0 * nano, nano));
+  if (s.sound({"particles.lattice_um", "particles.primary_diameter_um"}) &&
+      (r.lattice >= r.primary_diameter || r.primary_diameter >= std::sqrt(2.0) * r.lattice))
+    mistakes.add(
+        s.line("particles.primary_diameter_um"),
+        fmt::format("particles.primary_diameter_um = {} must lie between 1 and 1.414 times "
+                    "lattice_um = {}, so that primaries touch along the lattice's axes "
+                    "only.",
+                    r.primary_diameter, r.lattice));
+}
+
+void check_cell(const Settings &s, const Recipe &r, Mistakes &mistakes) {
+  if (!s.sound({"cell.x_um", "cell.y_um", "particles.primary_diameter_um", "cbd.diameter_um"}))
+    return;
+  const double side = std::min(r.cell_x, r.cell_y);
+  const double cut_off = neighbour_cut_off(std::max(r.primary_diameter, r.cbd_diameter));
+  const int line = s.line(r.cell_x <= r.cell_y ? "cell.x_um" : "cell.y_um");
+  if (side < 2.0 * cut_off)
+    mistakes.add(line, fmt::format("a periodic side of {} um is shorter than two cut-offs ({:.2f} "
+                                   "um): a particle would touch two images of another. Make the "
+                                   "cell larger.",
+                                   side, 2.0 * cut_off));
+  if (s.sound({"particles.min_um", "particles.max_um", "particles.max_width_fraction"}) &&
+      r.min_diameter >= r.largest_body())
+    mistakes.add(
+        line, fmt::format("no particle fits: the smallest is {} um, the largest that this cell "
+                          "allows {:.4g} um. Make the cell larger, lower particles.min_um or raise "
+                          "particles.max_um.",
+                          r.min_diameter, r.largest_body()));
+}
+
+Recipe recipe_of(const Settings &s) {
   Recipe r;
   r.settings = s;
-  const double am = s.number("composition.am_weight_percent");
-  const double sum = am + s.number("composition.carbon_weight_percent") +
-                     s.number("composition.binder_weight_percent");
-  if (std::fabs(sum - 100.0) > 0.01)
-    mistakes.add(0, fmt::format("[composition] adds up to {} %; it must be 100 %.", sum));
-  r.am_weight = am / 100.0;
+  r.am_weight = s.number("composition.am_weight_percent") / 100.0;
   r.am_density = s.number("density.am_g_cm3");
   r.cbd_solid_density = s.number("density.cbd_solid_g_cm3");
   r.loading = s.number("coating.loading_mg_cm2");
@@ -74,16 +121,25 @@ Recipe read_recipe(const std::string &file) {
   r.cell_x = s.number("cell.x_um");
   r.cell_y = s.number("cell.y_um");
   r.seed = static_cast<unsigned long>(s.number("seed"));
-  if (r.lattice >= r.primary_diameter || r.primary_diameter >= std::sqrt(2.0) * r.lattice)
-    mistakes.add(
-        0, fmt::format("particles.primary_diameter_um = {} must lie between 1 and 1.414 times "
-                       "lattice_um = {}, so that primaries touch along the lattice's axes only.",
-                       r.primary_diameter, r.lattice));
-  if (r.min_diameter >= r.largest_body())
-    mistakes.add(0,
-                 fmt::format("no particle fits: the smallest is {} um, the largest that this cell "
-                             "allows {} um. Make the cell larger.",
-                             r.min_diameter, r.largest_body()));
+  return r;
+}
+
+} // namespace
+
+double neighbour_cut_off(double diameter) { return 1.1 * diameter + 0.25; }
+
+int most_ranks(double lx, double ly, double diameter) {
+  const double cut_off = neighbour_cut_off(diameter);
+  return std::max(1, int(lx / cut_off)) * std::max(1, int(ly / cut_off));
+}
+
+Recipe read_recipe(const std::string &file) {
+  Mistakes mistakes(file);
+  const Settings s = read_toml(file, recipe_keys(), mistakes);
+  const Recipe r = recipe_of(s);
+  check_composition(s, mistakes);
+  check_spheres(s, r, mistakes);
+  check_cell(s, r, mistakes);
   mistakes.stop_if_any();
   return r;
 }

@@ -27,6 +27,12 @@ struct Recipe {
   double largest_body() const;     ///< diameter limit from the cell and the distribution [um]
 };
 
+/// Distance [um] up to which LIGGGHTS lists neighbours of the widest particle: contact distance
+/// factor 1.1 and the skin. A periodic side must be at least twice as long.
+double neighbour_cut_off(double diameter);
+/// Ranks that a cell can be shared by, each part at least a cut-off wide (z is not split).
+int most_ranks(double lx, double ly, double diameter);
+
 /// Throws Failure(2) with every mistake of the file.
 Recipe read_recipe(const std::string &file);
 

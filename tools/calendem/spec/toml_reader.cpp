@@ -1,132 +1,126 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "spec/toml_reader.h"
+#include "spec/toml_file.h"
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
-#include <toml++/toml.h>
+#include <nlohmann/json.hpp>
 
 namespace calendem {
 namespace {
 
-int edit_distance(const std::string &a, const std::string &b) {
-  std::vector<int> row(b.size() + 1);
-  for (size_t j = 0; j < row.size(); ++j)
-    row[j] = static_cast<int>(j);
-  for (size_t i = 1; i <= a.size(); ++i) {
-    int diagonal = row[0];
-    row[0] = static_cast<int>(i);
-    for (size_t j = 1; j <= b.size(); ++j) {
-      const int up = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
-      diagonal = up;
+bool wants_text(const Key &key) { return key.text || !key.choices.empty(); }
+
+std::optional<std::string> wrong_value(const Key &key, const toml::node &node) {
+  if (wants_text(key) && node.is_string())
+    return wrong_text(key, **node.as_string());
+  if (!wants_text(key) && node.is_number())
+    return wrong_number(key, *node.value<double>());
+  return fmt::format("{} must be a {} ({}), not {}.", key.name,
+                     wants_text(key) ? "text in quotes" : "number without quotes", key.meaning,
+                     shown(node));
+}
+
+/// The tables that the keys stand in: "material", "material.am", ...
+std::vector<std::string> tables_of(const std::vector<Key> &keys) {
+  std::vector<std::string> tables;
+  for (const Key &key : keys)
+    for (size_t dot = key.name.find('.'); dot != std::string::npos;
+         dot = key.name.find('.', dot + 1))
+      if (const std::string table = key.name.substr(0, dot);
+          std::find(tables.begin(), tables.end(), table) == tables.end())
+        tables.push_back(table);
+  return tables;
+}
+
+/// Goes through a file, table by table.
+class Reader {
+public:
+  Reader(const std::vector<Key> &keys, Settings &out, Mistakes &mistakes)
+      : keys_(keys), tables_(tables_of(keys)), out_(out), mistakes_(mistakes) {}
+
+  void walk(const std::string &prefix, const toml::table &table) {
+    for (const auto &[k, node] : table) {
+      const std::string name = prefix + std::string(k.str());
+      const auto key =
+          std::find_if(keys_.begin(), keys_.end(), [&](const Key &x) { return x.name == name; });
+      if (key != keys_.end())
+        read(*key, node);
+      else if (node.is_table())
+        enter(name, *node.as_table());
+      else
+        mistakes_.add(line_of(node), fmt::format("unknown key '{}'. Did you mean '{}'?", name,
+                                                 likely_meant(name, keys_)));
     }
   }
-  return row[b.size()];
-}
 
-std::string closest(const std::string &name, const std::vector<Key> &keys) {
-  const auto best = std::min_element(keys.begin(), keys.end(), [&](const Key &a, const Key &b) {
-    return edit_distance(name, a.name) < edit_distance(name, b.name);
-  });
-  return best->name;
-}
+private:
+  const std::vector<Key> &keys_;
+  std::vector<std::string> tables_;
+  Settings &out_;
+  Mistakes &mistakes_;
 
-// A value far out of range that would be in range in another unit of the same kind.
-std::string unit_hint(const Key &key, double value) {
-  static const std::vector<std::pair<const char *, std::vector<std::pair<const char *, double>>>>
-      kinds = {{"GPa", {{"MPa", 1e3}, {"kPa", 1e6}, {"Pa", 1e9}}},
-               {"MPa", {{"kPa", 1e3}, {"Pa", 1e6}, {"GPa", 1e-3}}},
-               {"um", {{"mm", 1e-3}, {"nm", 1e3}, {"m", 1e-6}}},
-               {"us", {{"ms", 1e-3}, {"s", 1e-6}, {"ns", 1e3}}},
-               {"g/cm3", {{"kg/m3", 1e3}}},
-               {"%", {{"a fraction", 1e-2}}}};
-  for (const auto &[unit, others] : kinds)
-    if (key.unit == unit)
-      for (const auto &[other, factor] : others)
-        if (value / factor >= key.low && value / factor <= key.high)
-          return fmt::format(" It looks like a value in {}; this key is in {}.", other, unit);
-  return "";
-}
-
-void check_number(const Key &key, double value, int line, Settings &out, Mistakes &mistakes) {
-  const std::string unit = key.unit.empty() ? "" : " " + key.unit;
-  if (!std::isfinite(value))
-    mistakes.add(line, fmt::format("{} is {}; it must be a finite number between {} and {}{}.",
-                                   key.name, value, key.low, key.high, unit));
-  else if (value < key.low || value > key.high)
-    mistakes.add(line, fmt::format("{} is {}; allowed is {} to {}{} ({}).{}", key.name, value,
-                                   key.low, key.high, unit, key.meaning, unit_hint(key, value)));
-  else
-    out.set(key.name, fmt::format("{}", value));
-}
-
-void check_text(const Key &key, const std::string &value, int line, Settings &out,
-                Mistakes &mistakes) {
-  const std::string padded = "|" + key.choices + "|";
-  if (!key.choices.empty() && padded.find("|" + value + "|") == std::string::npos)
-    mistakes.add(line,
-                 fmt::format("{} is \"{}\"; it must be one of {}.", key.name, value, key.choices));
-  else
-    out.set(key.name, value);
-}
-
-void read_value(const std::string &name, const toml::node &node, const std::vector<Key> &keys,
-                Settings &out, Mistakes &mistakes) {
-  const int line = static_cast<int>(node.source().begin.line);
-  const auto key =
-      std::find_if(keys.begin(), keys.end(), [&](const Key &k) { return k.name == name; });
-  if (key == keys.end()) {
-    mistakes.add(line, fmt::format("unknown key '{}'. The closest known key is '{}'.", name,
-                                   closest(name, keys)));
-    return;
-  }
-  const bool wants_text = key->text || !key->choices.empty();
-  if (wants_text && node.is_string())
-    check_text(*key, **node.as_string(), line, out, mistakes);
-  else if (!wants_text && node.is_number())
-    check_number(*key, *node.value<double>(), line, out, mistakes);
-  else
-    mistakes.add(line, fmt::format("{} must be a {} ({}).", name,
-                                   wants_text ? "text in quotes" : "number without quotes",
-                                   key->meaning));
-}
-
-void walk(const std::string &prefix, const toml::table &table, const std::vector<Key> &keys,
-          Settings &out, Mistakes &mistakes) {
-  for (const auto &[k, node] : table) {
-    const std::string name = prefix + std::string(k.str());
-    if (node.is_table())
-      walk(name + ".", *node.as_table(), keys, out, mistakes);
+  void read(const Key &key, const toml::node &node) {
+    const auto wrong = wrong_value(key, node);
+    out_.note(key.name, line_of(node), wrong.has_value());
+    if (wrong)
+      mistakes_.add(line_of(node), *wrong);
     else
-      read_value(name, node, keys, out, mistakes);
+      out_.set(key.name,
+               node.is_string() ? **node.as_string() : fmt::format("{}", *node.value<double>()));
   }
-}
+
+  // The keys of a misspelt table are checked as those of the table that was meant.
+  void enter(const std::string &name, const toml::table &table) {
+    if (std::find(tables_.begin(), tables_.end(), name) != tables_.end())
+      return walk(name + ".", table);
+    const std::string meant = tables_.empty() ? name : closest(name, tables_);
+    const bool misspelt = edit_distance(name, meant) <= 2;
+    mistakes_.add(line_of(table),
+                  misspelt ? fmt::format("unknown table [{}]. Did you mean [{}]?", name, meant)
+                           : fmt::format("unknown table [{}]; known are [{}].", name,
+                                         fmt::join(tables_, "], [")));
+    if (misspelt)
+      walk(meant + ".", table);
+  }
+};
 
 } // namespace
 
 double Settings::number(const std::string &name) const { return std::stod(values_.at(name)); }
 
+int Settings::line(const std::string &name) const {
+  const auto at = lines_.find(name);
+  return at == lines_.end() ? 0 : at->second;
+}
+
+bool Settings::sound(std::initializer_list<std::string> names) const {
+  return std::none_of(names.begin(), names.end(),
+                      [this](const std::string &name) { return wrong_.count(name) > 0; });
+}
+
+void Settings::note(const std::string &name, int line, bool wrong) {
+  lines_[name] = line;
+  if (wrong)
+    wrong_.insert(name);
+}
+
 Settings read_toml(const std::string &file, const std::vector<Key> &keys, Mistakes &mistakes) {
   Settings out;
-  if (!std::filesystem::is_regular_file(file)) {
-    mistakes.add(0, "no such file. Give the path of a TOML file that exists.");
-    return out;
+  const TomlFile parsed = parse_toml(file, mistakes);
+  Reader(keys, out, mistakes).walk("", parsed.root);
+  for (const Key &key : keys) {
+    if (out.all().count(key.name))
+      continue;
+    const bool is_number = !key.fallback.empty() && !wants_text(key);
+    out.set(key.name, is_number ? fmt::format("{}", std::stod(key.fallback)) : key.fallback);
+    if (!key.fallback.empty())
+      continue;
+    if (out.line(key.name) > 0) // given, but wrong
+      continue;
+    if (parsed.whole && !parsed.root.empty())
+      mistakes.add(0, fmt::format("key '{}' is missing ({}).", key.name, key.meaning));
+    out.note(key.name, 0, true);
   }
-  try {
-    walk("", toml::parse_file(file), keys, out, mistakes);
-  } catch (const toml::parse_error &e) {
-    mistakes.add(static_cast<int>(e.source().begin.line),
-                 fmt::format("not valid TOML: {}.", e.description()));
-    return out;
-  }
-  for (const Key &key : keys)
-    if (!out.all().count(key.name)) {
-      if (!key.fallback.empty())
-        out.set(key.name, key.fallback);
-      else if (mistakes.empty())
-        mistakes.add(0, fmt::format("key '{}' is missing ({}).", key.name, key.meaning));
-    }
   return out;
 }
 
@@ -140,10 +134,9 @@ std::string write_toml(const Settings &settings, const std::vector<Key> &keys,
       out += fmt::format("\n[{}]\n", in);
     table = in;
     const std::string &value = settings.text(key.name);
-    const bool quoted = key.text || !key.choices.empty();
     const std::string unit = key.unit.empty() ? "" : key.unit + ", ";
     out += fmt::format("{} = {}  # {}{}\n", key.name.substr(dot == std::string::npos ? 0 : dot + 1),
-                       quoted ? "\"" + value + "\"" : value, unit, key.meaning);
+                       wants_text(key) ? nlohmann::json(value).dump() : value, unit, key.meaning);
   }
   return heading + out;
 }

@@ -3,25 +3,15 @@
 #ifndef CALENDEM_SPEC_TOML_READER_H
 #define CALENDEM_SPEC_TOML_READER_H
 
+#include "spec/key.h"
 #include "spec/messages.h"
+#include <initializer_list>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace calendem {
-
-/// A key of a file. `choices` not empty, or `text`: a string; otherwise a number in [low, high].
-struct Key {
-  std::string name;     ///< dotted, as in the file: "bond.radius_ratio"
-  std::string variable; ///< of the LIGGGHTS script, empty if none
-  std::string fallback; ///< default as text; empty: the key is required
-  double low = 0.0;
-  double high = 0.0;
-  std::string unit;
-  std::string meaning;
-  std::string choices = ""; ///< "a|b|c"
-  bool text = false;
-};
 
 /// Values by key name, as text exactly as given (numbers: shortest form that reads back).
 class Settings {
@@ -31,8 +21,16 @@ public:
   void set(const std::string &name, const std::string &value) { values_[name] = value; }
   const std::map<std::string, std::string> &all() const { return values_; }
 
+  /// Line of the file that gives the key, 0 if it has its default.
+  int line(const std::string &name) const;
+  /// None of these was given a value that is a mistake: what depends on them can be checked.
+  bool sound(std::initializer_list<std::string> names) const;
+  void note(const std::string &name, int line, bool wrong);
+
 private:
   std::map<std::string, std::string> values_;
+  std::map<std::string, int> lines_;
+  std::set<std::string> wrong_;
 };
 
 /// All mistakes go to `mistakes`; what could be read is returned, defaults filled in.

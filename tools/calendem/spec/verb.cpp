@@ -1,36 +1,60 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "spec/verb.h"
 #include "spec/case.h"
+#include "spec/experiment.h"
 #include "spec/recipe.h"
+#include "spec/toml_file.h"
 #include <CLI/CLI.hpp>
-#include <fmt/core.h>
-#include <fstream>
-#include <iterator>
+#include <algorithm>
+#include <fmt/format.h>
 
 namespace calendem {
 namespace {
 
-// A case names its electrode's folder; a recipe has none of a case's tables.
-bool looks_like_case(const std::string &file) {
-  std::ifstream in(file);
-  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  for (const char *word :
-       {"electrode =", "electrode=", "[platen", "[bond", "[material", "[numerics"})
-    if (text.find(word) != std::string::npos)
-      return true;
-  return false;
+enum class Kind { Recipe, Case, Experiment };
+
+int keys_known(const toml::table &table, const std::string &prefix, const std::vector<Key> &keys) {
+  int known = 0;
+  for (const auto &[k, node] : table) {
+    const std::string name = prefix + std::string(k.str());
+    const auto begins = [&](const Key &key) {
+      return key.name == name || key.name.rfind(name + ".", 0) == 0;
+    };
+    known += std::any_of(keys.begin(), keys.end(), begins);
+    if (node.is_table())
+      known += keys_known(*node.as_table(), name + ".", keys);
+  }
+  return known;
+}
+
+/// By what is in it: of recipe and case the one that knows more of its keys and tables.
+Kind kind_of(const std::string &file) {
+  Mistakes elsewhere(file); // the reader of that kind tells them
+  const toml::table root = parse_toml(file, elsewhere).root;
+  if (root.contains("experiment") || root.contains("condition"))
+    return Kind::Experiment;
+  const int as_case = keys_known(root, "", case_keys());
+  return as_case > keys_known(root, "", recipe_keys()) ? Kind::Case : Kind::Recipe;
+}
+
+std::string name_after_check(const std::string &file) {
+  switch (kind_of(file)) {
+  case Kind::Experiment:
+    return fmt::format("experiment of {} conditions", read_experiment(file).conditions.size());
+  case Kind::Case:
+    read_case(file);
+    return "case";
+  default:
+    read_recipe(file);
+    return "recipe";
+  }
 }
 
 void validate(const std::vector<std::string> &files) {
   std::string problems;
   for (const std::string &file : files)
     try {
-      const bool is_case = looks_like_case(file);
-      if (is_case)
-        read_case(file);
-      else
-        read_recipe(file);
-      fmt::print("{}: a valid {}\n", file, is_case ? "case" : "recipe");
+      fmt::print("{}: a valid {}\n", file, name_after_check(file));
     } catch (const Failure &e) {
       problems += std::string(problems.empty() ? "" : "\n") + e.what();
     }
@@ -42,8 +66,11 @@ void validate(const std::vector<std::string> &files) {
 
 void add_validate_verb(CLI::App &app) {
   auto files = std::make_shared<std::vector<std::string>>();
-  CLI::App *verb = app.add_subcommand("validate", "Every mistake in recipes and cases, at once");
+  CLI::App *verb = app.add_subcommand(
+      "validate", "Every mistake in recipes, cases and experiment files, at once");
   verb->add_option("FILE", *files, "TOML files")->required();
+  verb->footer(list_of_experiment_keys() +
+               "Keys of recipes and cases: calendem pack --help, calendem run --help");
   verb->callback([files] { validate(*files); });
 }
 

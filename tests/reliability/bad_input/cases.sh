@@ -1,0 +1,513 @@
+#!/usr/bin/env bash
+# cases.sh CASE BIN WORK: one fault through the real programs. Exit status 0 passed, 1 failed, 77 skipped.
+set -euo pipefail
+case=$1 bin=$2 shared=$3
+scripts=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../../input_scripts" && pwd)
+electrode=$shared/electrode work=$shared/$case
+if [ "$(id -u)" -eq 0 ]; then export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; fi
+export OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_hwloc_base_binding_policy=none
+export OMPI_MCA_rmaps_base_oversubscribe=1
+
+fail() { echo "FAILED: $*"; exit 1; }
+skip() { echo "skipped: $*"; exit 77; }
+calendem() { "$bin/calendem" "$@"; }
+# STATUS COMMAND...: the exit status; what the command said is in $work/said
+expect() {
+  local want=$1 status=0
+  shift
+  "$@" >"$work/said" 2>&1 </dev/null || status=$?
+  cat "$work/said"
+  [ $status -eq "$want" ] || fail "exit status $status, expected $want: $*"
+}
+says() { # TEXT...: all in what was said
+  local text
+  for text in "$@"; do grep -qF -- "$text" "$work/said" || fail "no '$text' in the message"; done
+}
+file() { cat >"$work/$1"; } # NAME <text
+refused() { # FILE TEXT...: validate refuses the file, with these words
+  expect 2 calendem validate "$work/$1"
+  shift
+  says "$@"
+}
+a_case() { # LINES: a case that is quick: soft start, low pressure
+  printf '%s\n' "electrode = \"$1\"" "${@:2}" >"$work/case.toml"
+}
+quick=('[platen]' max_pressure_MPa=5 speed_m_s=4 touch_speed_m_s=4 release_speed_m_s=4 '[output]'
+  restart_every_us=0.05 vtk_every_us=0.5)
+run() { calendem run "$work/case.toml" -o "$work/run" --ranks 1 "$@"; }
+copy_of_electrode() { # a copy to be spoilt
+  rm -rf "$work/electrode"
+  cp -r "$electrode" "$work/electrode"
+  a_case "$work/electrode"
+}
+until_file() { # FILE PID: waits for the file, written by PID, and some rows of the curve
+  for _ in $(seq 600); do
+    [ ! -s "$1" ] || [ "$(wc -l <"$work/run/curve_raw.csv")" -lt 4 ] || return 0
+    kill -0 "$2" 2>/dev/null || fail "the run ended before it wrote $1: $(cat "$work/run.log")"
+    sleep 0.05
+  done
+  fail "no $1"
+}
+ranks_of_run() { pgrep -f "^[^ ]*/liggghts .*-var out $work/run " || true; }
+begin() { # OPTION...: a run in the background; its id is in $running
+  "$bin/calendem" run "$work/case.toml" -o "$work/run" "$@" >"$work/run.log" 2>&1 </dev/null &
+  running=$!
+}
+ended_with() { # STATUS: of the run in the background; its messages count as said
+  local status=0
+  wait "$running" || status=$?
+  cp "$work/run.log" "$work/said"
+  cat "$work/said"
+  [ $status -eq "$1" ] || fail "exit status $status, expected $1"
+}
+is_kept() { # what a run that was stopped had computed
+  [ -s "$work/run/curve.csv" ] || fail "no curve.csv"
+  grep -q '"finished": false' "$work/run/summary.json" || fail "summary.json is not marked"
+  grep -q '"stopped_because"' "$work/run/summary.json" || fail "summary.json does not say why"
+}
+script() { # WORDS...: in.calendering itself, with these words on its command line
+  "$bin/liggghts" -in "$scripts/in.calendering" -log none -var scripts "$scripts" \
+    -var electrode "${script_electrode:-$electrode}" -var out "$work" "$@"
+}
+full_disk() { # MB: a file system of that size at $work/disk
+  mkdir -p "$work/disk"
+  # A mount of its own, seen by this process and its children only.
+  if [ -z "${CALENDEM_TEST_DISK:-}" ]; then
+    unshare -m true 2>/dev/null || skip "making a small disk needs the right to mount"
+    CALENDEM_TEST_DISK=1 exec unshare -m bash "${BASH_SOURCE[0]}" "$case" "$bin" "$shared"
+  fi
+  mount -t tmpfs -o "size=$1m" none "$work/disk"
+}
+
+# ---- files
+file_missing() {
+  expect 2 calendem run "$work/no.toml" -o "$work/run"
+  says "$work/no.toml: no such file" "Give the path"
+  expect 2 calendem pack "$work/no.toml" -o "$work/run"
+  [ ! -e "$work/run" ] || fail "a folder was made for nothing"
+}
+file_is_folder() {
+  expect 2 calendem pack "$work" -o "$work/run"
+  says "is a folder"
+}
+file_empty() {
+  printf '\n \n' | file empty.toml
+  expect 2 calendem run "$work/empty.toml" -o "$work/run"
+  says "the file is empty"
+  refused empty.toml "the file is empty"
+}
+toml_broken() { # two broken lines, and a mistake in a good one: all at once
+  printf '%s\n' '[coating]' 'loading_mg_cm2 = = 3' 'porosity_total_percent = 999' '[cell]' 'x_um = 15 15' |
+    file broken.toml
+  refused broken.toml "broken.toml:2: not valid TOML" "loading_mg_cm2 = = 3" \
+    "broken.toml:3: coating.porosity_total_percent is 999" "broken.toml:5: not valid TOML"
+}
+key_unknown() {
+  printf '%s\n' '[platen]' 'max_presure_MPa = 100' '[bond]' 'sigma_c_MPa = 200' | file case.toml
+  refused case.toml "case.toml:2: unknown key 'platen.max_presure_MPa'. Did you mean 'platen.max_pressure_MPa'" \
+    "case.toml:4: unknown key 'bond.sigma_c_MPa'. Did you mean 'bond.tensile_strength_MPa'" \
+    "key 'electrode' is missing"
+}
+table_unknown() { # its keys are checked all the same
+  printf '%s\n' 'electrode = "e"' '[platten]' 'max_pressure_MPa = -1' '[weather]' 'rain = 1' | file case.toml
+  refused case.toml "case.toml:2: unknown table [platten]. Did you mean [platen]?" \
+    "case.toml:3: platen.max_pressure_MPa is -1" "case.toml:4: unknown table [weather]; known are"
+}
+type_wrong() {
+  printf '%s\n' 'electrode = 3' '[platen]' 'max_pressure_MPa = "150"' 'control = true' \
+    'speed_m_s = { value = 1 }' '[bond]' 'seed = [1, 2]' | file case.toml
+  refused case.toml 'case.toml:1: electrode must be a text in quotes' 'not 3' \
+    ':3: platen.max_pressure_MPa must be a number without quotes' 'not "150"' \
+    ':4: platen.control must be a text' 'not true' ':5: platen.speed_m_s must be a number' 'not a table' \
+    ':7: bond.seed must be a number' 'not a list'
+}
+number_negative() {
+  printf '%s\n' 'electrode = "e"' '[bond]' 'tensile_strength_MPa = -200' | file case.toml
+  refused case.toml "case.toml:3: bond.tensile_strength_MPa is -200; allowed is 0.1 to 100000 MPa"
+}
+number_not_finite() {
+  printf '%s\n' '[coating]' 'loading_mg_cm2 = nan' '[cell]' 'x_um = inf' 'y_um = -inf' | file recipe.toml
+  refused recipe.toml "recipe.toml:2: coating.loading_mg_cm2 is nan; it must be a finite number" \
+    ":4: cell.x_um is inf" ":5: cell.y_um is -inf"
+}
+number_not_whole() {
+  printf '%s\n' 'seed = 1.5' | file recipe.toml
+  refused recipe.toml "recipe.toml:1: seed is 1.5; it must be a whole number"
+}
+modulus_in_pa() {
+  printf '%s\n' 'electrode = "e"' '[material.am]' 'youngs_modulus_GPa = 200e9' | file case.toml
+  refused case.toml ":3: material.am.youngs_modulus_GPa is 2e+11" "looks like a value in Pa" "200 GPa"
+}
+loading_in_g_m2() {
+  printf '%s\n' '[coating]' 'loading_mg_cm2 = 174.6' | file recipe.toml
+  refused recipe.toml ":2: coating.loading_mg_cm2 is 174.6" "looks like a value in g/m2" "17.46 mg/cm2"
+}
+pressure_in_pa() {
+  printf '%s\n' 'electrode = "e"' '[platen]' 'max_pressure_MPa = 150e6' | file case.toml
+  refused case.toml ":3: platen.max_pressure_MPa is 150000000" "looks like a value in Pa" "150 MPa"
+}
+fraction_for_percent() {
+  printf '%s\n' '[coating]' 'porosity_total_percent = 0.48' '[composition]' 'am_weight_percent = 0.96' \
+    '[cbd]' 'nanoporosity_percent = 0.5' | file recipe.toml
+  refused recipe.toml ":2: coating.porosity_total_percent is 0.48" "looks like a value in a fraction" "48 %" \
+    ":4: composition.am_weight_percent is 0.96" ":6: cbd.nanoporosity_percent is 0.5"
+}
+weights_not_100() {
+  printf '%s\n' '[composition]' 'am_weight_percent = 90' | file recipe.toml
+  refused recipe.toml "recipe.toml:2: [composition] adds up to 94 %" "must be 100 %"
+  printf '%s\n' '[composition]' 'am_weight_percent = 96' 'carbon_weight_percent = 0.02' \
+    'binder_weight_percent = 0.02' | file recipe.toml
+  refused recipe.toml "adds up to 96.04 %" "look like fractions"
+}
+cell_below_two_cut_offs() {
+  printf '%s\n' '[cell]' 'x_um = 3' | file recipe.toml
+  expect 2 calendem pack "$work/recipe.toml" -o "$work/run"
+  says "recipe.toml:2: cell.x_um is 3; allowed is 5 to 1000 um"
+  printf '%s\n' '[cell]' 'x_um = 6' '[particles]' 'primary_diameter_um = 4' 'lattice_um = 3.2' | file recipe.toml
+  refused recipe.toml "recipe.toml:2: a periodic side of 6 um is shorter than two cut-offs (9.30 um)"
+}
+cohesion_collapses() {
+  printf '%s\n' 'electrode = "e"' '[material.cbd]' 'ced_J_m3 = 7e8' | file case.toml
+  refused case.toml "case.toml:3: cohesion would collapse the packing: it pulls cbd spheres" \
+    "by 3.14 of their radius, at most 0.1 is allowed" "(CED/E)^2" "700000000"
+}
+every_mistake_at_once() { # of two files, each line with a mistake is named
+  printf '%s\n' 'name = 3' '[coating]' 'loading_mg_cm2 = -1' 'porosity = 40' '[composition]' \
+    'am_weight_percent = 90' '[cell]' 'x_um = "15"' 'y_um = 2' | file recipe.toml
+  printf '%s\n' '[platen]' 'control = "presure"' 'dwell_us = nan' '[material.cbd]' 'ced_J_m3 = 7e8' | file case.toml
+  expect 2 calendem validate "$work/recipe.toml" "$work/case.toml"
+  says recipe.toml:1: recipe.toml:3: recipe.toml:4: recipe.toml:6: recipe.toml:8: recipe.toml:9: \
+    case.toml:2: 'The closest is "pressure"' case.toml:3: case.toml:5: "key 'electrode' is missing"
+}
+kinds_of_file() {
+  expect 0 calendem validate "$scripts"/cases/*/*.toml
+  says "demo/electrode.toml: a valid recipe" "demo/case.toml: a valid case" \
+    "paper/experiment.toml: a valid experiment of 2 conditions"
+}
+experiment_mistakes() {
+  cp "$scripts/cases/paper/electrode.toml" "$work/"
+  echo "displacement,pressure_MPa" >"$work/curve.csv"
+  file experiment.toml <<'END'
+[experiment]
+name = "x"
+electrode = "electrod.toml"
+split = { train = ["a"], test = ["b", "a"] }
+sampel_diameter_mm = 11
+[[condition]]
+id = "a"
+control = "presure"
+max_pressure_MPa = { value = 150e6, sd = 1 }
+porosity_after_percent = { value = 0.25, sd_relative = 5 }
+thickness_after_um = { value = 75, sd = 1, sd_relative = 0.1, includes_foil = 1 }
+[[condition]]
+id = "a"
+control = "thickness"
+mass_mg = 22.3
+curve = "curve.csv"
+labels_after = "after.mhd"
+cracked_bodies_fraction = 30
+dwell_s = -1
+END
+  refused experiment.toml ":3: electrode = \"electrod.toml\": there is no file" \
+    ":4: split.test names \"b\", which is no [[condition]]" ":4: \"a\" is in both train and test" \
+    ":5: unknown key 'experiment.sampel_diameter_mm'. Did you mean 'sample_diameter_mm'" \
+    ":8: control is \"presure\"" ":9: max_pressure_MPa is 150000000" "looks like a value in Pa" \
+    ":10: porosity_after_percent is 0.25" ":10: porosity_after_percent.sd_relative is 5" \
+    ":11: thickness_after_um has both 'sd' and 'sd_relative'" ":11: thickness_after_um.includes_foil must be" \
+    "the id \"a\" is taken" "control = \"thickness\" but no thickness_at_max_um" \
+    "[experiment] must have sample_diameter_mm, foil_thickness_um, foil_density_g_cm3" \
+    "has no column 'displacement_um'" ":17: labels_after = \"after.mhd\": there is no file" \
+    ":18: cracked_bodies_fraction is 30" ":19: dwell_s is -1"
+}
+
+# ---- command line and machine
+ranks_not_a_number() {
+  touch "$work/case.toml"
+  local n
+  for n in 0 -1 two 1.5 100000 ""; do
+    expect 1 calendem run "$work/case.toml" -o "$work/run" --ranks "$n"
+    says "--ranks"
+  done
+  expect 1 calendem run "$work/case.toml"
+  says "--output is required"
+  expect 1 calendem frobnicate
+}
+too_many_ranks() {
+  a_case "$electrode"
+  expect 2 calendem run "$work/case.toml" -o "$work/run" --ranks 4000
+  says "--ranks 4000: a cell of 6 x 6 um can be shared by at most 9 ranks"
+}
+output_is_a_file() {
+  printf '%s\n' '[cell]' 'x_um = 6' 'y_um = 6' | file recipe.toml
+  touch "$work/out"
+  expect 2 calendem pack "$work/recipe.toml" -o "$work/out"
+  says "$work/out" "with -o"
+  expect 2 calendem pack "$work/recipe.toml" -o "$work/out/below"
+  [ -f "$work/out" ] || fail "the user's file is gone"
+}
+output_read_only() { # nobody can make a folder there, not even root
+  printf '%s\n' '[cell]' 'x_um = 6' 'y_um = 6' | file recipe.toml
+  expect 2 calendem pack "$work/recipe.toml" -o /proc/calendem
+  says "/proc/calendem" "with -o"
+}
+no_mpirun() {
+  a_case "$electrode"
+  expect 2 env PATH=/nowhere "$bin/calendem" run "$work/case.toml" -o "$work/run" --ranks 1
+  says "cannot start mpirun" "Install OpenMPI"
+}
+no_liggghts() {
+  a_case "$electrode"
+  expect 2 run --liggghts "$work/liggghts"
+  says "no program '$work/liggghts'. Build it with tools/build"
+  echo "not a program" >"$work/liggghts"
+  expect 2 run --liggghts "$work/liggghts"
+  says "is not a program that can be started"
+  [ ! -e "$work/run" ] || fail "a folder was made for nothing"
+}
+
+# ---- electrode
+electrode_missing() {
+  a_case nowhere
+  expect 2 run
+  says "$work/nowhere: there is no such folder" "calendem pack"
+}
+electrode_data_cut() { # in the middle of the last row, so that its number of columns is still right
+  copy_of_electrode
+  truncate -s -3 "$work/electrode/electrode.data"
+  expect 2 run
+  says "electrode.data: announces 195 atoms and holds 194 complete rows: it is cut" "calendem pack"
+  truncate -s -3000 "$work/electrode/electrode.data"
+  expect 2 run
+  says "electrode.data"
+}
+body_map_missing() {
+  copy_of_electrode
+  rm "$work/electrode/bodies.map"
+  expect 2 run
+  says "'bodies.map' is missing" "calendem pack"
+}
+body_map_short() { # whole rows are missing
+  copy_of_electrode
+  sed -i '$d' "$work/electrode/bodies.map"
+  expect 2 run
+  says "bodies.map: holds 141 primaries, electrode.json says 142"
+  echo "900 1" >>"$work/electrode/bodies.map"
+  expect 2 run
+  says "'900 1' is not a row 'tag body'"
+}
+electrode_json_missing() {
+  copy_of_electrode
+  rm "$work/electrode/electrode.json"
+  expect 2 run
+  says "'electrode.json' is missing" "calendem pack"
+  touch "$work/electrode/electrode.rejected.json"
+  expect 2 run
+  says "missed its targets"
+}
+electrode_json_cut() {
+  copy_of_electrode
+  truncate -s 500 "$work/electrode/electrode.json"
+  expect 2 run
+  says "electrode.json: cannot be used" "Make the electrode again"
+}
+
+# ---- targets
+thickness_below_solid() {
+  a_case "$electrode" '[platen]' 'control = "thickness"' 'thickness_um = 9'
+  expect 2 run
+  says "platen.thickness_um = 9 sends the platen to 9.00 um, but the solid alone fills 9.3" "thickness above that"
+}
+displacement_of_nothing() {
+  a_case "$electrode" '[platen]' 'control = "displacement"'
+  expect 2 run
+  says "case.toml:3: platen.control is \"displacement\" but platen.displacement_um is 0; give a value > 0 um"
+  a_case "$electrode" '[platen]' 'control = "thickness"' 'thickness_um = 40'
+  expect 2 run
+  says "nothing would be compressed"
+}
+pressure_not_reached() {
+  a_case "$electrode" '[material.am]' youngs_modulus_GPa=0.2 ced_J_m3=0 '[material.cbd]' \
+    youngs_modulus_GPa=0.05 ced_J_m3=0 '[bond]' youngs_modulus_GPa=0.2 '[platen]' max_pressure_MPa=2000 \
+    speed_m_s=4 touch_speed_m_s=4 release_speed_m_s=4
+  expect 4 run
+  says "stopped at its lowest position" "did not reach platen.max_pressure_MPa = 2000" "Ask for less"
+  [ -s "$work/run/curve.csv" ] || fail "no curve.csv"
+  grep -q '"failed_checks"' "$work/run/summary.json" || fail "summary.json is not marked"
+  expect 4 run # the same again: not computed again, not hidden either
+  says "did not reach"
+}
+
+# ---- a run that is interrupted
+liggghts_error_is_shown() {
+  copy_of_electrode
+  sed -i 's/^4 atom types/1 atom types/' "$work/electrode/electrode.data"
+  expect 3 run
+  says "LIGGGHTS failed (exit status 1)" "ERROR" "$work/run/screen.txt"
+}
+rank_killed() { # kill -9 of one of two ranks; then --resume
+  a_case "$electrode" "${quick[@]}"
+  begin --ranks 2
+  until_file "$work/run/running.restart" "$running"
+  kill -9 "$(ranks_of_run | tail -n 1)"
+  ended_with 3
+  says "exited on signal 9" "What was computed is kept" "--resume"
+  is_kept
+  local rows
+  rows=$(wc -l <"$work/run/curve.csv")
+  expect 0 run --resume
+  [ "$(wc -l <"$work/run/curve.csv")" -gt "$rows" ] || fail "--resume did not go on"
+  grep -q '"finished": true' "$work/run/summary.json" || fail "not finished after --resume"
+}
+stopped_by_signal() {
+  a_case "$electrode" "${quick[@]}"
+  begin --ranks 1
+  until_file "$work/run/running.restart" "$running"
+  kill -TERM "$running"
+  ended_with 3
+  says "stopped on request (signal 15)" "What was computed is kept" "--resume"
+  is_kept
+  [ -z "$(ranks_of_run)" ] || fail "LIGGGHTS goes on: $(ranks_of_run)"
+  expect 0 run --resume
+}
+stopped_run() { # a run that was stopped after two restart files
+  a_case "$electrode" "${quick[@]}"
+  begin --ranks 1
+  until_file "$work/run/running.previous" "$running"
+  kill -TERM "$running"
+  ended_with 3
+}
+restart_cut() { # the one before it is taken; without it nothing is lost
+  stopped_run
+  truncate -s -1000 "$work/run/running.restart"
+  cp -r "$work/run" "$work/kept"
+  expect 0 run --resume
+  says "is cut; going on from the one before it"
+  rm -r "$work/run"
+  cp -r "$work/kept" "$work/run"
+  rm "$work/run/running.previous"
+  expect 2 run --resume
+  says "running.restart' is cut or damaged" "What was computed is kept" "--force"
+  is_kept
+}
+restart_damaged() { # no restart file at all, of the right length
+  stopped_run
+  rm "$work/run/running.previous"
+  head -c "$(stat -c %s "$work/run/running.restart")" /dev/zero >"$work/zeros"
+  cp "$work/zeros" "$work/run/running.restart"
+  expect 2 run --resume
+  says "running.restart' is cut or damaged"
+}
+unfinished_run_is_kept() { # neither overwritten nor mixed with other settings
+  stopped_run
+  expect 2 run
+  says "holds an unfinished run: stopped on request" "--resume" "--force"
+  is_kept
+  sed -i 's/^max_pressure_MPa.*/max_pressure_MPa = 7/' "$work/case.toml"
+  expect 2 run --resume
+  says "holds a run of another case" "platen.max_pressure_MPa: then 5, now 7"
+  is_kept
+}
+two_runs_in_one_folder() {
+  a_case "$electrode" "${quick[@]}"
+  begin --ranks 1
+  until_file "$work/run/curve_raw.csv" "$running"
+  expect 2 run --force
+  says "another run is writing into '$work/run'"
+  kill -TERM "$running"
+  ended_with 3
+}
+another_case_in_folder() {
+  a_case "$electrode" "${quick[@]}"
+  expect 0 run
+  expect 0 run
+  says "already holds this run"
+  a_case "$electrode" "${quick[@]}" '[bond]' tensile_strength_MPa=300
+  expect 2 run
+  says "holds a run of another case" "bond.tensile_strength_MPa: then 500, now 300"
+  grep -q '"finished": true' "$work/run/summary.json" || fail "the finished run was touched"
+}
+disk_full_at_start() {
+  full_disk 2
+  a_case "$electrode" "${quick[@]}"
+  expect 2 calendem run "$work/case.toml" -o "$work/disk/run" --ranks 1
+  says "the disk of '$work/disk/run' has" "needs at least" "Make room"
+}
+disk_fills_in_mid_run() { # to the last byte, while LIGGGHTS writes; with room again --resume goes on
+  full_disk 16
+  a_case "$electrode" "${quick[@]}"
+  ln -sfn "$work/disk" "$work/run"
+  begin --ranks 1
+  until_file "$work/run/running.previous" "$running"
+  cat /dev/zero >"$work/disk/ballast" 2>/dev/null || true
+  ended_with 3
+  says "almost full" "Make room" "What was computed is kept"
+  rm "$work/disk/ballast"
+  expect 0 run --resume
+  [ -s "$work/run/curve.csv" ] || fail "no curve.csv"
+}
+
+# ---- plain input scripts: the plugin's own checks
+script_strength() {
+  expect 1 script -var sigma_c_MPa -5
+  says "ERROR: Fix bond/bpm" "'tensile' is '-5000'; it must be a finite number > 0"
+  expect 1 script -var sigma_c_MPa nan
+  says "ERROR"
+}
+script_criterion() {
+  expect 1 script -var criterion singed
+  says "ERROR: Fix bond/bpm" "'criterion singed'" "criterion signed|unsigned|as_printed"
+}
+script_modulus_in_pa() {
+  expect 1 script -var E_am_GPa 2e11
+  says "ERROR: Fix bond/bpm" "youngsModulus of atom type 1 is 2e+17 kPa = 2e+11 GPa" "Is it given in Pa?"
+  expect 1 script -var p_max_MPa 150e6
+  says "ERROR: Fix wall/gran/platen" "'pressure' is" "Is it given in Pa?"
+}
+script_collapse() {
+  expect 1 script -var ced_cbd_J_m3 7e9
+  says "ERROR: Fix bond/bpm" "cohesionEnergyDensity of atom types 1 and 2" "of their radius" "collapses"
+  expect 1 script -var mu_am -1
+  says "coefficientFriction of atom types 1 and 1 is -1" "must be >= 0"
+}
+script_short_cell() { # the two spheres of this cell would touch their own images
+  mkdir -p "$work/electrode"
+  printf '%s\n' "two spheres" "" "2 atoms" "4 atom types" "" "0 3 xlo xhi" "0 3 ylo yhi" "0 9 zlo zhi" "" Atoms "" \
+    "1 1 1.59 4.65 1 1 1" "2 1 1.59 4.65 2.28 1 1" >"$work/electrode/electrode.data"
+  printf '%s\n' "# tag body, 2 rows" "1 1" "2 1" >"$work/electrode/bodies.map"
+  printf 'variable %s\n' "thickness_um equal 6" "area_um2 equal 9" "solid_volume_um3 equal 4.2" \
+    "primary_diameter_um equal 1.59" "lattice_um equal 1.28" "cbd_diameter_um equal 1.316" >"$work/electrode/electrode.in"
+  script_electrode=$work/electrode expect 1 script
+  says "ERROR" "periodic box side x is 3, shorter than two neighbour cut-offs" "Make the cell larger"
+}
+script_body_map_cut() {
+  copy_of_electrode
+  sed -i '$d' "$work/electrode/bodies.map"
+  script_electrode=$work/electrode expect 1 script
+  says "ERROR: Fix bond/bpm" "announces 142 rows and holds 141: it is cut"
+  rm "$work/electrode/bodies.map"
+  script_electrode=$work/electrode expect 1 script
+  says "cannot open the body map" "No such file"
+  cp "$electrode/bodies.map" "$work/electrode/"
+  truncate -s 6000 "$work/electrode/electrode.data"
+  script_electrode=$work/electrode expect 1 script
+  says "ERROR" "Unexpected end of data file"
+}
+script_time_step() {
+  expect 1 script -var dt_us 0.01
+  says "ERROR: Fix check/timestep/bpm" "time step 0.01 us exceeds 1 of the smaller of the bonds' bound" "use at most"
+}
+
+electrode() { # what all cases press: 6 x 6 um, a fifth of the paper's loading
+  printf '%s\n' 'name = "small"' 'seed = 3' '[coating]' 'loading_mg_cm2 = 4' '[cell]' 'x_um = 6' 'y_um = 6' | file recipe.toml
+  expect 0 calendem pack "$work/recipe.toml" -o "$work.new" --ranks 1
+  rm -rf "$electrode.old"
+  rm -rf "$electrode"
+  mv "$work.new" "$electrode"
+}
+case $case in
+  "" | *[!a-z_0-9]*) echo "usage: cases.sh CASE BIN WORK" >&2; exit 1 ;;
+esac
+[ "$case" = electrode ] && work=$shared/packing
+[ -n "${CALENDEM_TEST_DISK:-}" ] || rm -rf "$work"
+mkdir -p "$work"
+"$case"
