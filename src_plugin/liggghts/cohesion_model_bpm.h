@@ -12,6 +12,7 @@ COHESION_MODEL(COHESION_BPM, bpm, 30)
 #include "cohesion_model_base.h"
 #include "contact_models.h"
 #include "fix_bond_bpm.h"
+#include "fix_energy_bpm.h"
 #include "global_properties.h"
 #include "physics/bond_failure.h"
 #include "physics/sjkr_cohesion.h"
@@ -24,8 +25,8 @@ namespace ContactModels {
 template <> class CohesionModel<COHESION_BPM> : public CohesionModelBase {
 public:
   CohesionModel(LAMMPS *lmp, IContactHistorySetup *hsetup, class ContactModelBase *cmb)
-      : CohesionModelBase(lmp, hsetup, cmb), fix_(NULL), cohEnergyDens_(NULL), cmb_(cmb),
-        offset_(-1) {
+      : CohesionModelBase(lmp, hsetup, cmb), fix_(NULL), energy_(NULL), cohEnergyDens_(NULL),
+        cmb_(cmb), offset_(-1) {
     if (cmb->is_wall())
       error->all(FLERR, "cohesion model bpm is for particle pairs; for a sticky wall use 'cohesion "
                         "sjkr' in fix wall/gran");
@@ -43,6 +44,7 @@ public:
     registry.registerProperty("cohEnergyDens", &MODEL_PARAMS::createCohesionEnergyDensity);
     registry.connect("cohEnergyDens", cohEnergyDens_, "cohesion_model bpm");
     fix_ = FixBondBpm::find(lmp, "cohesion model bpm");
+    energy_ = FixEnergyBpm::find(lmp);
   }
 
   void surfacesIntersect(SurfacesIntersectData &s, ForceData &i_forces, ForceData &j_forces) {
@@ -52,12 +54,16 @@ public:
     const calendem::Vec3 n = {s.en[0], s.en[1], s.en[2]};
     if (bond.state() == kIntact) {
       bond_force(s, bond, n, s.r, i_forces, j_forces);
-      return;
+    } else {
+      const double pull = calendem::sjkr_force(
+          cohEnergyDens_[s.itype][s.jtype], s.r + bond.reference_overlap(s.radsum), s.radi, s.radj);
+      calendem::subtract_from(pull * n, i_forces.delta_F);
+      calendem::add_to(pull * n, j_forces.delta_F);
     }
-    const double pull = calendem::sjkr_force(
-        cohEnergyDens_[s.itype][s.jtype], s.r + bond.reference_overlap(s.radsum), s.radi, s.radj);
-    calendem::subtract_from(pull * n, i_forces.delta_F);
-    calendem::add_to(pull * n, j_forces.delta_F);
+    if (energy_) {
+      so_far_[0] = action_of(i_forces);
+      so_far_[1] = action_of(j_forces);
+    }
   }
 
   void surfacesClose(SurfacesCloseData &s, ForceData &i_forces, ForceData &j_forces) {
@@ -76,15 +82,31 @@ public:
     fix_->check_stretch(s.i, s.j, r, s.radsum);
   }
 
-  void endSurfacesIntersect(SurfacesIntersectData &, ForceData &, ForceData &) {}
+  // For the energy ledger: what the tangential model has added since, and the normal damping.
+  void endSurfacesIntersect(SurfacesIntersectData &s, ForceData &i_forces, ForceData &j_forces) {
+    if (!energy_ || !s.computeflag || s.deltan <= 0.0)
+      return;
+    const double damping = s.Fn - s.kn * s.deltan;
+    const calendem::Vec3 force = {damping * s.en[0], damping * s.en[1], damping * s.en[2]};
+    energy_->add_damping(s.i, {force, {}});
+    energy_->add_damping(s.j, {-force, {}});
+    energy_->add_friction(s.i, action_of(i_forces) - so_far_[0]);
+    energy_->add_friction(s.j, action_of(j_forces) - so_far_[1]);
+  }
   void beginPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
   void endPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
 
 private:
   FixBondBpm *fix_;
+  FixEnergyBpm *energy_;     // NULL when no ledger is kept
+  ForceAndTorque so_far_[2]; // on i and j, before the tangential model
   double **cohEnergyDens_;
   ContactModelBase *cmb_;
   int offset_;
+
+  static ForceAndTorque action_of(const ForceData &f) {
+    return {calendem::load(f.delta_F), calendem::load(f.delta_torque)};
+  }
 
   void bond_force(SurfacesCloseData &s, BondHistory &bond, const calendem::Vec3 &n, double r,
                   ForceData &i_forces, ForceData &j_forces) {
@@ -113,7 +135,11 @@ private:
       const double mj = atom->rmass[s.j];
       damping = calendem::BondDamping(b.material, section, k, mi * mj / (mi + mj), radius_min);
     }
-    const calendem::BondAction a = calendem::action(loads, tension, motion, damping);
+    calendem::BondAction viscous;
+    const calendem::BondAction a =
+        calendem::action(loads, tension, motion, damping, energy_ ? &viscous : nullptr);
+    if (energy_ && s.computeflag)
+      energy_->add_damping(s.i, s.j, viscous);
     calendem::add_to(a.force, i_forces.delta_F);
     calendem::subtract_from(a.force, j_forces.delta_F);
     calendem::add_to(a.torque_i, i_forces.delta_torque);

@@ -4,6 +4,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_contact_history.h"
+#include "fix_energy_bpm.h"
 #include "memory.h"
 #include "modify.h"
 #include "mpi_liggghts.h"
@@ -26,9 +27,9 @@ const int kEventSize = sizeof(BreakEvent) / sizeof(double);
 } // namespace
 
 FixBondBpm::FixBondBpm(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), body_(NULL), broken_(NULL), history_offset_(-1), created_(false),
-      creating_(false), log_ready_(false), initial_(0), by_mode_(), energy_lost_(0.0),
-      overstretched_() {
+    : Fix(lmp, narg, arg), energy_(NULL), body_(NULL), broken_(NULL), history_offset_(-1),
+      created_(false), creating_(false), log_ready_(false), initial_(0), by_mode_(),
+      energy_lost_(0.0), overstretched_() {
   if (!atom->sphere_flag || !atom->tag_enable)
     error->fix_error(FLERR, this, "needs atom_style granular (or sphere) with atom tags");
   if (domain->triclinic)
@@ -81,6 +82,7 @@ int FixBondBpm::friction_history_offset(int bond_offset) {
 }
 
 void FixBondBpm::init() {
+  energy_ = FixEnergyBpm::find(lmp);
   check_materials();
   if (!created_)
     read_bodies();
@@ -234,6 +236,8 @@ void FixBondBpm::apply_breaks(const std::vector<BreakEvent> &all) {
       const auto hit = std::lower_bound(all.begin(), all.end(), key, less);
       if (hit == all.end() || hit->tag_low != key.first || hit->tag_high != key.second)
         continue;
+      if (energy_)
+        energy_->bond_breaks(i, j, bond);
       bond.set_state(kBrokenTouching);
       bond.set_loads({});
       ++broken_[i];

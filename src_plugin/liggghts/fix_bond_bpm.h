@@ -94,11 +94,14 @@ public:
   template <class Visit> void for_each_intact(Visit visit);
   /// The same for every copy on this rank: each local atom meets all its bonds.
   template <class Visit> void for_each_copy(Visit visit);
+  /// Calls visit(i, j, r, history) for every pair whose spheres overlap, each once over all ranks.
+  template <class Visit> void for_each_touching(Visit visit);
   /// True on the rank (and copy) that counts the pair and decides its fate.
   bool decides(int i, int j) const;
 
 private:
   BondSettings settings_;
+  class FixEnergyBpm *energy_; // NULL when no ledger is kept
   std::string bodies_file_, log_file_, platen_id_;
   std::vector<int> body_of_tag_; // from the body map; empty after a restart
   int *body_, *broken_;
@@ -123,6 +126,7 @@ private:
   void read_bodies();
   void check_box();
   bigint count_intact();
+  template <class Visit> void for_each_neighbor(Visit visit);
   void gather_breaks(std::vector<BreakEvent> &all);
   void apply_breaks(const std::vector<BreakEvent> &all);
   void open_log();

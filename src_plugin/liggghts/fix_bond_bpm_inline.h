@@ -25,7 +25,7 @@ inline void FixBondBpm::create(int i, int j, double r, BondHistory &bond) const 
                                           atom->tag[j]));
 }
 
-template <class Visit> void FixBondBpm::for_each_copy(Visit visit) {
+template <class Visit> void FixBondBpm::for_each_neighbor(Visit visit) {
   PairGran *pair = static_cast<PairGran *>(force->pair_match("gran", 1));
   if (!pair || !pair->list || !pair->list->listgranhistory || history_offset_ < 0)
     return;
@@ -37,10 +37,24 @@ template <class Visit> void FixBondBpm::for_each_copy(Visit visit) {
     for (int jj = 0; jj < list->numneigh[i]; ++jj) {
       BondHistory bond(all + dnum * jj + history_offset_);
       const int j = list->firstneigh[i][jj] & NEIGHMASK;
-      if (bond.state() == kIntact)
-        visit(i, j, bond);
+      visit(i, j, bond);
     }
   }
+}
+
+template <class Visit> void FixBondBpm::for_each_copy(Visit visit) {
+  for_each_neighbor([&](int i, int j, BondHistory &bond) {
+    if (bond.state() == kIntact)
+      visit(i, j, bond);
+  });
+}
+
+template <class Visit> void FixBondBpm::for_each_touching(Visit visit) {
+  for_each_neighbor([&](int i, int j, const BondHistory &bond) {
+    const double r = norm(calendem::load(atom->x[i]) - calendem::load(atom->x[j]));
+    if (r < atom->radius[i] + atom->radius[j] && decides(i, j))
+      visit(i, j, r, bond);
+  });
 }
 
 template <class Visit> void FixBondBpm::for_each_intact(Visit visit) {

@@ -51,6 +51,7 @@ public:
   void restart(char *);
 
   double position() const { return record_.state.position; }
+  double velocity() const { return -record_.state.speed; } ///< along z [um/us]
   double pressure() const { return record_.average.value(); }
   bool is_top() const { return sign_ < 0.0; }
 

@@ -26,6 +26,11 @@ inline double hertz_stiffness(double E_eff, double R_eff, double overlap) {
   return overlap > 0.0 ? 2.0 * E_eff * std::sqrt(R_eff * overlap) : 0.0;
 }
 
+/// Energy [fJ] stored in the contact: the integral of the force, 8/15 E* sqrt(R*) delta^(5/2).
+inline double hertz_energy(double E_eff, double R_eff, double overlap) {
+  return 0.4 * overlap * hertz_force(E_eff, R_eff, overlap);
+}
+
 /// Overlap at which Hertz repulsion balances SJKR attraction (lens area ~ 2 pi R* delta):
 /// delta = R* (3 pi CED / (2 E*))^2, so it grows with (CED/E)^2.
 inline double sjkr_equilibrium_overlap(double cohesion_energy_density, double E_eff, double R_eff) {

@@ -3,7 +3,8 @@
 // circle in which two spheres of radii R_i, R_j at centre distance r intersect (the lens's section)
 //   A = pi/4 * [(R_i+R_j)^2 - r^2] [r^2 - (R_i-R_j)^2] / r^2
 // and 0 outside |R_i-R_j| < r < R_i+R_j. CED: cohesion energy density [kPa = 1e3 J/m^3], >= 0.
-// Not conservative at pull-off only through Hertz; the pair force depends on r alone.
+// Conservative: the force depends on r alone. With S = R_i + R_j, D = R_i - R_j its potential is
+//   U = -CED * integral of A from r to S = -CED pi/4 (S - r)^2 [(2 S + r)/3 - D^2/r]
 // Deviations: none (LIGGGHTS `sjkr` uses the same area; `sjkr2` about twice it).
 // Verified by tests/unit/physics/sjkr_cohesion_test.cpp and tests/verification/contact.
 #ifndef CALENDEM_PHYSICS_SJKR_COHESION_H
@@ -25,6 +26,21 @@ inline double lens_area(double r, double radius_i, double radius_j) {
 inline double sjkr_force(double cohesion_energy_density, double r, double radius_i,
                          double radius_j) {
   return cohesion_energy_density * lens_area(r, radius_i, radius_j);
+}
+
+/// Potential [fJ], <= 0, zero at first touch; below r = |R_i - R_j|, where no force acts, constant.
+inline double sjkr_potential(double cohesion_energy_density, double r, double radius_i,
+                             double radius_j) {
+  const double sum = radius_i + radius_j;
+  const double difference = radius_i > radius_j ? radius_i - radius_j : radius_j - radius_i;
+  if (r >= sum)
+    return 0.0;
+  if (r <= difference) // of equal spheres D^2/r has the limit 0
+    r = difference;
+  const double last = r > 0.0 ? difference * difference / r : 0.0;
+  constexpr double kQuarterPi = 0.78539816339744830962;
+  return -cohesion_energy_density * kQuarterPi * (sum - r) * (sum - r) *
+         ((2.0 * sum + r) / 3.0 - last);
 }
 
 } // namespace calendem

@@ -37,6 +37,19 @@ TEST(HertzContact, StiffnessIsSlope) {
   }
 }
 
+// Requirement: the force is the energy's slope. Central difference of step h: error h^2 F''/6 =
+// h^2 F / (8 delta^2), so 1e-8/8 at h = 1e-4 delta, and round-off 1e-16/1e-4.
+TEST(HertzContact, ForceIsSlopeOfEnergy) {
+  for (double delta : {1e-4, 1e-2, 0.3}) {
+    const double h = 1e-4 * delta;
+    const double slope =
+        (hertz_energy(1e8, 0.4, delta + h) - hertz_energy(1e8, 0.4, delta - h)) / (2.0 * h);
+    EXPECT_NEAR(slope / hertz_force(1e8, 0.4, delta), 1.0, 1e-8 / 8 + 1e-11);
+  }
+  EXPECT_EQ(hertz_energy(1e8, 0.4, 0.0), 0.0);
+  EXPECT_EQ(hertz_energy(1e8, 0.4, -1.0), 0.0);
+}
+
 // Requirement: at the equilibrium overlap Hertz balances SJKR. The formula takes the lens area to
 // first order in delta; the next order shifts the root by -delta/S (1 + D^2/(R_i R_j)), S and D sum
 // and difference of the radii. The root of the full forces must show this shift to 1 % (terms of

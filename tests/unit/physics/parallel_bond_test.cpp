@@ -244,6 +244,28 @@ TEST(ParallelBond, DampingDissipates) {
   }
 }
 
+// Requirement: what the ledger counts as dissipated is the bond's action less its elastic part, to
+// the round-off of the larger.
+TEST(ParallelBond, ViscousPart) {
+  RandomVectors random(8);
+  const BondStiffness k(material(), BondSection(0.6), kLength);
+  const BondDamping c(material(0.3), BondSection(0.6), k, 4.0, 0.6);
+  for (int n = 0; n < 2000; ++n) {
+    const PairMotion m = random_motion(random);
+    const BondLoads loads = {random.vector(1e3), random.vector(1e3), random.number(-1e3, 1e3)};
+    BondAction viscous;
+    const BondAction all = action(loads, 1e3, m, c, &viscous);
+    const BondAction elastic = action(loads, 1e3, m, BondDamping());
+    const auto near = [&](const Vec3 &a, const Vec3 &b, const Vec3 &v) {
+      const double size = norm(a) + norm(b) + norm(v) + 1e3;
+      return norm(a - b - v) < 1e-14 * size * (1.0 + norm(m.d));
+    };
+    ASSERT_TRUE(near(all.force, elastic.force, viscous.force));
+    ASSERT_TRUE(near(all.torque_i, elastic.torque_i, viscous.torque_i));
+    ASSERT_TRUE(near(all.torque_j, elastic.torque_j, viscous.torque_j));
+  }
+}
+
 // Requirement: `damping` is the fraction of critical damping of the pair's axial mode: 2 sqrt(k m).
 TEST(ParallelBond, DampingIsFractionOfCritical) {
   const BondStiffness k(material(), BondSection(0.6), kLength);

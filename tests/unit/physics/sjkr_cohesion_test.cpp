@@ -7,6 +7,7 @@
 
 using calendem::lens_area;
 using calendem::sjkr_force;
+using calendem::sjkr_potential;
 
 namespace {
 
@@ -52,4 +53,31 @@ TEST(SjkrCohesion, EndsAndSymmetry) {
   EXPECT_EQ(sjkr_force(6e5, 1.3, 0.795, 0.795), 6e5 * lens_area(1.3, 0.795, 0.795));
   for (double r = 0.55; r < 1.5; r += 0.01) // 4 ulp: the order of two factors differs
     EXPECT_DOUBLE_EQ(lens_area(r, 1.0, 0.5), lens_area(r, 0.5, 1.0));
+}
+
+// Requirement: known values. Unit spheres at distance 1: the integral of pi/4 (4 - x^2) from 1 to 2
+// is 5 pi/12. Zero without overlap; where no force acts any more, constant.
+TEST(SjkrCohesion, KnownPotentials) {
+  EXPECT_DOUBLE_EQ(sjkr_potential(3.0, 1.0, 1.0, 1.0), -3.0 * 5.0 * kPi / 12.0);
+  EXPECT_DOUBLE_EQ(sjkr_potential(1.0, 0.0, 1.0, 1.0), -kPi / 4.0 * 16.0 / 3.0);
+  EXPECT_EQ(sjkr_potential(3.0, 2.0, 1.0, 1.0), 0.0);
+  EXPECT_EQ(sjkr_potential(3.0, 2.5, 1.0, 1.0), 0.0);
+  EXPECT_EQ(sjkr_potential(3.0, 0.1, 1.0, 0.5), sjkr_potential(3.0, 0.5, 1.0, 0.5));
+}
+
+// Requirement: the attraction is the potential's slope, for all ratios of radii and overlaps.
+// Central difference of step h = 1e-4 delta: its relative error h^2 |A''|/(6 A) = 1e-8 delta
+// [2 r^2 + 6 S^2 D^2/r^2] / [6 (S + r)(r^2 - D^2)] is below 1e-8 here; round-off 1e-16/1e-4.
+TEST(SjkrCohesion, ForceIsSlopeOfPotential) {
+  for (double ratio : {1.0, 0.7, 0.5, 0.1})
+    for (double share : {1e-3, 0.01, 0.1, 0.5}) {
+      const double Ri = 0.795, Rj = ratio * Ri, delta = share * 2.0 * Rj, r = Ri + Rj - delta;
+      const double h = 1e-4 * delta;
+      const double slope =
+          (sjkr_potential(6e5, r + h, Ri, Rj) - sjkr_potential(6e5, r - h, Ri, Rj)) / (2.0 * h);
+      // S - r itself is known to 1 ulp of S only: 1e-16 S / h
+      const double round_off = 2.2e-16 * (Ri + Rj) / h;
+      EXPECT_NEAR(slope / sjkr_force(6e5, r, Ri, Rj), 1.0, 1e-8 + 2.0 * round_off);
+      EXPECT_DOUBLE_EQ(sjkr_potential(6e5, r, Ri, Rj), sjkr_potential(6e5, r, Rj, Ri));
+    }
 }

@@ -227,6 +227,7 @@ const Ledger kLedger[] = {
     {"work_platen_fJ", "work of the platen", "#222222", ""},
     {"strain_fJ", "elastic, in bonds", "#0064b0", "9 4"},
     {"contact_elastic_fJ", "elastic, in contacts", "#5a9bd4", "3 3"},
+    {"cohesion_fJ", "cohesion", "#6b8e23", "5 2 1 2"},
     {"work_bonds_lost_fJ", "lost in breaks", "#c8321e", "2 3"},
     {"damped_fJ", "damped", "#00845a", "9 3 2 3"},
     {"friction_fJ", "friction", "#a8508c", "6 3"},
@@ -247,6 +248,10 @@ Chart energy_ledger(const Run &run, bool single) {
     Column energy = picked(run.curve[entry.column], all_rows(run.curve), kNanojoule);
     if (std::none_of(energy.begin(), energy.end(), [](double e) { return std::isfinite(e); }))
       continue; // measured by nothing in this run
+    // A packed film has elastic energy already.
+    const double before = energy.front();
+    for (double &e : energy)
+      e -= before;
     if (rest.empty())
       rest = energy; // the first entry is what was put in
     else
@@ -257,8 +262,8 @@ Chart energy_ledger(const Run &run, bool single) {
   }
   if (chart.series.size() > 1 && run.curve.has(kLedger[0].column)) {
     chart.series.push_back(line("rest", run.curve["time_us"], rest, "#777777", "1 5", plain));
-    chart.note = "Rest: work of the platen less everything else shown, that is, what curve.csv has "
-                 "no column for, and the error of the ledger.";
+    chart.note = "Since the first row. Rest: work of the platen less everything else shown, that "
+                 "is, what curve.csv has no column for, and the error of the ledger.";
   }
   return chart;
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "run/collect.h"
+#include "run/energy.h"
 #include "spec/provenance.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <fstream>
@@ -13,6 +15,8 @@ namespace calendem {
 namespace {
 
 const char *const kStageNames[] = {"hold", "compression", "dwell", "relaxation", "relaxation"};
+
+constexpr size_t kWithoutLedger = 18; // columns of curve_raw.csv
 
 // Waves after a burst of breaks swing for some tenths of a microsecond.
 constexpr double kImbalanceWindow = 0.5; // us
@@ -56,17 +60,18 @@ std::string curve(const std::vector<RawRow> &rows, const ElectrodeFacts &e,
       "time_us,stage,displacement_um,thickness_um,pressure_MPa,pressure_bottom_MPa,bonds_broken,"
       "broken_fraction,broken_tension,broken_bending,broken_shear,broken_torsion,porosity_total,"
       "porosity_macro,kinetic_to_strain,kinetic_fJ,strain_fJ,work_platen_fJ,work_bonds_lost_fJ,"
-      "work_collector_fJ,pressure_difference\n";
+      "work_collector_fJ,pressure_difference,contact_elastic_fJ,cohesion_fJ,damped_fJ,"
+      "friction_fJ\n";
   for (size_t i = 0; i < rows.size(); ++i) {
     const RawRow &r = rows[i];
     out += fmt::format(
         "{:.6f},{},{:.6f},{:.6f},{:.6g},{:.6g},{:.0f},{:.6f},{:.0f},{:.0f},{:.0f},{:.0f},{:.6f},"
-        "{:.6f},{:.4g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.4g}\n",
+        "{:.6f},{:.4g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.4g},{:.6g},{:.6g},{:.6g},{:.6g}\n",
         r.time, kStageNames[static_cast<int>(r.stage)], r.displacement, r.gap, r.p_top, r.p_bottom,
         r.broken, r.made > 0 ? r.broken / r.made : 0.0, r.tension, r.bending, r.shear, r.torsion,
         total_porosity(e, r.gap), 1.0 - filled.at(r.time) / (e.area * r.gap),
         r.strain > 0 ? r.kinetic / r.strain : 0.0, r.kinetic, r.strain, r.work_platen, r.work_lost,
-        r.work_collector, difference[i]);
+        r.work_collector, difference[i], r.contact_elastic, r.cohesion, r.damped, r.friction);
   }
   return out;
 }
@@ -149,21 +154,22 @@ std::vector<RawRow> read_raw(const std::string &file) {
   while (std::getline(in, line)) {
     if (in.eof()) // a line without its end is being written
       break;
-    double v[18];
-    int n = 0;
+    std::array<double, 22> v;
+    v.fill(std::nan(""));
+    size_t n = 0;
     std::istringstream fields(line);
     std::string field;
-    while (n < 18 && std::getline(fields, field, ',')) {
+    while (n < v.size() && std::getline(fields, field, ',')) {
       char *end = nullptr;
       v[n] = std::strtod(field.c_str(), &end);
       if (end == field.c_str())
         break;
       ++n;
     }
-    if (n == 18)
-      rows[static_cast<long>(v[0])] = {v[0],  v[1],  v[2],  v[3],  v[4],  v[5],
-                                       v[6],  v[7],  v[8],  v[9],  v[10], v[11],
-                                       v[12], v[13], v[14], v[15], v[16], v[17]};
+    if (n == v.size() || n == kWithoutLedger)
+      rows[static_cast<long>(v[0])] = {v[0],  v[1],  v[2],  v[3],  v[4],  v[5],  v[6],  v[7],
+                                       v[8],  v[9],  v[10], v[11], v[12], v[13], v[14], v[15],
+                                       v[16], v[17], v[18], v[19], v[20], v[21]};
   }
   std::vector<RawRow> out;
   for (const auto &[step, row] : rows)
@@ -208,10 +214,7 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   s["cracked_bodies"] = cracked;
   s["cracked_criterion"] = "at least 8 % of its bonds broken and more than one fragment";
   s["quasi_static"] = quasi_static(rows, settings.number("numerics.average_us"));
-  s["energy_fJ"] = {{"work_of_platen", rows.back().work_platen},
-                    {"released_by_breaks", rows.back().work_lost},
-                    {"bond_strain_at_end", rows.back().strain},
-                    {"kinetic_at_end", rows.back().kinetic}};
+  s["energy_fJ"] = energy_ledger(rows, top);
   if (facts.ranks > 0) {
     s["wall_clock_s"] = facts.wall_clock_s;
     s["ranks"] = facts.ranks;
@@ -233,6 +236,8 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   else
     s["stopped_because"] = facts.stopped_because;
   write_file(folder + "/summary.json", s.dump(2) + "\n");
+  if (const std::string warning = ledger_warning(s["energy_fJ"]); !warning.empty())
+    fmt::print(stderr, "warning: {}\n", warning);
   return s;
 }
 

@@ -10,10 +10,12 @@
 
 namespace calendem {
 
-/// One row of curve_raw.csv, in the order of its columns.
+/// One row of curve_raw.csv, in the order of its columns. The last four are NaN in a run that kept
+/// no energy ledger.
 struct RawRow {
   double step, time, stage, displacement, gap, p_top, p_bottom, made, broken, tension, bending,
-      shear, torsion, kinetic, strain, work_platen, work_lost, work_collector;
+      shear, torsion, kinetic, strain, work_platen, work_lost, work_collector, contact_elastic,
+      cohesion, damped, friction;
 };
 
 /// Rows by time; after a resumption the last of equal steps counts. Cut lines are dropped.

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fix_energy_bpm.h"
+#include "comm.h"
+#include "error.h"
+#include "fix_bond_bpm.h"
+#include "fix_property_atom.h"
+#include "fix_wall_gran_platen.h"
+#include "force.h"
+#include "global_properties.h"
+#include "modify.h"
+#include "physics/hertz_contact.h"
+#include "physics/sjkr_cohesion.h"
+#include "update.h"
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using calendem::Vec3;
+
+FixEnergyBpm::FixEnergyBpm(LAMMPS *lmp, int narg, char **arg)
+    : Fix(lmp, narg, arg), bonds_(NULL), effective_modulus_(NULL), cohesion_energy_density_(NULL),
+      sums_() {
+  if (narg != 3)
+    error->fix_error(FLERR, this, "takes no arguments: 'fix ID all energy/bpm'");
+  vector_flag = 1;
+  size_vector = 5;
+  global_freq = 1;
+  restart_global = 1;
+  grow_arrays(atom->nmax);
+  atom->add_callback(0);
+}
+
+FixEnergyBpm::~FixEnergyBpm() { atom->delete_callback(id, 0); }
+
+int FixEnergyBpm::setmask() { return POST_INTEGRATE | PRE_FORCE | POST_FORCE; }
+
+FixEnergyBpm *FixEnergyBpm::find(LAMMPS *lmp) {
+  return static_cast<FixEnergyBpm *>(lmp->modify->find_fix_style_strict("energy/bpm", 0));
+}
+
+void FixEnergyBpm::init() {
+  if (modify->n_fixes_style_strict("energy/bpm") > 1)
+    error->fix_error(FLERR, this, "there may be only one");
+  bonds_ = FixBondBpm::find(lmp, "fix energy/bpm");
+  force->registry.registerProperty("Yeff", &MODEL_PARAMS::createYeff);
+  force->registry.connect("Yeff", effective_modulus_, "fix energy/bpm");
+  force->registry.registerProperty("cohEnergyDens", &MODEL_PARAMS::createCohesionEnergyDensity);
+  force->registry.connect("cohEnergyDens", cohesion_energy_density_, "fix energy/bpm");
+  find_walls();
+}
+
+void FixEnergyBpm::find_walls() {
+  walls_.clear();
+  bool behind = false;
+  for (int k = 0; k < modify->nfix; ++k) {
+    behind = behind || modify->fix[k] == this;
+    FixWallGranPlaten *wall = dynamic_cast<FixWallGranPlaten *>(modify->fix[k]);
+    if (wall && behind)
+      error->fix_error(FLERR, this, "must stand behind the fixes wall/gran/platen in the script");
+    if (wall)
+      walls_.push_back({wall, 0.0});
+  }
+}
+
+void FixEnergyBpm::grow_arrays(int nmax) { loads_.resize(nmax); }
+
+void FixEnergyBpm::pre_force(int) {
+  std::fill(loads_.begin(), loads_.begin() + atom->nlocal, AtomLoads());
+}
+
+// Atoms may have moved in memory, and the forces that follow no longer know the broken bonds.
+void FixEnergyBpm::setup_pre_force(int vflag) {
+  last_forces_.clear();
+  pre_force(vflag);
+}
+
+void FixEnergyBpm::setup(int) { collect_walls(); }
+
+// Velocities are those that have just moved the atoms; the forces are still the step's first.
+void FixEnergyBpm::post_integrate() {
+  add_half_step();
+  for (const LastForce &last : last_forces_)
+    sums_[kBreaks] -= work_in_half_step(last.action, last.atom);
+  last_forces_.clear();
+}
+
+void FixEnergyBpm::post_force(int) {
+  collect_walls();
+  add_half_step();
+}
+
+double FixEnergyBpm::work_in_half_step(const ForceAndTorque &a, int i) const {
+  return 0.5 * update->dt *
+         (dot(a.force, calendem::load(atom->v[i])) + dot(a.torque, calendem::load(atom->omega[i])));
+}
+
+// A wall moves along its damping force, never along its friction.
+void FixEnergyBpm::add_half_step() {
+  double damped = 0.0, friction = 0.0;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    damped -= work_in_half_step(loads_[i].damping, i);
+    friction -= work_in_half_step(loads_[i].friction, i);
+  }
+  for (const Wall &wall : walls_)
+    damped += 0.5 * update->dt * wall.damping * wall.fix->velocity();
+  sums_[kDamped] += damped;
+  sums_[kFriction] += friction;
+}
+
+void FixEnergyBpm::collect_walls() {
+  for (Wall &wall : walls_) {
+    wall.damping = 0.0;
+    double **force = wall.fix->fix_wallforce()->array_atom;
+    for (int i = 0; i < atom->nlocal; ++i)
+      if (force[i][2] != 0.0)
+        collect(wall, i, force[i]);
+  }
+}
+
+// The force that a flat wall exerts on atom i: Hertz and damping along z, friction across, with the
+// arm of the host's default surface model.
+void FixEnergyBpm::collect(Wall &wall, int i, const double *force) {
+  const double height = atom->x[i][2] - wall.fix->position();
+  const double overlap = atom->radius[i] - std::fabs(height);
+  const double side = height > 0.0 ? 1.0 : -1.0;
+  const double E = effective_modulus_[atom->type[i]][wall.fix->atom_type_wall()];
+  const double damping = force[2] - side * calendem::hertz_force(E, atom->radius[i], overlap);
+  wall.damping += damping;
+  add_damping(i, {{0.0, 0.0, damping}, {}});
+  const Vec3 friction = {force[0], force[1], 0.0};
+  const Vec3 arm = {0.0, 0.0, -side * (atom->radius[i] - 0.5 * overlap)};
+  add_friction(i, {friction, cross(arm, friction)});
+}
+
+double FixEnergyBpm::cohesion(int i, int j, double r) const {
+  return calendem::sjkr_potential(cohesion_energy_density_[atom->type[i]][atom->type[j]], r,
+                                  atom->radius[i], atom->radius[j]);
+}
+
+void FixEnergyBpm::bond_breaks(int i, int j, const BondHistory &bond) {
+  const double *radius = atom->radius;
+  const Vec3 d = calendem::load(atom->x[i]) - calendem::load(atom->x[j]);
+  const double r = norm(d);
+  const Vec3 n = (1.0 / r) * d;
+  const calendem::BondMaterial &material = bonds_->settings().material;
+  const calendem::BondSection section(material.radius_ratio * std::min(radius[i], radius[j]));
+  const calendem::BondStiffness k(material, section, bond.length());
+  const calendem::PairMotion motion = {d, {}, {}, {}, n, r};
+  const calendem::BondAction a =
+      action(bond.loads(), k.normal * (r - bond.length()), motion, calendem::BondDamping());
+  const double beyond = r + bond.reference_overlap(radius[i] + radius[j]);
+  const double pull = calendem::sjkr_force(cohesion_energy_density_[atom->type[i]][atom->type[j]],
+                                           beyond, radius[i], radius[j]);
+  const Vec3 force = a.force + pull * n; // the bond's, which ends, less the cohesion's
+  last_forces_.push_back({i, {force, a.torque_i}});
+  if (j < atom->nlocal)
+    last_forces_.push_back({j, {-force, a.torque_j}});
+  if (bonds_->decides(i, j))
+    sums_[kBreaks] -= cohesion(i, j, beyond);
+}
+
+double FixEnergyBpm::pair_energy(bool of_cohesion) const {
+  double sum = 0.0;
+  bonds_->for_each_touching([&](int i, int j, double r, const BondHistory &bond) {
+    const double *radius = atom->radius;
+    const double beyond = r + bond.reference_overlap(radius[i] + radius[j]);
+    if (!of_cohesion)
+      sum += calendem::hertz_energy(effective_modulus_[atom->type[i]][atom->type[j]],
+                                    calendem::effective_radius(radius[i], radius[j]),
+                                    radius[i] + radius[j] - beyond);
+    else if (bond.state() != kIntact)
+      sum += cohesion(i, j, beyond);
+  });
+  return sum;
+}
+
+double FixEnergyBpm::wall_energy() const {
+  double sum = 0.0;
+  for (const Wall &wall : walls_)
+    for (int i = 0; i < atom->nlocal; ++i)
+      sum += calendem::hertz_energy(
+          effective_modulus_[atom->type[i]][wall.fix->atom_type_wall()], atom->radius[i],
+          atom->radius[i] - std::fabs(atom->x[i][2] - wall.fix->position()));
+  return sum;
+}
+
+double FixEnergyBpm::compute_vector(int n) {
+  double mine = n >= 2 ? sums_[n - 2] : pair_energy(n == 1), all = 0.0;
+  if (n == 0)
+    mine += wall_energy();
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+// The first rank goes on from the total, as after a restart: both give the same bits.
+void FixEnergyBpm::write_restart(FILE *fp) {
+  double total[kSums];
+  MPI_Allreduce(sums_, total, kSums, MPI_DOUBLE, MPI_SUM, world);
+  for (int k = 0; k < kSums; ++k)
+    sums_[k] = comm->me == 0 ? total[k] : 0.0;
+  if (comm->me != 0)
+    return;
+  const int bytes = sizeof total;
+  fwrite(&bytes, sizeof(int), 1, fp);
+  fwrite(total, sizeof(double), kSums, fp);
+}
+
+void FixEnergyBpm::restart(char *buf) {
+  const double *total = reinterpret_cast<const double *>(buf);
+  for (int k = 0; k < kSums; ++k)
+    sums_[k] = comm->me == 0 ? total[k] : 0.0;
+}
+
+double FixEnergyBpm::memory_usage() { return loads_.capacity() * sizeof(AtomLoads); }

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// fix ID all energy/bpm
+//
+// Where the work of the platens goes. Elastic energies are summed over the pairs when asked for;
+// dissipated work is summed every step with the trapezoid that the integrator itself exchanges
+// kinetic energy by: over the step from x(n) to x(n+1) a force does the work
+// (F(n) + F(n+1))/2 . (x(n+1) - x(n)). So work of the platens = change of kinetic energy, bond
+// strain and terms 1-2, plus terms 3-5, plus what fix bond/bpm counts as released by breaks; what
+// is left over is the error of the conservative forces over a step and the work of gravity.
+// Global vector [fJ]: 1 elastic energy of the Hertz contacts, walls included, 2 potential of SJKR
+//   (<= 0), 3 dissipated by normal damping of contacts and by damping of bonds, 4 work against the
+//   tangential contact forces: slip, their damping, and what their springs hold at the moment,
+//   5 lost in breaks beyond the bonds' strain energy: the potential of the cohesion that begins to
+//   act, and the last half step of the bond's force.
+// Needs `pair_style gran model hertz ... cohesion bpm surface bpm`; stands behind all fixes
+// wall/gran/platen, the walls it knows. Sums restart under the same fix ID.
+#ifdef FIX_CLASS
+
+FixStyle(energy/bpm, FixEnergyBpm)
+
+#else
+#ifndef LMP_FIX_ENERGY_BPM_H
+#define LMP_FIX_ENERGY_BPM_H
+
+#include "atom.h"
+#include "bond_bpm_history.h"
+#include "fix.h"
+#include "physics/parallel_bond.h"
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// On one atom [nN], [nN um].
+struct ForceAndTorque {
+  calendem::Vec3 force, torque;
+};
+
+inline ForceAndTorque operator+(const ForceAndTorque &a, const ForceAndTorque &b) {
+  return {a.force + b.force, a.torque + b.torque};
+}
+inline ForceAndTorque operator-(const ForceAndTorque &a, const ForceAndTorque &b) {
+  return {a.force - b.force, a.torque - b.torque};
+}
+
+class FixEnergyBpm : public Fix {
+public:
+  FixEnergyBpm(class LAMMPS *, int, char **);
+  ~FixEnergyBpm();
+  int setmask();
+  void init();
+  void setup_pre_force(int);
+  void setup(int);
+  void post_integrate();
+  void pre_force(int);
+  void post_force(int);
+  double compute_vector(int);
+  double memory_usage();
+  void grow_arrays(int);
+  void write_restart(FILE *);
+  void restart(char *);
+
+  /// The fix of the run, NULL if there is none.
+  static FixEnergyBpm *find(class LAMMPS *lmp);
+
+  // for the contact models, per pair; ghosts are their owner's business
+  void add_damping(int i, const ForceAndTorque &a) {
+    if (i < atom->nlocal)
+      loads_[i].damping = loads_[i].damping + a;
+  }
+  void add_damping(int i, int j, const calendem::BondAction &a) {
+    add_damping(i, {a.force, a.torque_i});
+    add_damping(j, {-a.force, a.torque_j});
+  }
+  void add_friction(int i, const ForceAndTorque &a) {
+    if (i < atom->nlocal)
+      loads_[i].friction = loads_[i].friction + a;
+  }
+  /// For fix bond/bpm, once per copy of the pair, while the history still holds the bond's loads.
+  void bond_breaks(int i, int j, const BondHistory &bond);
+
+private:
+  struct AtomLoads {
+    ForceAndTorque damping, friction;
+  };
+  struct LastForce {
+    int atom;
+    ForceAndTorque action;
+  };
+  struct Wall {
+    class FixWallGranPlaten *fix;
+    double damping; ///< sum of the damping forces along z on this rank's atoms [nN]
+  };
+  enum Sum { kDamped, kFriction, kBreaks, kSums };
+
+  class FixBondBpm *bonds_;
+  double **effective_modulus_, **cohesion_energy_density_; // by type pair, from the host
+  std::vector<Wall> walls_;
+  std::vector<AtomLoads> loads_;       // of the latest force computation
+  std::vector<LastForce> last_forces_; // of bonds that have just broken
+  double sums_[kSums];                 // this rank's
+
+  void find_walls();
+  void collect_walls();
+  void collect(Wall &wall, int i, const double *force);
+  void add_half_step();
+  double work_in_half_step(const ForceAndTorque &a, int i) const;
+  double cohesion(int i, int j, double r) const;
+  double pair_energy(bool of_cohesion) const;
+  double wall_energy() const;
+};
+
+} // namespace LAMMPS_NS
+
+#endif
+#endif

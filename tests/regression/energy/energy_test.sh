@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# The energy ledger of one run closes: energy_test.sh friction|frictionless BIN WORK
+set -euo pipefail
+case=$1 bin=$2 work=$3
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+if [ "$(id -u)" -eq 0 ]; then export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; fi
+fail() { echo "FAILED: $*" >&2; exit 1; }
+holds() { awk "BEGIN { exit !($1) }" || fail "$2"; }
+number() { sed -n "s/^ *\"$1\": \([-+0-9.e]*\),*$/\1/p"; }
+at() { sed -n "/\"$1\"/,/}/p" "$summary" | number "$2"; } # WHEN TERM
+
+limit=0.003 # see README.md
+mkdir -p "$work"
+summary=$work/$case/summary.json
+case $case in
+  friction) cp "$here/case.toml" "$work/$case.toml" ;;
+  frictionless) # every friction 0: the two that are set, and the walls'
+    sed 's/^friction = .*/friction = 0/' "$here/case.toml" >"$work/$case.toml"
+    printf '\n[material.collector]\nfriction = 0\n\n[material.platen]\nfriction = 0\n' >>"$work/$case.toml" ;;
+esac
+rm -rf "${work:?}/$case"
+"$bin/calendem" run "$work/$case.toml" -o "$work/$case" --ranks 1
+left=$(number unaccounted_fraction <"$summary")
+echo "unaccounted for: $left of the work"
+holds "$left <= $limit" "the ledger leaves $left of the platen's work"
+W=$(at at_max_pressure work_of_platen)
+terms="elastic_in_contacts cohesion damped"
+[ "$case" = frictionless ] || terms="$terms friction elastic_in_bonds lost_in_breaks"
+for term in $terms; do # each is large enough that the ledger would show its absence
+  x=$(at at_max_pressure "$term")
+  echo "$term: $(awk "BEGIN { print 100 * $x / $W }") % of the work at maximum pressure"
+  holds "$x >= 2 * $limit * $W || $x <= -2 * $limit * $W" "$term is too small for this test: $x of $W fJ"
+done
+if [ "$case" = frictionless ]; then # the host damps across a contact in the half step of a set-up
+  x=$(at at_end friction)
+  holds "$x <= $limit * $W && $x >= 0" "friction takes $x fJ though it is switched off"
+fi
