@@ -6,7 +6,8 @@
 #include "run/collect_verb.h"
 #include "run/verb.h"
 #include "spec/messages.h"
-#include "spec/verb.h"
+#include "tomogram/verb.h"
+#include "validate/verb.h"
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
@@ -18,6 +19,7 @@ int main(int argc, char **argv) {
   calendem::add_run_verb(app);
   calendem::add_collect_verb(app);
   calendem::add_report_verb(app);
+  calendem::add_tomogram_verb(app);
   calendem::add_validate_verb(app);
   try {
     app.parse(argc, argv);

@@ -180,9 +180,9 @@ every_mistake_at_once() { # of two files, each line with a mistake is named
     case.toml:2: 'The closest is "pressure"' case.toml:3: case.toml:5: "key 'electrode' is missing"
 }
 kinds_of_file() {
-  expect 0 calendem validate "$scripts"/cases/*/*.toml
+  expect 0 calendem validate "$scripts"/cases/{demo,paper}/*.toml "$scripts"/cases/image/tomogram.toml
   says "demo/electrode.toml: a valid recipe" "demo/case.toml: a valid case" \
-    "paper/experiment.toml: a valid experiment of 2 conditions"
+    "paper/experiment.toml: a valid experiment of 2 conditions" "image/tomogram.toml: a valid tomogram"
 }
 experiment_mistakes() {
   cp "$scripts/cases/paper/electrode.toml" "$work/"

@@ -22,20 +22,17 @@ double legendre(int degree, double x) {
 
 using Site = std::array<int, 3>;
 
-// Lattice sites in the order of their radius over the shape's, innermost first; none beyond
-// `farthest` from the centre.
-std::vector<Site> sites_by_depth(const Shape &shape, const Lattice &lattice, int count,
-                                 double farthest) {
-  const double R0 = std::cbrt(0.75 / kPi * count) * lattice.spacing;
-  const int n = static_cast<int>(std::ceil(1.8 * R0 / lattice.spacing)) + 2;
+// Lattice sites by their depth in the hull, innermost first; none beyond `farthest` from the
+// centre.
+std::vector<Site> sites_by_depth(const Hull &hull, const Lattice &lattice, double farthest) {
+  const int n = static_cast<int>(std::ceil(hull.reach / lattice.spacing)) + 2;
   std::vector<std::pair<double, Site>> sites;
   for (int i = -n; i <= n; ++i)
     for (int j = -n; j <= n; ++j)
       for (int k = -n; k <= n; ++k) {
         const Eigen::Vector3d p = lattice.point({i, j, k});
-        const double r = p.norm();
-        if (r <= farthest)
-          sites.push_back({r > 0.0 ? r / shape.radius(p / r) : 0.0, {i, j, k}});
+        if (p.norm() <= farthest)
+          sites.push_back({hull.depth(p), {i, j, k}});
       }
   std::sort(sites.begin(), sites.end());
   std::vector<Site> out;
@@ -57,9 +54,9 @@ bool touches(const Site &site, const std::set<Site> &body) {
 
 // `count` sites, each time the innermost that touches the body, so that it is 6-connected; fewer if
 // there are no more.
-std::vector<Eigen::Vector3d> fill(const Shape &shape, const Lattice &lattice, int count,
+std::vector<Eigen::Vector3d> fill(const Hull &hull, const Lattice &lattice, int count,
                                   double farthest) {
-  const std::vector<Site> sites = sites_by_depth(shape, lattice, count, farthest);
+  const std::vector<Site> sites = sites_by_depth(hull, lattice, farthest);
   std::set<Site> body;
   std::vector<Eigen::Vector3d> points;
   while (static_cast<int>(points.size()) < count) {
@@ -114,41 +111,48 @@ double Shape::radius(const Eigen::Vector3d &u) const {
   return std::max(f, 0.4);
 }
 
-double Shape::sphericity() const {
-  const int nt = 48, np = 96;
+Shape::Mesh Shape::measure(int nt, int np) const {
   const auto point = [&](int i, int j) {
     const double theta = kPi * i / nt, phi = 2.0 * kPi * j / np;
     const Eigen::Vector3d u(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
                             std::cos(theta));
     return Eigen::Vector3d(radius(u) * u);
   };
-  double area = 0.0, volume = 0.0;
+  Mesh m;
   const auto add = [&](const Eigen::Vector3d &a, const Eigen::Vector3d &b,
                        const Eigen::Vector3d &c) {
-    area += 0.5 * (b - a).cross(c - a).norm();
-    volume += a.dot(b.cross(c)) / 6.0;
+    m.area += 0.5 * (b - a).cross(c - a).norm();
+    m.volume += a.dot(b.cross(c)) / 6.0;
   };
   for (int i = 0; i < nt; ++i)
     for (int j = 0; j < np; ++j) {
       add(point(i, j), point(i + 1, j), point(i + 1, j + 1));
       add(point(i, j), point(i + 1, j + 1), point(i, j + 1));
     }
-  return std::cbrt(kPi) * std::pow(6.0 * volume, 2.0 / 3.0) / area;
+  return m;
 }
 
-Body make_body(const Recipe &recipe, int count, Random &random) {
+double Shape::sphericity() const {
+  const Mesh m = measure(48, 96);
+  return std::cbrt(kPi) * std::pow(6.0 * m.volume, 2.0 / 3.0) / m.area;
+}
+
+double Shape::volume_ratio() const { return measure(120, 240).volume / (4.0 / 3.0 * kPi); }
+
+Body make_body(const Recipe &recipe, int count, Random &random, const DrawHull &draw) {
   constexpr int kTries = 100;
   const double widest = recipe.max_width_fraction * std::min(recipe.cell_x, recipe.cell_y);
   Body b;
   for (int tries = 0; tries <= kTries; ++tries) {
     // the last try cuts the shape off where the limit of the width is
     const double farthest = tries < kTries ? HUGE_VAL : 0.5 * (widest - recipe.primary_diameter);
-    const Shape shape(random, recipe.irregularity);
+    const Hull hull = draw(random);
     const Lattice lattice{random.rotation(), random.uniform3() - Eigen::Vector3d::Constant(0.5),
                           recipe.lattice};
-    b.primaries = fill(shape, lattice, count, farthest);
+    b.primaries = fill(hull, lattice, count, farthest);
     b.lattice = lattice.turn;
-    b.sphericity = count == 1 ? 1.0 : shape.sphericity();
+    b.sphericity = count == 1 ? 1.0 : hull.sphericity();
+    b.shape = hull.name;
     b.width = width_of(b.primaries, recipe.primary_diameter);
     b.redrawn = tries;
     if (static_cast<int>(b.primaries.size()) == count && b.width <= widest)
@@ -157,14 +161,26 @@ Body make_body(const Recipe &recipe, int count, Random &random) {
   if (static_cast<int>(b.primaries.size()) != count)
     throw Failure(kBadInput,
                   fmt::format("a secondary particle of {} primaries cannot be kept below "
-                              "a width of {:.2f} um. Make the cell larger or lower "
-                              "particles.irregularity",
+                              "a width of {:.2f} um. Make the cell larger or the "
+                              "particles less irregular",
                               count, widest));
   centre_on_mass(b);
   for (const Eigen::Vector3d &p : b.primaries)
     b.reach = std::max(b.reach, p.norm() + 0.5 * recipe.primary_diameter);
   b.volume = count * std::pow(recipe.lattice, 3);
   return b;
+}
+
+Body make_body(const Recipe &recipe, int count, Random &random) {
+  const double R0 = std::cbrt(0.75 / kPi * count) * recipe.lattice;
+  return make_body(recipe, count, random, [&](Random &r) {
+    const Shape shape(r, recipe.irregularity);
+    const auto depth = [shape](const Eigen::Vector3d &p) {
+      const double distance = p.norm();
+      return distance > 0.0 ? distance / shape.radius(p / distance) : 0.0;
+    };
+    return Hull{depth, 1.8 * R0, [shape] { return shape.sphericity(); }, ""};
+  });
 }
 
 std::vector<Body> make_bodies(const Recipe &recipe) {

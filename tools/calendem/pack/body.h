@@ -7,6 +7,8 @@
 #include "pack/random.h"
 #include "spec/recipe.h"
 #include <array>
+#include <functional>
+#include <string>
 #include <vector>
 
 namespace calendem {
@@ -20,6 +22,8 @@ public:
   double radius(const Eigen::Vector3d &u) const;
   /// Surface of the sphere of equal volume over the surface of the shape, on a mesh of directions.
   double sphericity() const;
+  /// Volume over that of the sphere of radius R0, on a finer mesh.
+  double volume_ratio() const;
 
 private:
   struct Term {
@@ -28,6 +32,11 @@ private:
     double weight;
   };
   std::vector<Term> terms_;
+
+  struct Mesh {
+    double area = 0.0, volume = 0.0;
+  };
+  Mesh measure(int nt, int np) const;
 };
 
 /// Simple cubic lattice with a random turn and offset.
@@ -48,10 +57,22 @@ struct Body {
   double width = 0.0;                     ///< largest distance on its primaries' surfaces [um]
   double reach = 0.0;                     ///< farthest surface of a primary from the centre [um]
   int redrawn = 0;                        ///< shapes drawn before because they were too wide
+  std::string shape;                      ///< of the library; empty: generated
 };
+
+/// An outer shape that primaries are filled into, about the origin.
+struct Hull {
+  std::function<double(const Eigen::Vector3d &)> depth; ///< at x [um]; grows outwards
+  double reach;                                         ///< farthest point of the shape [um]
+  std::function<double()> sphericity;
+  std::string name;
+};
+using DrawHull = std::function<Hull(Random &)>;
 
 /// One body of exactly `count` primaries, not wider than the recipe's limit: shapes that are wider
 /// are drawn again, the hundredth is cut off. Throws Failure(2) where even that has no room.
+Body make_body(const Recipe &recipe, int count, Random &random, const DrawHull &draw);
+/// The same with a generated Shape of the recipe's irregularity.
 Body make_body(const Recipe &recipe, int count, Random &random);
 
 /// Bodies whose primaries add up to round(A * am_column / s^3), largest first. Bodies below about

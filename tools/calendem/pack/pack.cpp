@@ -2,6 +2,7 @@
 #include "pack/pack.h"
 #include "pack/description.h"
 #include "pack/electrode_files.h"
+#include "pack/measured_bodies.h"
 #include "run/process.h"
 #include "spec/provenance.h"
 #include <chrono>
@@ -70,8 +71,9 @@ std::string identity_of(const Recipe &recipe, const std::string &liggghts) {
   std::string text =
       version() + hash_of_file(liggghts) + hash_of_file(input_scripts() + "/in.pack");
   for (const auto &[key, value] : recipe.settings.all())
-    text += key + "=" + value + "\n";
-  return hash_of_text(text);
+    if (recipe.shapes.given() || key.rfind("shapes.", 0) != 0)
+      text += key + "=" + value + "\n";
+  return hash_of_text(text + hash_of_shapes(recipe));
 }
 
 bool holds_already(const std::string &summary, const std::string &identity) {
@@ -114,6 +116,45 @@ Placement start(const Recipe &recipe, const std::vector<Body> &bodies, const std
   return loose;
 }
 
+// Bodies of the recipe and, with measured shapes, what electrode.json says of them.
+struct Made {
+  std::vector<Body> bodies;
+  nlohmann::json shapes;
+};
+
+Made bodies_of(const Recipe &recipe, const std::string &folder) {
+  if (!recipe.shapes.given())
+    return {make_bodies(recipe), {}};
+  const ShapeLibrary library = library_of(recipe);
+  fmt::print("pack: {} shapes of {} labels; the border cuts {}, {} have too few voxels\n",
+             library.shapes.size(), library.labels, library.cut.size(), library.coarse.size());
+  make_folder(folder);
+  if (!recipe.shapes.image.empty())
+    write_library(library, folder + "/shapes");
+  Made made{make_bodies(recipe, library), {}};
+  write_file(folder + "/shapes_used.csv", shapes_used(library, made.bodies));
+  made.shapes = describe_shapes(recipe, library, made.bodies);
+  if (recipe.shapes.measured_sizes) {
+    const double limit = largest_diameter(recipe, library);
+    made.shapes["largest_equivalent_diameter_allowed_um"] = limit;
+    made.shapes["volume_fraction_cut_off_by_size_limit"] = library.volume_above(limit);
+  }
+  return made;
+}
+
+// What describe() says of the recipe's own shapes and sizes gives way to the measured ones.
+void add_shapes(nlohmann::json &electrode, nlohmann::json shapes) {
+  for (const char *key :
+       {"largest_equivalent_diameter_allowed_um", "volume_fraction_cut_off_by_size_limit"})
+    if (shapes.contains(key)) {
+      electrode[key] = shapes[key];
+      shapes.erase(key);
+    }
+  electrode["sphericity_how"] = "surface of the sphere of equal volume over the smoothed surface "
+                                "of the measured particle";
+  electrode["shapes"] = shapes;
+}
+
 nlohmann::json finish(const Recipe &recipe, const std::vector<Body> &bodies,
                       std::vector<Particle> &particles, const std::string &folder) {
   read_positions(folder + "/packed.dump", particles);
@@ -139,7 +180,7 @@ void pack_electrode(const Recipe &recipe, PackOptions o) {
   }
   check_machine(recipe, o);
   const auto begin = std::chrono::steady_clock::now();
-  const std::vector<Body> bodies = make_bodies(recipe);
+  const auto [bodies, shapes] = bodies_of(recipe, o.folder);
   make_folder(o.folder);
   std::error_code none;
   fs::remove(summary, none);
@@ -147,6 +188,8 @@ void pack_electrode(const Recipe &recipe, PackOptions o) {
   Placement loose = start(recipe, bodies, o.folder);
   densify(o, recipe);
   nlohmann::json j = finish(recipe, bodies, loose.particles, o.folder);
+  if (!shapes.is_null())
+    add_shapes(j, shapes);
   j["wall_clock_s"] =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   j["ranks"] = o.ranks;

@@ -25,10 +25,10 @@ double truncated_quantile(double q, double mu, double sigma, double low, double 
 }
 
 // n quantiles in equal steps of number.
-std::vector<double> stratified(const SizeLaw &law, int n, double offset) {
+std::vector<double> stratified(const Quantile &law, int n, double offset) {
   std::vector<double> d;
   for (int k = 0; k < n; ++k)
-    d.push_back(law.quantile((k + offset) / n));
+    d.push_back(law((k + offset) / n));
   return d;
 }
 
@@ -72,6 +72,10 @@ std::vector<double> draw_diameters(const Recipe &recipe, double volume, Random &
                                          "smallest is {} um, the largest allowed {:.2f} um. Make "
                                          "the cell larger",
                                          recipe.cell_x, recipe.cell_y, law.low, law.high));
+  return draw_diameters([&](double q) { return law.quantile(q); }, volume, random);
+}
+
+std::vector<double> draw_diameters(const Quantile &law, double volume, Random &random) {
   const int fine = 2000;
   const int guess = static_cast<int>(volume / (total_volume(stratified(law, fine, 0.5)) / fine));
   const double offset = random.uniform();

@@ -5,6 +5,7 @@
 
 #include "pack/random.h"
 #include "spec/recipe.h"
+#include <functional>
 #include <vector>
 
 namespace calendem {
@@ -34,6 +35,10 @@ double largest_diameter(const Recipe &recipe);
 /// quantiles of the law in equal steps of number, with one random offset (stratified sampling), so
 /// that even a small cell has the right mix.
 std::vector<double> draw_diameters(const Recipe &recipe, double volume, Random &random);
+
+/// The same from any law, given as its quantile function [um].
+using Quantile = std::function<double(double)>;
+std::vector<double> draw_diameters(const Quantile &law, double volume, Random &random);
 
 /// Primaries per body: N s^3 nearest to the sphere's volume, at least 1; rounding is carried on
 /// from body to body so that the sum is exactly `total`.

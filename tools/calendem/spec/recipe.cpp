@@ -2,6 +2,7 @@
 #include "spec/recipe.h"
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace calendem {
@@ -30,6 +31,15 @@ const std::vector<Key> &recipe_keys() {
       {"cbd.diameter_um", "", "1.316", 0.1, 10, "um", "of a CBD sphere"},
       {"cell.x_um", "", "15", 5, 1000, "um", "periodic side"},
       {"cell.y_um", "", "15", 5, 1000, "um", "periodic side"},
+      {"shapes.image", "", "none", 0, 0, "", "label image whose particles give the shapes", "",
+       true},
+      {"shapes.library", "", "none", 0, 0, "", "folder of shapes made from an image before", "",
+       true},
+      {"shapes.voxel_size_um", "", "0", 0, 10, "um", "of the image; 0: from the file"},
+      {"shapes.background", "", "0", -2147483647, 2147483647, "", "label that is no particle", "",
+       false, true},
+      {"shapes.sizes", "", "measured", 0, 0, "", "whose size distribution the bodies have",
+       "measured|recipe"},
   };
   return keys;
 }
@@ -100,6 +110,40 @@ void check_cell(const Settings &s, const Recipe &r, Mistakes &mistakes) {
                           r.min_diameter, r.largest_body()));
 }
 
+// The [shapes] section: paths are relative to the recipe.
+ShapeSource read_shapes(const Settings &s, const std::string &file, Mistakes &mistakes) {
+  namespace fs = std::filesystem;
+  const auto path = [&](const char *key) {
+    const fs::path given = s.text(key);
+    return given == "none" ? "" : (fs::absolute(file).parent_path() / given).lexically_normal();
+  };
+  ShapeSource out;
+  out.image = path("shapes.image").string();
+  out.library = path("shapes.library").string();
+  out.voxel_um = s.number("shapes.voxel_size_um");
+  out.background = static_cast<std::int32_t>(s.number("shapes.background"));
+  out.measured_sizes = s.text("shapes.sizes") == "measured";
+  if (!out.image.empty() && !out.library.empty())
+    mistakes.add(s.line("shapes.library"),
+                 "[shapes] gives both an image and a library; give one of them.");
+  if (!out.image.empty() && out.image.find('%') == std::string::npos &&
+      !fs::is_regular_file(out.image))
+    mistakes.add(s.line("shapes.image"),
+                 fmt::format("shapes.image '{}' is not there. Give the path of a label image, "
+                             "relative to this file.",
+                             out.image));
+  if (!out.library.empty() && !fs::is_directory(out.library))
+    mistakes.add(s.line("shapes.library"),
+                 fmt::format("shapes.library '{}' is not there. Give the folder, relative to "
+                             "this file.",
+                             out.library));
+  if (s.number("shapes.background") != out.background)
+    mistakes.add(s.line("shapes.background"),
+                 fmt::format("shapes.background is {}; a label is a whole number.",
+                             s.text("shapes.background")));
+  return out;
+}
+
 Recipe recipe_of(const Settings &s) {
   Recipe r;
   r.settings = s;
@@ -136,7 +180,8 @@ int most_ranks(double lx, double ly, double diameter) {
 Recipe read_recipe(const std::string &file) {
   Mistakes mistakes(file);
   const Settings s = read_toml(file, recipe_keys(), mistakes);
-  const Recipe r = recipe_of(s);
+  Recipe r = recipe_of(s);
+  r.shapes = read_shapes(s, file, mistakes);
   check_composition(s, mistakes);
   check_spheres(s, r, mistakes);
   check_cell(s, r, mistakes);

@@ -4,10 +4,20 @@
 #define CALENDEM_SPEC_RECIPE_H
 
 #include "spec/toml_reader.h"
+#include <cstdint>
 
 namespace calendem {
 
 const std::vector<Key> &recipe_keys();
+
+/// Where the outer shapes of bodies come from; both paths empty: generated.
+struct ShapeSource {
+  std::string image, library; ///< absolute
+  double voxel_um = 0.0;      ///< 0: from the image
+  std::int32_t background = 0;
+  bool measured_sizes = true; ///< else the recipe's lognormal law
+  bool given() const { return !image.empty() || !library.empty(); }
+};
 
 /// Lengths um, densities g/cm3 (= pg/um3), loading mg/cm2, fractions 0-1.
 struct Recipe {
@@ -19,6 +29,7 @@ struct Recipe {
   double nanoporosity, cbd_diameter;
   double cell_x, cell_y;
   unsigned long seed;
+  ShapeSource shapes;
 
   double area() const { return cell_x * cell_y; }
   double am_column() const;        ///< solid AM per area [um]

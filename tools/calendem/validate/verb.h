@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // calendem validate FILE...
-#ifndef CALENDEM_SPEC_VERB_H
-#define CALENDEM_SPEC_VERB_H
+#ifndef CALENDEM_VALIDATE_VERB_H
+#define CALENDEM_VALIDATE_VERB_H
 
 namespace CLI {
 class App;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "spec/verb.h"
+#include "validate/verb.h"
 #include "spec/case.h"
 #include "spec/experiment.h"
 #include "spec/recipe.h"
 #include "spec/toml_file.h"
+#include "tomogram/tomogram.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fmt/format.h>
@@ -11,7 +12,7 @@
 namespace calendem {
 namespace {
 
-enum class Kind { Recipe, Case, Experiment };
+enum class Kind { Recipe, Case, Tomogram, Experiment };
 
 int keys_known(const toml::table &table, const std::string &prefix, const std::vector<Key> &keys) {
   int known = 0;
@@ -27,14 +28,23 @@ int keys_known(const toml::table &table, const std::string &prefix, const std::v
   return known;
 }
 
-/// By what is in it: of recipe and case the one that knows more of its keys and tables.
+/// By what is in it: the kind that knows most of its keys and tables; of equals a recipe.
 Kind kind_of(const std::string &file) {
   Mistakes elsewhere(file); // the reader of that kind tells them
   const toml::table root = parse_toml(file, elsewhere).root;
   if (root.contains("experiment") || root.contains("condition"))
     return Kind::Experiment;
-  const int as_case = keys_known(root, "", case_keys());
-  return as_case > keys_known(root, "", recipe_keys()) ? Kind::Case : Kind::Recipe;
+  Kind best = Kind::Recipe;
+  int most = keys_known(root, "", recipe_keys());
+  const auto consider = [&](Kind kind, const std::vector<Key> &keys) {
+    if (const int known = keys_known(root, "", keys); known > most) {
+      best = kind;
+      most = known;
+    }
+  };
+  consider(Kind::Case, case_keys());
+  consider(Kind::Tomogram, tomogram_keys());
+  return best;
 }
 
 std::string name_after_check(const std::string &file) {
@@ -44,6 +54,9 @@ std::string name_after_check(const std::string &file) {
   case Kind::Case:
     read_case(file);
     return "case";
+  case Kind::Tomogram:
+    read_tomogram_spec(file);
+    return "tomogram";
   default:
     read_recipe(file);
     return "recipe";
@@ -67,10 +80,11 @@ void validate(const std::vector<std::string> &files) {
 void add_validate_verb(CLI::App &app) {
   auto files = std::make_shared<std::vector<std::string>>();
   CLI::App *verb = app.add_subcommand(
-      "validate", "Every mistake in recipes, cases and experiment files, at once");
+      "validate", "Every mistake in recipes, cases, tomograms and experiment files, at once");
   verb->add_option("FILE", *files, "TOML files")->required();
-  verb->footer(list_of_experiment_keys() +
-               "Keys of recipes and cases: calendem pack --help, calendem run --help");
+  verb->footer(
+      list_of_experiment_keys() +
+      "Keys of the others: calendem pack --help, calendem run --help, calendem tomogram --help");
   verb->callback([files] { validate(*files); });
 }
 

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "structure/label_image.h"
+#include "support.h"
+#include <fmt/format.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkTIFFWriter.h>
+#include <vtkUnsignedShortArray.h>
+
+namespace {
+using namespace calendem;
+using namespace calendem_test;
+namespace fs = std::filesystem;
+
+const std::string kData = CALENDEM_TEST_DATA;
+
+// What the files in data/ show.
+int expected(int i, int j, int k) {
+  if (i >= 1 && i <= 2 && j >= 1 && j <= 3 && k >= 1 && k <= 2)
+    return 7;
+  return i == 4 && j >= 2 && j <= 3 && k == 2 ? 300 : 0;
+}
+
+LabelImage sample() {
+  LabelImage image = empty_image(12, 5, 4, 0.3);
+  image.voxel.z() = 0.5;
+  for (int k = 0; k < 4; ++k)
+    for (int j = 0; j < 5; ++j)
+      for (int i = 0; i < 12; ++i)
+        image.label[image.index(i, j, k)] = expected(i, j, k);
+  return image;
+}
+
+void expect_sample(const LabelImage &image) {
+  EXPECT_EQ(image.n, sample().n);
+  EXPECT_EQ(image.label, sample().label);
+}
+
+// Pages first..last of the sample as TIFF, by VTK's own writer.
+void write_tiff(const std::string &file, int first, int last, int width = 12) {
+  const LabelImage image = sample();
+  vtkNew<vtkImageData> data;
+  data->SetDimensions(width, 5, last - first + 1);
+  vtkNew<vtkUnsignedShortArray> values;
+  for (int k = first; k <= last; ++k)
+    for (int j = 0; j < 5; ++j)
+      for (int i = 0; i < width; ++i)
+        values->InsertNextValue(static_cast<unsigned short>(image.at(i, j, k)));
+  data->GetPointData()->SetScalars(values);
+  vtkNew<vtkTIFFWriter> writer;
+  writer->SetInputData(data);
+  writer->SetFileName(file.c_str());
+  writer->Write();
+}
+
+void cut(const fs::path &file, double share) {
+  fs::resize_file(file, std::uintmax_t(share * double(fs::file_size(file))));
+}
+
+TEST(LabelImage, VtkAndMetaImageFilesKeepLabelsAndVoxelSize) {
+  const fs::path folder = test_folder();
+  for (const char *name : {"a.vti", "a.mhd", "a.mha"}) {
+    const std::string file = (folder / name).string();
+    write_label_image(sample(), file);
+    const LabelImage image = read_label_image(file);
+    expect_sample(image);
+    EXPECT_NEAR((image.voxel - sample().voxel).norm(), 0.0, 1e-6) << name;
+    EXPECT_EQ(read_label_image(file, 0.041).voxel, Eigen::Vector3d::Constant(0.041)) << name;
+  }
+}
+
+TEST(LabelImage, NrrdFilesOfTeemAreRead) {
+  for (const char *name : {"unu_gzip.nrrd", "unu_raw.nhdr"}) {
+    const LabelImage image = read_label_image(kData + "/" + name);
+    expect_sample(image);
+    EXPECT_NEAR((image.voxel - sample().voxel).norm(), 0.0, 1e-6) << name;
+  }
+}
+
+// VTK 9.1 reads other numbers than are in the file.
+TEST(LabelImage, NrrdAsTextIsRefused) {
+  expect_parts(refusal([] { read_label_image(kData + "/unu_text.nrrd"); }),
+               {"ASCII", "raw and gzip"});
+}
+
+TEST(LabelImage, TiffStacksAreReadFromOneFileOrANumberedSeries) {
+  const fs::path folder = test_folder();
+  const std::string stack = (folder / "stack.tif").string();
+  write_tiff(stack, 0, 3);
+  expect_sample(read_label_image(stack, 0.3));
+  for (int k = 0; k < 4; ++k)
+    write_tiff((folder / fmt::format("slice_{:03}.tif", k + 9)).string(), k, k);
+  const std::string series = (folder / "slice_%03d.tif").string();
+  expect_sample(read_label_image(series, 0.3));
+  EXPECT_EQ(read_label_image(series, 0.3).voxel, Eigen::Vector3d::Constant(0.3));
+}
+
+TEST(LabelImage, ASeriesWithAGapOrAnotherSizeIsRefused) {
+  const fs::path folder = test_folder();
+  const std::string series = (folder / "s_%d.tif").string();
+  expect_parts(refusal([&] { read_label_image(series, 0.3); }), {"no file", "slice_%04d"});
+  write_tiff((folder / "s_1.tif").string(), 0, 0);
+  write_tiff((folder / "s_3.tif").string(), 1, 1);
+  expect_parts(refusal([&] { read_label_image(series, 0.3); }), {"slice 2 is missing", "1 to 3"});
+  write_tiff((folder / "s_2.tif").string(), 1, 1, 4);
+  expect_parts(refusal([&] { read_label_image(series, 0.3); }), {"4 x 5", "12 x 5", "one size"});
+}
+
+TEST(LabelImage, FilesThatAreCutAreRefused) {
+  const fs::path folder = test_folder();
+  for (const char *name : {"a.vti", "a.mha", "a.mhd"})
+    write_label_image(sample(), (folder / name).string());
+  cut(folder / "a.vti", 0.7);
+  cut(folder / "a.mha", 0.8);
+  cut(folder / "a.zraw", 0.5);
+  write_tiff((folder / "a.tif").string(), 0, 3);
+  cut(folder / "a.tif", 0.4);
+  for (const char *name : {"unu_gzip.nrrd", "unu_raw.nhdr", "unu_raw.raw"})
+    fs::copy(kData + "/" + name, folder / name);
+  cut(folder / "unu_gzip.nrrd", 0.9);
+  cut(folder / "unu_raw.raw", 0.9);
+  for (const char *name : {"a.vti", "a.mha", "a.mhd", "a.tif", "unu_gzip.nrrd", "unu_raw.nhdr"})
+    expect_parts(refusal([&] { read_label_image((folder / name).string(), 0.3); }), {name});
+}
+
+TEST(LabelImage, WhatIsNoLabelImageIsRefusedWithTheRemedy) {
+  const fs::path folder = test_folder();
+  const std::string bad = (folder / "a.mhd").string();
+  expect_parts(refusal([&] { read_label_image(bad); }), {"no such file"});
+  expect_parts(refusal([&] { read_label_image((folder / "a.png").string()); }),
+               {"'.png'", ".mhd", ".tif"});
+  std::ofstream(bad) << "not an image\n";
+  expect_parts(refusal([&] { read_label_image(bad); }), {"a.mhd", "format"});
+  const std::string grey = (folder / "grey.mha").string();
+  std::ofstream(grey, std::ios::binary)
+      << "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
+         "ElementSpacing = 0.3 0.3 0.3\nDimSize = 1 1 2\nElementType = MET_FLOAT\n"
+         "ElementDataFile = LOCAL\n"
+      << std::string("\0\0\x80\x3f\0\0\0\x3f", 8); // 1 and 0.5
+  expect_parts(refusal([&] { read_label_image(grey); }), {"(0, 0, 1) is 0.5", "whole number"});
+}
+
+TEST(LabelImage, VoxelSizeMustBeKnownAndPlausible) {
+  const fs::path folder = test_folder();
+  const std::string file = (folder / "a.mha").string();
+  LabelImage image = sample();
+  image.voxel.setOnes();
+  write_label_image(image, file);
+  expect_parts(refusal([&] { read_label_image(file); }), {"voxel size", "shapes.voxel_size_um"});
+  EXPECT_EQ(read_label_image(file, 1.0).voxel.x(), 1.0);
+  image.voxel.setConstant(0.3e-3); // in mm
+  write_label_image(image, file);
+  expect_parts(refusal([&] { read_label_image(file); }), {"0.0003", "0.001 to 10 um", "mm"});
+  write_tiff((folder / "a.tif").string(), 0, 3);
+  expect_parts(refusal([&] { read_label_image((folder / "a.tif").string()); }), {"voxel size"});
+}
+
+} // namespace

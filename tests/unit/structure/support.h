@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Voxelised spheres, folders and messages for the tests of structures.
+#ifndef CALENDEM_TESTS_UNIT_STRUCTURE_SUPPORT_H
+#define CALENDEM_TESTS_UNIT_STRUCTURE_SUPPORT_H
+
+#include "spec/messages.h"
+#include "structure/label_image.h"
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+
+namespace calendem_test {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// A new folder of the running test, emptied.
+inline std::filesystem::path test_folder() {
+  const auto *info = testing::UnitTest::GetInstance()->current_test_info();
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) /
+      (std::string("calendem_") + info->test_suite_name() + "_" + info->name());
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
+inline calendem::LabelImage empty_image(int nx, int ny, int nz, double voxel) {
+  calendem::LabelImage image;
+  image.n = {nx, ny, nz};
+  image.voxel.setConstant(voxel);
+  image.label.assign(size_t(nx) * ny * nz, 0);
+  return image;
+}
+
+/// Centre and radius in voxels.
+inline void add_sphere(calendem::LabelImage &image, const Eigen::Vector3d &centre, double radius,
+                       int label) {
+  for (int k = 0; k < image.n[2]; ++k)
+    for (int j = 0; j < image.n[1]; ++j)
+      for (int i = 0; i < image.n[0]; ++i)
+        if ((Eigen::Vector3d(i + 0.5, j + 0.5, k + 0.5) - centre).norm() < radius)
+          image.label[image.index(i, j, k)] = label;
+}
+
+/// The message of the Failure(2) that `call` ends with; empty, and a failed test, without one.
+template <class Call> std::string refusal(Call call) {
+  try {
+    call();
+  } catch (const calendem::Failure &e) {
+    EXPECT_EQ(e.exit_status(), calendem::kBadInput) << e.what();
+    return e.what();
+  }
+  ADD_FAILURE() << "nothing was refused";
+  return "";
+}
+
+inline void expect_parts(const std::string &text, const std::vector<std::string> &parts) {
+  for (const std::string &part : parts)
+    EXPECT_NE(text.find(part), std::string::npos) << "no '" << part << "' in\n" << text;
+}
+
+inline std::string bytes_of(const std::filesystem::path &file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+} // namespace calendem_test
+
+#endif
