@@ -60,10 +60,8 @@ public:
       calendem::subtract_from(pull * n, i_forces.delta_F);
       calendem::add_to(pull * n, j_forces.delta_F);
     }
-    if (energy_) {
-      so_far_[0] = action_of(i_forces);
-      so_far_[1] = action_of(j_forces);
-    }
+    if (energy_)
+      remember(i_forces, j_forces);
   }
 
   void surfacesClose(SurfacesCloseData &s, ForceData &i_forces, ForceData &j_forces) {
@@ -84,14 +82,8 @@ public:
 
   // For the energy ledger: what the tangential model has added since, and the normal damping.
   void endSurfacesIntersect(SurfacesIntersectData &s, ForceData &i_forces, ForceData &j_forces) {
-    if (!energy_ || !s.computeflag || s.deltan <= 0.0)
-      return;
-    const double damping = s.Fn - s.kn * s.deltan;
-    const calendem::Vec3 force = {damping * s.en[0], damping * s.en[1], damping * s.en[2]};
-    energy_->add_damping(s.i, {force, {}});
-    energy_->add_damping(s.j, {-force, {}});
-    energy_->add_friction(s.i, action_of(i_forces) - so_far_[0]);
-    energy_->add_friction(s.j, action_of(j_forces) - so_far_[1]);
+    if (energy_ && s.computeflag && s.deltan > 0.0)
+      book_contact(s, i_forces, j_forces);
   }
   void beginPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
   void endPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
@@ -106,6 +98,26 @@ private:
 
   static ForceAndTorque action_of(const ForceData &f) {
     return {calendem::load(f.delta_F), calendem::load(f.delta_torque)};
+  }
+
+  // Kept out of line: inlined they would slow down runs without a ledger.
+  __attribute__((noinline)) void remember(const ForceData &i_forces, const ForceData &j_forces) {
+    so_far_[0] = action_of(i_forces);
+    so_far_[1] = action_of(j_forces);
+  }
+  __attribute__((noinline)) void book_contact(const SurfacesIntersectData &s,
+                                              const ForceData &i_forces,
+                                              const ForceData &j_forces) {
+    const double damping = s.Fn - s.kn * s.deltan;
+    const calendem::Vec3 force = {damping * s.en[0], damping * s.en[1], damping * s.en[2]};
+    energy_->add_damping(s.i, {force, {}});
+    energy_->add_damping(s.j, {-force, {}});
+    energy_->add_friction(s.i, action_of(i_forces) - so_far_[0]);
+    energy_->add_friction(s.j, action_of(j_forces) - so_far_[1]);
+  }
+  __attribute__((noinline)) void book_damping(int i, int j, const calendem::PairMotion &motion,
+                                              const calendem::BondDamping &damping) {
+    energy_->add_damping(i, j, calendem::damping_action(motion, damping));
   }
 
   void bond_force(SurfacesCloseData &s, BondHistory &bond, const calendem::Vec3 &n, double r,
@@ -135,11 +147,9 @@ private:
       const double mj = atom->rmass[s.j];
       damping = calendem::BondDamping(b.material, section, k, mi * mj / (mi + mj), radius_min);
     }
-    calendem::BondAction viscous;
-    const calendem::BondAction a =
-        calendem::action(loads, tension, motion, damping, energy_ ? &viscous : nullptr);
+    const calendem::BondAction a = calendem::action(loads, tension, motion, damping);
     if (energy_ && s.computeflag)
-      energy_->add_damping(s.i, s.j, viscous);
+      book_damping(s.i, s.j, motion, damping);
     calendem::add_to(a.force, i_forces.delta_F);
     calendem::subtract_from(a.force, j_forces.delta_F);
     calendem::add_to(a.torque_i, i_forces.delta_torque);

@@ -149,34 +149,27 @@ struct BondDamping : BondCoefficients {
   }
 };
 
-/// Forces through the cut with their moments about both centres, so that linear and angular
-/// momentum are conserved to round-off.
-inline BondAction through_the_cut(const Vec3 &shear, double tension, const Vec3 &moment,
-                                  const PairMotion &m) {
-  const Vec3 lever = 0.5 * cross(m.d, shear);
-  return {shear - tension * m.n, moment - lever, -(moment + lever)};
-}
-
-/// Total action of the bond: elastic loads, tension and damping. The damping alone is what the bond
-/// dissipates by; it goes to `viscous` if asked for.
+/// Total action of the bond: elastic loads, tension and damping, with the moments of the shear
+/// force about both centres, so that linear and angular momentum are conserved to round-off.
 inline BondAction action(const BondLoads &loads, double tension, const PairMotion &m,
-                         const BondDamping &c, BondAction *viscous = nullptr) {
+                         const BondDamping &c) {
   Vec3 shear = loads.shear;
   Vec3 moment = loads.bending + loads.twist * m.n;
   double normal = tension;
   if (c.normal > 0.0) {
     const Vec3 spin = m.spin_i - m.spin_j;
     const double spin_n = dot(spin, m.n);
-    const Vec3 drag = c.shear * shear_velocity(m, m.d);
-    const Vec3 bend = c.bend * (spin - spin_n * m.n), twist = (c.twist * spin_n) * m.n;
-    const double pull = c.normal * dot(m.v, m.n);
-    shear = shear - drag;
-    moment = moment - bend - twist;
-    normal += pull;
-    if (viscous)
-      *viscous = through_the_cut(-drag, pull, -(bend + twist), m);
+    shear = shear - c.shear * shear_velocity(m, m.d);
+    moment = moment - c.bend * (spin - spin_n * m.n) - (c.twist * spin_n) * m.n;
+    normal += c.normal * dot(m.v, m.n);
   }
-  return through_the_cut(shear, normal, moment, m);
+  const Vec3 lever = 0.5 * cross(m.d, shear);
+  return {shear - normal * m.n, moment - lever, -(moment + lever)};
+}
+
+/// The part of it that the bond dissipates by.
+inline BondAction damping_action(const PairMotion &m, const BondDamping &c) {
+  return action(BondLoads(), 0.0, m, c);
 }
 
 /// Elastic energy [fJ] of a bond.

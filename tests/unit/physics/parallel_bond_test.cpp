@@ -253,8 +253,7 @@ TEST(ParallelBond, ViscousPart) {
   for (int n = 0; n < 2000; ++n) {
     const PairMotion m = random_motion(random);
     const BondLoads loads = {random.vector(1e3), random.vector(1e3), random.number(-1e3, 1e3)};
-    BondAction viscous;
-    const BondAction all = action(loads, 1e3, m, c, &viscous);
+    const BondAction viscous = damping_action(m, c), all = action(loads, 1e3, m, c);
     const BondAction elastic = action(loads, 1e3, m, BondDamping());
     const auto near = [&](const Vec3 &a, const Vec3 &b, const Vec3 &v) {
       const double size = norm(a) + norm(b) + norm(v) + 1e3;
