@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The command line. Exit status: 0 done, 1 usage, 2 bad input, 3 the simulation failed, 4 a check
 // did not hold.
+#include "compare/verb.h"
 #include "pack/verb.h"
 #include "report/verb.h"
 #include "run/collect_verb.h"
@@ -19,6 +20,7 @@ int main(int argc, char **argv) {
   calendem::add_run_verb(app);
   calendem::add_collect_verb(app);
   calendem::add_report_verb(app);
+  calendem::add_compare_verb(app);
   calendem::add_tomogram_verb(app);
   calendem::add_validate_verb(app);
   try {

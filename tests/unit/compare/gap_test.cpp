@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "compare/gap.h"
+#include "compare/observables.h"
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace calendem {
+namespace {
+
+Experiment paper() { return read_experiment(CALENDEM_CASES "/paper/experiment.toml"); }
+
+SimulatedRun pressed_to(double pressure, double porosity, const std::string &packing) {
+  SimulatedRun r;
+  r.folder = packing;
+  r.control = "pressure";
+  r.target = r.max_pressure = pressure;
+  r.porosity_after = porosity;
+  r.porosity_at_max = porosity - 0.05;
+  r.solid_column = 40.0;
+  r.thickness_at_max = r.solid_column / (1.0 - r.porosity_at_max);
+  r.thickness_after = r.solid_column / (1.0 - porosity);
+  r.pressure = {0.0, 0.5 * pressure, pressure};
+  r.displacement = {0.0, 20.0, 24.0};
+  r.electrode_hash = packing;
+  return r;
+}
+
+TEST(FindGap, OneRunIsTheResidualOverTheMeasurementsDeviation) {
+  const Gap gap = find_gap(paper(), {pressed_to(150, 0.2997, "a")});
+  ASSERT_EQ(gap.rows.size(), 1u);
+  EXPECT_NEAR(gap.rows[0].residual, 29.97 - 25.17, 1e-9);
+  EXPECT_NEAR(gap.rows[0].z, 4.8 / 1.2, 1e-9);
+  EXPECT_NEAR(gap.threshold, 1.959964, 1e-6); // one row: the normal's 97.5 % point
+  EXPECT_NEAR(gap.p_value, std::erfc(4.0 / std::sqrt(2.0)), 1e-9);
+  EXPECT_TRUE(gap.rows[0].significant);
+  EXPECT_TRUE(std::isnan(gap.rows[0].sd_seeds));
+}
+
+TEST(FindGap, PressureCountsByTheSlopeOfTheRun) {
+  SimulatedRun r = pressed_to(150, 0.2997, "a");
+  r.porosity_slope = -2e-4; // per MPa; the pressure is known within 15 MPa
+  const Gap gap = find_gap(paper(), {r});
+  EXPECT_NEAR(gap.rows[0].sd_pressure, 0.3, 1e-9);
+  EXPECT_NEAR(gap.rows[0].sd, std::hypot(1.2, 0.3), 1e-9);
+}
+
+TEST(FindGap, ScatterIsPooledOverConditionsAndRunsOfOnePackingAreOne) {
+  const Gap gap = find_gap(paper(), {pressed_to(150, 0.31, "a"), pressed_to(150, 0.33, "b"),
+                                     pressed_to(150, 0.33, "b"), pressed_to(80, 0.34, "a"),
+                                     pressed_to(80, 0.36, "b")});
+  ASSERT_EQ(gap.rows.size(), 2u);
+  EXPECT_EQ(gap.degrees_of_freedom, 2);
+  for (const Residual &r : gap.rows) { // deviations of 1 point twice, 2 degrees, mean of two
+    EXPECT_EQ(r.packings, 2);
+    EXPECT_NEAR(r.sd_seeds, std::sqrt(4.0 / 2.0 / 2.0), 1e-9) << r.condition;
+  }
+  EXPECT_NEAR(gap.rows[0].share + gap.rows[1].share, 1.0, 1e-12);
+}
+
+TEST(FindGap, NoRunOfAnyConditionIsBadInput) {
+  EXPECT_THROW(find_gap(paper(), {pressed_to(120, 0.3, "a")}), Failure);
+}
+
+// 4000 experiments without a gap, four independent rows each: 5 % of the tables cry wolf, within
+// 3 standard deviations of a binomial count.
+TEST(FindGap, FalseAlarmsOfATableWithoutAGap) {
+  Experiment e = paper();
+  e.conditions.resize(1);
+  e.conditions[0] = {};
+  const int kTables = 4000, kRows = 4;
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  int alarms = 0;
+  for (int n = 0; n < kTables; ++n) {
+    e.conditions.clear();
+    std::vector<SimulatedRun> runs;
+    for (int k = 0; k < kRows; ++k) {
+      Condition c;
+      c.id = std::string(1, char('a' + k));
+      c.control = "pressure";
+      c.max_pressure_MPa = Measured{20.0 * (k + 1), 0.0};
+      c.porosity_after_percent = Measured{30.0 + noise(random), 1.0};
+      e.conditions.push_back(c);
+      runs.push_back(pressed_to(20.0 * (k + 1), 0.30, "a"));
+    }
+    bool alarm = false;
+    for (const Residual &r : find_gap(e, runs).rows)
+      alarm |= r.significant;
+    alarms += alarm;
+  }
+  EXPECT_NEAR(alarms / double(kTables), 0.05, 3.0 * std::sqrt(0.05 * 0.95 / kTables));
+}
+
+// physics.md's reading of Table 1: h/h_solid = 1.385 and 1.336, from mass and thickness with foil.
+TEST(Observables, ThicknessOverSolidThicknessOfTable1) {
+  Experiment e = paper();
+  std::vector<std::string> not_said;
+  const double expected[] = {1.385, 1.336};
+  for (int k = 0; k < 2; ++k) {
+    e.conditions[k].porosity_after_percent.reset();
+    const auto all = observables_of(e, e.conditions[k], not_said);
+    ASSERT_EQ(all.size(), 1u);
+    EXPECT_EQ(all[0].name, "thickness over solid thickness");
+    EXPECT_NEAR(all[0].measured, expected[k], 0.005);
+    EXPECT_NEAR(all[0].simulated(pressed_to(80, 0.30, "a")), 1.0 / 0.7, 1e-12);
+  }
+}
+
+TEST(Observables, CurveIsComparedAtSharesOfItsLargestPressure) {
+  const std::string file = testing::TempDir() + "calendem_compare_curve.csv";
+  std::ofstream(file) << "displacement_um,pressure_MPa\n0,0\n10,50\n15,40\n20,100\n";
+  Experiment e = paper();
+  Condition &c = e.conditions[1];
+  c.porosity_after_percent.reset();
+  c.mass_mg.reset();
+  c.curve = file;
+  std::vector<std::string> not_said;
+  const auto all = observables_of(e, c, not_said);
+  std::filesystem::remove(file);
+  ASSERT_EQ(all.size(), 4u);
+  EXPECT_EQ(all[3].name, "displacement at 75 MPa");
+  EXPECT_NEAR(all[3].measured, 15.0,
+              1e-9); // between 50 MPa at 10 and 100 at 20; the dip is skipped
+  EXPECT_NEAR(all[3].simulated(pressed_to(150, 0.3, "a")), 20.0, 1e-9);
+}
+
+TEST(DisplacementAt, IsLinearBetweenPointsAndNothingBeyond) {
+  EXPECT_NEAR(displacement_at({0, 10, 20}, {0, 4, 6}, 15), 5.0, 1e-12);
+  EXPECT_TRUE(std::isnan(displacement_at({0, 10, 20}, {0, 4, 6}, 21)));
+}
+
+TEST(GapPage, HoldsItsNumbers) {
+  const nlohmann::json j = to_json(find_gap(paper(), {pressed_to(150, 0.2997, "a")}));
+  const std::string page = gap_page(j);
+  for (const char *text : {"p150", "+4.8", "beyond noise", "no run has its pressure of 80 MPa"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  EXPECT_EQ(page.find("{{"), std::string::npos);
+}
+
+} // namespace
+} // namespace calendem

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The observables of an experiment file and what a run gives for each. A new one is one function.
+#ifndef CALENDEM_COMPARE_OBSERVABLES_H
+#define CALENDEM_COMPARE_OBSERVABLES_H
+
+#include "compare/gap.h"
+#include <functional>
+
+namespace calendem {
+
+/// What both have, before statistics.
+struct Observable {
+  std::string name, stage, unit;
+  double measured = 0.0, sd = 0.0;
+  std::function<double(const SimulatedRun &)> simulated;
+  /// Change of the simulated value per MPa of the condition's pressure, 0 where it does not matter.
+  std::function<double(const SimulatedRun &)> slope;
+};
+
+/// All of one condition. What a value needs and lacks is told in `not_said`.
+std::vector<Observable> observables_of(const Experiment &experiment, const Condition &condition,
+                                       std::vector<std::string> &not_said);
+
+/// True if the run's platen did what the condition says, within 2 %.
+bool belongs(const SimulatedRun &run, const Condition &condition);
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "compare/verb.h"
+#include "compare/gap.h"
+#include "spec/provenance.h"
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace calendem {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string experiment, folder = "gap";
+  std::vector<std::string> runs;
+};
+
+void compare(const Options &o) {
+  const Experiment experiment = read_experiment(o.experiment);
+  std::vector<SimulatedRun> runs;
+  std::string problems;
+  for (const std::string &folder : o.runs)
+    try {
+      runs.push_back(read_simulated_run(folder));
+    } catch (const Failure &f) {
+      problems += std::string(problems.empty() ? "" : "\n") + f.what();
+    }
+  if (!problems.empty())
+    throw Failure(kBadInput, problems);
+  const Gap gap = find_gap(experiment, runs);
+  nlohmann::json j = to_json(gap);
+  j["provenance"]["experiment_file"] = hash_of_file(o.experiment);
+  for (const std::string &folder : o.runs)
+    j["provenance"]["runs"][folder] = hash_of_file(folder + "/summary.json");
+  std::error_code error;
+  fs::create_directories(o.folder, error);
+  if (error)
+    throw Failure(kBadInput, fmt::format("cannot write into the folder '{}': {}. Give a folder "
+                                         "that you may write to with -o",
+                                         o.folder, error.message()));
+  write_file(o.folder + "/gap.json", j.dump(1) + "\n");
+  write_file(o.folder + "/gap.html", gap_page(j));
+  fmt::print("{:<6} {:<32} {:>9} {:>9} {:>9} {:>7} {:>6}\n", "", "", "measured", "simulated",
+             "differ by", "z", "share");
+  for (const Residual &r : gap.rows)
+    fmt::print("{:<6} {:<32} {:>9.4g} {:>9.4g} {:>+9.3g} {:>+7.1f} {:>5.0f}%\n", r.condition,
+               r.observable + (r.unit.empty() ? "" : ", " + r.unit), r.measured, r.simulated,
+               r.residual, r.z, 100.0 * r.share);
+  for (const std::string &text : gap.said)
+    fmt::print("* {}\n", text);
+  for (const std::string &text : gap.not_said)
+    fmt::print("- {}\n", text);
+  fmt::print("page: {0}/gap.html\ndata: {0}/gap.json\n", o.folder);
+}
+
+} // namespace
+
+void add_compare_verb(CLI::App &app) {
+  auto o = std::make_shared<Options>();
+  CLI::App *verb = app.add_subcommand("compare", "Where simulation and experiment disagree");
+  verb->add_option("EXPERIMENT", o->experiment, "experiment file (TOML)")->required();
+  verb->add_option("DIR", o->runs,
+                   "directories made by calendem run; several packings per "
+                   "condition give the scatter")
+      ->required();
+  verb->add_option("-o,--output", o->folder, "folder for gap.json and gap.html")
+      ->capture_default_str();
+  verb->callback([o] { compare(*o); });
+}
+
+} // namespace calendem
