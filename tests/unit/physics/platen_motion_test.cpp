@@ -66,6 +66,17 @@ struct Press {
 
 // Requirement: under pressure control the averaged pressure reaches the target and neither it nor
 // the pressure itself overshoots by 1 %; the film may be linear, Hertz-like or stiffening.
+// A pressure that rises by 3 kPa/us, averaged over the last 2 us, is 3 kPa behind.
+TEST(PlatenMotion, AveragedPressureIsKnownToLag) {
+  PlatenState s;
+  s.rate = 3.0;
+  const double now = pressure_now(s, 100.0 - 3.0, 2.0);
+  EXPECT_GE(now, 100.0);
+  EXPECT_LE(now, 103.0);
+  s.rate = -3.0; // a falling pressure must not hurry the platen on
+  EXPECT_EQ(pressure_now(s, 100.0, 2.0), 100.0);
+}
+
 TEST(PlatenMotion, ReachesPressureWithoutOvershoot) {
   const Film films[] = {linear, hertz_like, stiffening};
   for (const Film &film : films)
