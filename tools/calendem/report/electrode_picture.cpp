@@ -103,11 +103,6 @@ std::string draw_bonds(const BondFrame &frame, const Camera &camera, double long
   return png_of(raster, camera);
 }
 
-struct Moment {
-  const char *name;
-  double time_us;
-};
-
 std::size_t row_near(const Curve &curve, double time_us) {
   const Column &time = curve["time_us"];
   std::size_t nearest = 0;
@@ -115,24 +110,6 @@ std::size_t row_near(const Curve &curve, double time_us) {
     if (std::abs(time[i] - time_us) < std::abs(time[nearest] - time_us))
       nearest = i;
   return nearest;
-}
-
-std::vector<Moment> moments(const Run &run) {
-  const Column &pressure = run.curve["pressure_MPa"];
-  const auto pressure_of = [&](const FrameFile &frame) {
-    return pressure[row_near(run.curve, frame.time_us)];
-  };
-  const FrameFile &highest = *std::max_element(
-      run.particles.begin(), run.particles.end(),
-      [&](const FrameFile &a, const FrameFile &b) { return pressure_of(a) < pressure_of(b); });
-  constexpr double kNear = 0.97;
-  const bool near = pressure_of(highest) >= kNear * pressure[run.curve.row_of_max_pressure()];
-  const double top = highest.time_us;
-  std::vector<Moment> list{{"Before", run.particles.front().time_us},
-                           {near ? "At maximum pressure" : "Frame of highest pressure", top}};
-  if (run.particles.back().time_us > top)
-    list.push_back({run.unfinished.empty() ? "After" : "Last frame", run.particles.back().time_us});
-  return list;
 }
 
 void add_state(const Curve &curve, Picture &picture) {
@@ -159,6 +136,24 @@ Picture framed(const Moment &moment, const char *subject, const FrameFile &sourc
 
 } // namespace
 
+std::vector<Moment> moments_of(const Run &run) {
+  const Column &pressure = run.curve["pressure_MPa"];
+  const auto pressure_of = [&](const FrameFile &frame) {
+    return pressure[row_near(run.curve, frame.time_us)];
+  };
+  const FrameFile &highest = *std::max_element(
+      run.particles.begin(), run.particles.end(),
+      [&](const FrameFile &a, const FrameFile &b) { return pressure_of(a) < pressure_of(b); });
+  constexpr double kNear = 0.97;
+  const bool near = pressure_of(highest) >= kNear * pressure[run.curve.row_of_max_pressure()];
+  const double top = highest.time_us;
+  std::vector<Moment> list{{"Before", run.particles.front().time_us},
+                           {near ? "At maximum pressure" : "Frame of highest pressure", top}};
+  if (run.particles.back().time_us > top)
+    list.push_back({run.unfinished.empty() ? "After" : "Last frame", run.particles.back().time_us});
+  return list;
+}
+
 std::vector<Picture> draw_pictures(Run &run) {
   std::vector<Picture> pictures;
   if (run.particles.empty())
@@ -174,7 +169,7 @@ std::vector<Picture> draw_pictures(Run &run) {
         box.include(corner);
   const Camera camera = camera_for(box);
   const double longest = 0.5 * std::min(box.high[0] - box.low[0], box.high[1] - box.low[1]);
-  for (const auto &moment : moments(run)) {
+  for (const auto &moment : moments_of(run)) {
     PlatenFrame platen;
     if (!run.platen.empty())
       platen = read_platen(closest(run.platen, moment.time_us).path, run.notes);

@@ -27,6 +27,14 @@ struct Picture {
   std::size_t across_faces = 0; ///< bonds through a periodic face, not drawn
 };
 
+struct Moment {
+  const char *name;
+  double time_us;
+};
+
+/// Before, at (or nearest to) maximum pressure, after; `run.particles` must not be empty.
+std::vector<Moment> moments_of(const Run &run);
+
 /// Empty when the run has no frames; unreadable frames are added to `run.notes`.
 std::vector<Picture> draw_pictures(Run &run);
 

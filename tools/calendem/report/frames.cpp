@@ -122,7 +122,8 @@ BondFrame read_bonds(const std::string &file, Problems &problems) {
   if (data == nullptr)
     return frame;
   vtkDataArray *state = array_of(data->GetCellData(), "state", file, problems);
-  if (state == nullptr)
+  vtkDataArray *body = array_of(data->GetCellData(), "body", file, problems);
+  if (state == nullptr || body == nullptr)
     return frame;
   for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i) {
     vtkCell *cell = data->GetCell(i);
@@ -131,6 +132,7 @@ BondFrame read_bonds(const std::string &file, Problems &problems) {
     frame.from.push_back(point_of(data, cell->GetPointId(0)));
     frame.to.push_back(point_of(data, cell->GetPointId(1)));
     frame.intact.push_back(state->GetTuple1(i) > 0.5);
+    frame.body.push_back(static_cast<int>(std::lround(body->GetTuple1(i))));
   }
   return frame;
 }

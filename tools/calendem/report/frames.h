@@ -25,6 +25,7 @@ struct ParticleFrame {
 struct BondFrame {
   std::vector<Point> from, to;
   std::vector<bool> intact;
+  std::vector<int> body;
 };
 
 struct PlatenFrame {

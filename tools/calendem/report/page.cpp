@@ -42,6 +42,8 @@ void add_pictures(const RunPart &part, json &run) {
   run["electrode_table"] = !part.electrode.empty();
   run["has_pictures"] = !part.pictures.empty();
   run["has_bond_pictures"] = !bonds.empty();
+  run["has_view"] = !part.explorer.is_null();
+  run["view"] = part.explorer.dump();
 }
 
 } // namespace
@@ -52,8 +54,15 @@ std::string to_html(const Report &report) {
   values["is_unfinished"] = values["status"] == "unfinished";
   values["several"] = report.runs.size() > 1;
   values["provenance_rows"] = facts_of(values["provenance"], {});
-  for (std::size_t i = 0; i < report.runs.size(); ++i)
+  bool any_view = false;
+  for (std::size_t i = 0; i < report.runs.size(); ++i) {
     add_pictures(report.runs[i], values["runs"][i]);
+    any_view = any_view || !report.runs[i].explorer.is_null();
+  }
+  if (any_view)
+    values["scripts"] = {{"three", embedded::kThree},
+                         {"orbit", embedded::kOrbitControls},
+                         {"explorer", embedded::kExplorer}};
   for (std::size_t i = 0; i < report.charts.size(); ++i) {
     json &chart = values["charts"][i];
     chart.erase("series");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/report.h"
 
+#include "report/explorer.h"
 #include "report/file_hash.h"
 #include "report/plots.h"
 #include "report/tables.h"
@@ -17,6 +18,7 @@ using nlohmann::json;
 RunPart part_of(Run &run) {
   RunPart part;
   part.pictures = draw_pictures(run); // may add notes
+  part.explorer = explorer_of(run);   // so may this
   part.name = run.name;
   part.unfinished = run.unfinished;
   part.headline = headline_of(run);

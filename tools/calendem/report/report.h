@@ -20,6 +20,7 @@ struct RunPart {
   nlohmann::json headline, facts, electrode, provenance, files;
   Problems notes;
   std::vector<Picture> pictures;
+  nlohmann::json explorer; ///< of the 3-D view; null: no frames
 };
 
 struct Report {

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/explorer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include "report/base64.h"
+#include "report/csv_table.h"
+#include "report/electrode_picture.h"
+
+namespace calendem::report {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kSteps = 65535;
+
+struct Box {
+  Point low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+  void include(const Point &p) {
+    for (int k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
+    }
+  }
+};
+
+class Bytes {
+public:
+  void add(double whole) {
+    const auto n = static_cast<std::uint16_t>(std::lround(std::clamp(whole, 0.0, kSteps)));
+    bytes_.push_back(n & 0xff);
+    bytes_.push_back(n >> 8);
+  }
+  void add(const Point &p, const Box &box) {
+    for (int k = 0; k < 3; ++k)
+      add(kSteps * (p[k] - box.low[k]) / std::max(1e-9, box.high[k] - box.low[k]));
+  }
+  std::string text() const { return base64(bytes_.data(), bytes_.size()); }
+
+private:
+  std::vector<unsigned char> bytes_;
+};
+
+struct Frames {
+  Moment moment;
+  ParticleFrame particles;
+  BondFrame bonds;
+};
+
+/// Puts the pieces of bodies that the periodic faces cut back together, around each body's centre.
+class Wholes {
+public:
+  Wholes(const ParticleFrame &frame, const std::array<double, 2> &period) : period_(period) {
+    std::map<int, std::array<double, 4>> sums; // cosines and sines of x and y as angles
+    for (std::size_t i = 0; i < frame.centre.size(); ++i)
+      for (int k = 0; k < 2; ++k) {
+        const double angle = kTurn * frame.centre[i][k] / period_[k];
+        sums[frame.body[i]][k] += std::cos(angle);
+        sums[frame.body[i]][2 + k] += std::sin(angle);
+      }
+    for (const auto &[body, s] : sums)
+      for (int k = 0; k < 2; ++k)
+        centre_[body][k] = period_[k] / kTurn * std::atan2(s[2 + k], s[k]);
+  }
+  Point place(Point p, int body) const {
+    const auto found = centre_.find(body);
+    if (body <= 0 || found == centre_.end())
+      return p;
+    for (int k = 0; k < 2; ++k) { // the centre in the cell, the point at its nearest image
+      const double c = found->second[k] - period_[k] * std::floor(found->second[k] / period_[k]);
+      p[k] -= period_[k] * std::round((p[k] - c) / period_[k]);
+    }
+    return p;
+  }
+
+private:
+  static constexpr double kTurn = 6.283185307179586;
+  std::array<double, 2> period_;
+  std::map<int, std::array<double, 2>> centre_;
+};
+
+void make_whole(Frames &f, const std::array<double, 2> &period) {
+  const Wholes wholes(f.particles, period);
+  for (std::size_t i = 0; i < f.particles.centre.size(); ++i)
+    f.particles.centre[i] = wholes.place(f.particles.centre[i], f.particles.body[i]);
+  for (std::size_t i = 0; i < f.bonds.from.size(); ++i) {
+    f.bonds.from[i] = wholes.place(f.bonds.from[i], f.bonds.body[i]);
+    f.bonds.to[i] = wholes.place(f.bonds.to[i], f.bonds.body[i]);
+  }
+}
+
+json packed(const Frames &f, const Box &box) {
+  Bytes xyz, radius, body, ends, owner, state;
+  for (std::size_t i = 0; i < f.particles.centre.size(); ++i) {
+    xyz.add(f.particles.centre[i], box);
+    radius.add(1000.0 * f.particles.radius[i]); // nm
+    body.add(f.particles.body[i]);
+  }
+  for (std::size_t i = 0; i < f.bonds.from.size(); ++i) {
+    ends.add(f.bonds.from[i], box);
+    ends.add(f.bonds.to[i], box);
+    owner.add(f.bonds.body[i]);
+    state.add(f.bonds.intact[i] ? 1 : 0);
+  }
+  return {{"name", f.moment.name},      {"time_us", f.moment.time_us}, {"xyz", xyz.text()},
+          {"radius_nm", radius.text()}, {"body", body.text()},         {"ends", ends.text()},
+          {"owner", owner.text()},      {"intact", state.text()}};
+}
+
+/// Rows of bodies.csv as numbers, by their header.
+json bodies_of(const std::string &directory) {
+  std::ifstream in(directory + "/bodies.csv");
+  const auto table =
+      CsvTable::parse({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+  json rows = json::array();
+  for (std::size_t i = 0; i < table.rows(); ++i)
+    rows.push_back(json::object());
+  for (const std::string &column : table.header()) {
+    const std::vector<double> values = table.numbers(column);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      rows[i][column] = std::isfinite(values[i]) ? json(values[i]) : json();
+  }
+  return rows;
+}
+
+} // namespace
+
+json explorer_of(Run &run) {
+  if (run.particles.empty() || run.bonds.empty())
+    return {};
+  std::array<double, 2> period = {0.0, 0.0};
+  const json cell = run.electrode.value("cell_um", json());
+  if (cell.is_array() && cell.size() == 2 && cell[0].is_number() && cell[1].is_number())
+    period = {cell[0], cell[1]};
+  std::vector<Frames> all;
+  Box box;
+  for (const Moment &moment : moments_of(run)) {
+    all.push_back({moment, read_particles(closest(run.particles, moment.time_us).path, run.notes),
+                   read_bonds(closest(run.bonds, moment.time_us).path, run.notes)});
+    if (period[0] > 0.0 && period[1] > 0.0)
+      make_whole(all.back(), period);
+    for (const Point &centre : all.back().particles.centre)
+      box.include(centre);
+  }
+  if (box.low[0] > box.high[0])
+    return {};
+  json out = {{"low", box.low}, {"high", box.high}, {"bodies", bodies_of(run.directory)}};
+  for (const Frames &f : all)
+    out["moments"].push_back(packed(f, box));
+  return out;
+}
+
+} // namespace calendem::report
