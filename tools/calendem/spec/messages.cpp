@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "spec/messages.h"
 #include <algorithm>
-#include <climits>
 #include <fmt/format.h>
 
 namespace calendem {
 
-void Mistakes::add(int line, const std::string &text) { list_.emplace_back(line, text); }
+void Mistakes::add(int line, const std::string &text) {
+  if (line > 0 && told_ == most_) {
+    ++untold_;
+    return;
+  }
+  told_ += line > 0;
+  list_.emplace_back(line, text);
+}
 
 std::string Mistakes::text() const {
   auto sorted = list_;
@@ -17,6 +23,8 @@ std::string Mistakes::text() const {
   for (const auto &[line, text] : sorted)
     rows.push_back(line > 0 ? fmt::format("{}:{}: {}", file_, line, text)
                             : fmt::format("{}: {}", file_, text));
+  if (untold_ > 0)
+    rows.insert(rows.begin() + told_, fmt::format("{}: ... and {} more", file_, untold_));
   return fmt::format("{}", fmt::join(rows, "\n"));
 }
 

@@ -4,6 +4,7 @@
 #ifndef CALENDEM_SPEC_MESSAGES_H
 #define CALENDEM_SPEC_MESSAGES_H
 
+#include <climits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -27,10 +28,13 @@ private:
 /// The mistakes of one file.
 class Mistakes {
 public:
-  explicit Mistakes(std::string file) : file_(std::move(file)) {}
+  /// Of the mistakes bound to a line the first `most` are told, the others counted: a long file of
+  /// numbers has one for each row when it has one.
+  explicit Mistakes(std::string file, int most = INT_MAX) : file_(std::move(file)), most_(most) {}
   /// `line` 0: not bound to a line.
   void add(int line, const std::string &text);
-  bool empty() const { return list_.empty(); }
+  bool empty() const { return count() == 0; }
+  int count() const { return static_cast<int>(list_.size()) + untold_; }
   const std::string &file() const { return file_; }
   /// One per line, in the order of the file; those without a line come last.
   std::string text() const;
@@ -39,6 +43,7 @@ public:
 
 private:
   std::string file_;
+  int most_, told_ = 0, untold_ = 0;
   std::vector<std::pair<int, std::string>> list_;
 };
 

@@ -7,8 +7,10 @@
 
 namespace calendem {
 
-const std::vector<Key> &recipe_keys() {
-  static const std::vector<Key> keys = {
+namespace {
+
+std::vector<Key> own_keys() {
+  return {
       {"name", "", "electrode", 0, 0, "", "a name for reports", "", true},
       {"seed", "", "1", 0, 4e9, "", "of all random numbers", "", false, true},
       {"composition.am_weight_percent", "", "96", 50, 100, "%",
@@ -41,6 +43,16 @@ const std::vector<Key> &recipe_keys() {
       {"shapes.sizes", "", "measured", 0, 0, "", "whose size distribution the bodies have",
        "measured|recipe"},
   };
+}
+
+} // namespace
+
+const std::vector<Key> &recipe_keys() {
+  static const std::vector<Key> keys = [] {
+    std::vector<Key> all = own_keys();
+    all.insert(all.end(), structure_keys().begin(), structure_keys().end());
+    return all;
+  }();
   return keys;
 }
 
@@ -144,6 +156,8 @@ ShapeSource read_shapes(const Settings &s, const std::string &file, Mistakes &mi
   return out;
 }
 
+} // namespace
+
 Recipe recipe_of(const Settings &s) {
   Recipe r;
   r.settings = s;
@@ -168,7 +182,11 @@ Recipe recipe_of(const Settings &s) {
   return r;
 }
 
-} // namespace
+void check_recipe(const Settings &s, const Recipe &r, Mistakes &mistakes) {
+  check_composition(s, mistakes);
+  check_spheres(s, r, mistakes);
+  check_cell(s, r, mistakes);
+}
 
 double neighbour_cut_off(double diameter) { return 1.1 * diameter + 0.25; }
 
@@ -181,10 +199,10 @@ Recipe read_recipe(const std::string &file) {
   Mistakes mistakes(file);
   const Settings s = read_toml(file, recipe_keys(), mistakes);
   Recipe r = recipe_of(s);
+  r.file = file;
   r.shapes = read_shapes(s, file, mistakes);
-  check_composition(s, mistakes);
-  check_spheres(s, r, mistakes);
-  check_cell(s, r, mistakes);
+  r.structure = read_structure_source(s, file, mistakes);
+  check_recipe(s, r, mistakes);
   mistakes.stop_if_any();
   return r;
 }

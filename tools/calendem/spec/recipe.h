@@ -3,7 +3,7 @@
 #ifndef CALENDEM_SPEC_RECIPE_H
 #define CALENDEM_SPEC_RECIPE_H
 
-#include "spec/toml_reader.h"
+#include "spec/structure_source.h"
 #include <cstdint>
 
 namespace calendem {
@@ -21,6 +21,7 @@ struct ShapeSource {
 
 /// Lengths um, densities g/cm3 (= pg/um3), loading mg/cm2, fractions 0-1.
 struct Recipe {
+  std::string file;
   Settings settings;
   double am_weight, am_density, cbd_solid_density;
   double loading, porosity_total;
@@ -30,6 +31,7 @@ struct Recipe {
   double cell_x, cell_y;
   unsigned long seed;
   ShapeSource shapes;
+  StructureSource structure;
 
   double area() const { return cell_x * cell_y; }
   double am_column() const;        ///< solid AM per area [um]
@@ -43,6 +45,10 @@ struct Recipe {
 double neighbour_cut_off(double diameter);
 /// Ranks that a cell can be shared by, each part at least a cut-off wide (z is not split).
 int most_ranks(double lx, double ly, double diameter);
+
+/// The recipe's numbers, without shapes and structure; what they contradict.
+Recipe recipe_of(const Settings &settings);
+void check_recipe(const Settings &settings, const Recipe &recipe, Mistakes &mistakes);
 
 /// Throws Failure(2) with every mistake of the file.
 Recipe read_recipe(const std::string &file);
