@@ -71,15 +71,6 @@ std::vector<Eigen::Vector3d> fill(const Hull &hull, const Lattice &lattice, int 
   return points;
 }
 
-// Largest distance between two points of the spheres' surfaces.
-double width_of(const std::vector<Eigen::Vector3d> &centres, double diameter) {
-  double most = 0.0;
-  for (const Eigen::Vector3d &a : centres)
-    for (const Eigen::Vector3d &b : centres)
-      most = std::max(most, (a - b).squaredNorm());
-  return std::sqrt(most) + diameter;
-}
-
 void centre_on_mass(Body &b) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d &p : b.primaries)
@@ -89,6 +80,14 @@ void centre_on_mass(Body &b) {
 }
 
 } // namespace
+
+double width_of(const std::vector<Eigen::Vector3d> &centres, double diameter) {
+  double most = 0.0;
+  for (const Eigen::Vector3d &a : centres)
+    for (const Eigen::Vector3d &b : centres)
+      most = std::max(most, (a - b).squaredNorm());
+  return std::sqrt(most) + diameter;
+}
 
 Shape::Shape(Random &random, double irregularity) {
   constexpr int kCopies = 3, kHighest = 5;

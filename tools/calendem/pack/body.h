@@ -60,6 +60,9 @@ struct Body {
   std::string shape;                      ///< of the library; empty: generated
 };
 
+/// Largest distance between two points of the spheres' surfaces.
+double width_of(const std::vector<Eigen::Vector3d> &centres, double diameter);
+
 /// An outer shape that primaries are filled into, about the origin.
 struct Hull {
   std::function<double(const Eigen::Vector3d &)> depth; ///< at x [um]; grows outwards

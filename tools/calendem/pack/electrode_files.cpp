@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pack/electrode_files.h"
+#include <algorithm>
 #include <fmt/format.h>
 #include <fstream>
 #include <sstream>
@@ -98,7 +99,7 @@ void read_positions(const std::string &dump, std::vector<Particle> &particles) {
   std::string line;
   while (std::getline(in, line) && line.rfind("ITEM: ATOMS", 0) != 0)
     ;
-  size_t found = 0;
+  std::vector<bool> seen(particles.size(), false);
   while (std::getline(in, line)) {
     std::istringstream row(line);
     int tag = 0;
@@ -107,8 +108,9 @@ void read_positions(const std::string &dump, std::vector<Particle> &particles) {
         tag > static_cast<int>(particles.size()))
       continue;
     particles[tag - 1].x = x;
-    ++found;
+    seen[tag - 1] = true;
   }
+  const size_t found = size_t(std::count(seen.begin(), seen.end(), true));
   if (found != particles.size())
     throw Failure(
         kSimulationFailed,

@@ -2,7 +2,9 @@
 #include "pack/pack.h"
 #include "pack/description.h"
 #include "pack/electrode_files.h"
+#include "pack/given_description.h"
 #include "pack/measured_bodies.h"
+#include "pack/start.h"
 #include "run/process.h"
 #include "spec/provenance.h"
 #include <chrono>
@@ -71,9 +73,10 @@ std::string identity_of(const Recipe &recipe, const std::string &liggghts) {
   std::string text =
       version() + hash_of_file(liggghts) + hash_of_file(input_scripts() + "/in.pack");
   for (const auto &[key, value] : recipe.settings.all())
-    if (recipe.shapes.given() || key.rfind("shapes.", 0) != 0)
+    if ((recipe.shapes.given() || key.rfind("shapes.", 0) != 0) &&
+        (recipe.structure.given() || key.rfind("structure.", 0) != 0))
       text += key + "=" + value + "\n";
-  return hash_of_text(text + hash_of_shapes(recipe));
+  return hash_of_text(text + hash_of_shapes(recipe) + hash_of_structure(recipe.structure));
 }
 
 bool holds_already(const std::string &summary, const std::string &identity) {
@@ -95,68 +98,10 @@ void check_machine(const Recipe &r, const PackOptions &o) {
   mistakes.stop_if_any();
 }
 
-void make_folder(const std::string &folder) {
-  std::error_code error;
-  fs::create_directories(folder + "/vtk", error);
-  if (error)
-    throw Failure(kBadInput, fmt::format("cannot make the folder '{}': {}. Give a folder that can "
-                                         "be written with -o",
-                                         folder, error.message()));
-}
-
-// Bodies and CBD, placed loosely, written for in.pack.
-Placement start(const Recipe &recipe, const std::vector<Body> &bodies, const std::string &folder) {
-  Placement loose = place(recipe, bodies);
-  fmt::print("pack: {} bodies, {} particles, densifying from {:.0f} to {:.1f} um\n", bodies.size(),
-             loose.particles.size(), loose.height, recipe.thickness());
-  std::cout << std::flush;
-  write_file(folder + "/start.data", data_file(recipe, loose.particles, loose.height));
-  write_file(folder + "/bodies.map", body_map(loose.particles));
-  write_file(folder + "/electrode.in", script_variables(recipe, recipe.thickness()));
-  return loose;
-}
-
-// Bodies of the recipe and, with measured shapes, what electrode.json says of them.
-struct Made {
-  std::vector<Body> bodies;
-  nlohmann::json shapes;
-};
-
-Made bodies_of(const Recipe &recipe, const std::string &folder) {
-  if (!recipe.shapes.given())
-    return {make_bodies(recipe), {}};
-  const ShapeLibrary library = library_of(recipe);
-  fmt::print("pack: {} shapes of {} labels; the border cuts {}, {} have too few voxels\n",
-             library.shapes.size(), library.labels, library.cut.size(), library.coarse.size());
-  make_folder(folder);
-  if (!recipe.shapes.image.empty())
-    write_library(library, folder + "/shapes");
-  Made made{make_bodies(recipe, library), {}};
-  write_file(folder + "/shapes_used.csv", shapes_used(library, made.bodies));
-  made.shapes = describe_shapes(recipe, library, made.bodies);
-  if (recipe.shapes.measured_sizes) {
-    const double limit = largest_diameter(recipe, library);
-    made.shapes["largest_equivalent_diameter_allowed_um"] = limit;
-    made.shapes["volume_fraction_cut_off_by_size_limit"] = library.volume_above(limit);
-  }
-  return made;
-}
-
-// What describe() says of the recipe's own shapes and sizes gives way to the measured ones.
-void add_shapes(nlohmann::json &electrode, nlohmann::json shapes) {
-  for (const char *key :
-       {"largest_equivalent_diameter_allowed_um", "volume_fraction_cut_off_by_size_limit"})
-    if (shapes.contains(key)) {
-      electrode[key] = shapes[key];
-      shapes.erase(key);
-    }
-  electrode["sphericity_how"] = "surface of the sphere of equal volume over the smoothed surface "
-                                "of the measured particle";
-  electrode["shapes"] = shapes;
-}
-
-nlohmann::json finish(const Recipe &recipe, const std::vector<Body> &bodies,
-                      std::vector<Particle> &particles, const std::string &folder) {
+nlohmann::json finish(const PackInput &in, Start &start, const std::string &folder) {
+  const Recipe &recipe = in.recipe;
+  const std::vector<Body> &bodies = start.made.bodies;
+  std::vector<Particle> &particles = start.placed.loose.particles;
   read_positions(folder + "/packed.dump", particles);
   const PackingState state = examine(recipe, bodies, particles);
   const std::vector<Pose> poses = find_poses(recipe, bodies, particles);
@@ -164,32 +109,39 @@ nlohmann::json finish(const Recipe &recipe, const std::vector<Body> &bodies,
   write_file(folder + "/electrode.data", data_file(recipe, particles, height));
   write_file(folder + "/bodies.csv", bodies_table(bodies, poses, state));
   write_file(folder + "/vtk/electrode.vtp", picture_file(particles));
-  return describe({recipe, bodies, particles, poses, state, last_row(folder + "/packing.csv")});
+  nlohmann::json j =
+      describe({recipe, bodies, particles, poses, state, last_row(folder + "/packing.csv")});
+  add_origin(j, in, start, poses);
+  return j;
+}
+
+// Throws Failure(4).
+void check(const nlohmann::json &electrode, const Recipe &recipe, const std::string &folder) {
+  if (recipe.structure.given())
+    check_kept(electrode["structure"], folder);
+  check_targets(electrode, recipe, folder);
 }
 
 } // namespace
 
-void pack_electrode(const Recipe &recipe, PackOptions o) {
+void pack_electrode(const Recipe &as_given, PackOptions o) {
   o.folder = fs::absolute(o.folder).lexically_normal().string(); // LIGGGHTS runs in that folder
   o.liggghts = fs::absolute(o.liggghts).lexically_normal().string();
   const std::string summary = o.folder + "/electrode.json",
-                    identity = identity_of(recipe, o.liggghts);
+                    identity = identity_of(as_given, o.liggghts);
   if (holds_already(summary, identity)) {
     fmt::print("pack: {} already holds this electrode\n", o.folder);
     return;
   }
-  check_machine(recipe, o);
   const auto begin = std::chrono::steady_clock::now();
-  const auto [bodies, shapes] = bodies_of(recipe, o.folder);
-  make_folder(o.folder);
+  const PackInput in = read_input(as_given);
+  check_machine(in.recipe, o);
   std::error_code none;
   fs::remove(summary, none);
   fs::remove(o.folder + "/electrode.rejected.json", none);
-  Placement loose = start(recipe, bodies, o.folder);
-  densify(o, recipe);
-  nlohmann::json j = finish(recipe, bodies, loose.particles, o.folder);
-  if (!shapes.is_null())
-    add_shapes(j, shapes);
+  Start start = make_start(in, o.folder);
+  densify(o, in.recipe);
+  nlohmann::json j = finish(in, start, o.folder);
   j["wall_clock_s"] =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   j["ranks"] = o.ranks;
@@ -199,7 +151,7 @@ void pack_electrode(const Recipe &recipe, PackOptions o) {
              j["platen_pressure_MPa"].get<double>(), j["largest_body_force_nN"].get<double>(),
              j["wall_clock_s"].get<double>());
   try {
-    check_targets(j, recipe, o.folder);
+    check(j, in.recipe, o.folder);
   } catch (const Failure &) {
     write_file(o.folder + "/electrode.rejected.json", j.dump(2) + "\n");
     throw;

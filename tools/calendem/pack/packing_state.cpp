@@ -33,7 +33,6 @@ void note_contact(PackingState &s, const Particle &p, const Particle &q, double 
   if (p.type == 1 && q.type == 1 && p.body == q.body) {
     ++s.bonds;
     ++s.body_bonds[p.body - 1];
-    s.bond_strain = std::max(s.bond_strain, std::fabs(r / recipe.lattice - 1.0));
   } else if (p.type == 1 && q.type == 1) {
     s.body_force_nN = std::max(s.body_force_nN, pair_force(p, q, r, material));
   } else if (p.type == 2 && q.type == 2) {
@@ -44,12 +43,19 @@ void note_contact(PackingState &s, const Particle &p, const Particle &q, double 
   }
 }
 
-int lattice_pairs(const Body &b, double lattice) {
-  int pairs = 0;
+// Pairs of the body's primaries that touch as it was made, and how far those that still do are
+// stretched; `first`: its first particle.
+void note_pairs(PackingState &s, const Body &b, const Particle *first, const Recipe &recipe) {
   for (size_t i = 0; i < b.primaries.size(); ++i)
-    for (size_t j = i + 1; j < b.primaries.size(); ++j)
-      pairs += (b.primaries[i] - b.primaries[j]).norm() < 1.01 * lattice;
-  return pairs;
+    for (size_t j = i + 1; j < b.primaries.size(); ++j) {
+      const double made = (b.primaries[i] - b.primaries[j]).norm();
+      if (made >= recipe.primary_diameter)
+        continue;
+      ++s.lattice_pairs;
+      const double r = periodic_difference(recipe, first[i].x, first[j].x).norm();
+      if (r < recipe.primary_diameter)
+        s.bond_strain = std::max(s.bond_strain, std::fabs(r / made - 1.0));
+    }
 }
 
 } // namespace
@@ -58,8 +64,11 @@ PackingState examine(const Recipe &recipe, const std::vector<Body> &bodies,
                      const std::vector<Particle> &particles, const FinalMaterial &material) {
   PackingState s;
   s.body_bonds.assign(bodies.size(), 0);
-  for (const Body &b : bodies)
-    s.lattice_pairs += lattice_pairs(b, recipe.lattice);
+  const Particle *first = particles.data();
+  for (const Body &b : bodies) {
+    note_pairs(s, b, first, recipe);
+    first += b.primaries.size();
+  }
   for (size_t i = 0; i < particles.size(); ++i) {
     const Particle &p = particles[i];
     s.highest_um = std::max(s.highest_um, p.x.z() + 0.5 * p.diameter);

@@ -26,8 +26,8 @@ struct PackingState {
   double am_cbd_force_nN = 0.0; ///< the same between primaries and CBD
   Overlaps cbd_cbd, cbd_am;
   int bonds = 0;               ///< pairs of a body's primaries that touch
-  int lattice_pairs = 0;       ///< nearest neighbours on the lattice: there must be as many bonds
-  double bond_strain = 0.0;    ///< largest |r/s - 1| of them
+  int lattice_pairs = 0;       ///< that touch in the bodies as made: there must be as many bonds
+  double bond_strain = 0.0;    ///< largest |r/r_made - 1| of them
   double highest_um = 0.0;     ///< top of the highest particle
   std::vector<int> body_bonds; ///< per body
 };

@@ -1,67 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pack/placement.h"
+#include "pack/sphere_bins.h"
 #include <cmath>
-#include <fmt/format.h>
-#include <unordered_map>
 
 namespace calendem {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-
-// Spheres in bins of a cell that is periodic in x and y.
-class Bins {
-public:
-  Bins(const Recipe &r, double width)
-      : recipe_(r), nx_(std::max(1, int(r.cell_x / width))),
-        ny_(std::max(1, int(r.cell_y / width))), width_(width) {}
-
-  void add(const Eigen::Vector3d &x, double radius) { bins_[key(index(x))].push_back({x, radius}); }
-
-  // True if a sphere overlaps one that is there. Radii must not exceed width/2.
-  bool hits(const Eigen::Vector3d &x, double radius) const {
-    const std::array<int, 3> c = index(x);
-    for (int i = -1; i <= 1; ++i)
-      for (int j = -1; j <= 1; ++j)
-        for (int k = -1; k <= 1; ++k) {
-          const auto bin = bins_.find(key({c[0] + i, c[1] + j, c[2] + k}));
-          if (bin == bins_.end())
-            continue;
-          for (const Sphere &s : bin->second)
-            if (periodic_difference(recipe_, x, s.x).squaredNorm() <
-                (radius + s.radius) * (radius + s.radius))
-              return true;
-        }
-    return false;
-  }
-
-private:
-  struct Sphere {
-    Eigen::Vector3d x;
-    double radius;
-  };
-  const Recipe &recipe_;
-  int nx_, ny_;
-  double width_;
-  std::unordered_map<long, std::vector<Sphere>> bins_;
-
-  std::array<int, 3> index(const Eigen::Vector3d &x) const {
-    const Eigen::Vector3d p = in_cell(recipe_, x);
-    return {int(p.x() / recipe_.cell_x * nx_), int(p.y() / recipe_.cell_y * ny_),
-            int(std::floor(p.z() / width_))};
-  }
-  long key(const std::array<int, 3> &c) const {
-    const long i = (c[0] + nx_) % nx_, j = (c[1] + ny_) % ny_;
-    return (long(c[2]) * ny_ + j) * nx_ + i;
-  }
-};
-
-bool body_hits(const Bins &bins, const Body &b, const Eigen::Vector3d &at, double radius) {
-  for (const Eigen::Vector3d &p : b.primaries)
-    if (bins.hits(at + p, radius))
-      return true;
-  return false;
-}
 
 } // namespace
 
@@ -97,7 +42,7 @@ Placement place(const Recipe &recipe, const std::vector<Body> &bodies) {
       recipe.am_column() + recipe.cbd_solid_column() / (1.0 - recipe.nanoporosity);
   Placement out;
   out.height = 3.0 * envelope;
-  Bins bins(recipe, 1.05 * std::max(recipe.primary_diameter, recipe.cbd_diameter));
+  SphereBins bins(recipe, 1.05 * std::max(recipe.primary_diameter, recipe.cbd_diameter));
   const auto anywhere = [&](double reach) {
     const Eigen::Vector3d u = random.uniform3();
     return Eigen::Vector3d(recipe.cell_x * u.x(), recipe.cell_y * u.y(),
@@ -107,7 +52,7 @@ Placement place(const Recipe &recipe, const std::vector<Body> &bodies) {
   for (const Body &b : bodies) {
     ++number;
     Eigen::Vector3d at = anywhere(b.reach);
-    for (int tries = 1; body_hits(bins, b, at, 1.02 * R); ++tries, at = anywhere(b.reach))
+    for (int tries = 1; bins.hits(b, at, 1.02 * R); ++tries, at = anywhere(b.reach))
       if (tries % 20000 == 0)
         out.height *= 1.1; // no room: a taller cell
     for (const Eigen::Vector3d &p : b.primaries) {

@@ -5,14 +5,14 @@
 namespace calendem {
 namespace {
 
-// Each primary touches an earlier one (Body is grown that way): take its image next to that one.
+// Each primary touches an earlier one (bodies are grown that way): take its image next to that one.
 Eigen::Matrix3Xd join(const Recipe &recipe, const Body &body, const Particle *first) {
   const Eigen::Index n = static_cast<Eigen::Index>(body.primaries.size());
   Eigen::Matrix3Xd x(3, n);
   x.col(0) = first[0].x;
   for (Eigen::Index k = 1; k < n; ++k) {
     Eigen::Index j = 0;
-    while (j < k - 1 && (body.primaries[k] - body.primaries[j]).norm() > 1.01 * recipe.lattice)
+    while (j < k - 1 && (body.primaries[k] - body.primaries[j]).norm() >= recipe.primary_diameter)
       ++j;
     x.col(k) = x.col(j) + periodic_difference(recipe, first[k].x, x.col(j));
   }

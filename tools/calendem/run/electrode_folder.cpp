@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Reads the folder that `calendem pack` made and finds out whether it is whole.
 #include "run/run.h"
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
@@ -97,7 +98,8 @@ void read_description(const nlohmann::json &j, ElectrodeFacts &e) {
   e.bodies = j.at("bodies");
   const nlohmann::json &recipe = j.at("recipe");
   e.lattice = std::stod(recipe.at("particles.lattice_um").get<std::string>());
-  e.primary_diameter = std::stod(recipe.at("particles.primary_diameter_um").get<std::string>());
+  for (const char *key : {"particles.primary_diameter_um", "cbd.diameter_um"})
+    e.widest = std::max(e.widest, std::stod(recipe.at(key).get<std::string>()));
   e.primaries = j.at("primaries");
   e.am = e.primaries * std::pow(e.lattice, 3);
   e.cbd_envelope = volume * (1.0 - j.at("porosity_macro").get<double>()) - e.am;

@@ -20,13 +20,13 @@ namespace {
 const char *const kStages[] = {"hold", "compression", "dwell", "relaxation", "done"};
 
 void check_cell(const ElectrodeFacts &e, int ranks, Mistakes &mistakes) {
-  const double cut_off = neighbour_cut_off(e.primary_diameter);
+  const double cut_off = neighbour_cut_off(e.widest);
   if (std::min(e.lx, e.ly) < 2.0 * cut_off)
     mistakes.add(0, fmt::format("the cell is {} x {} um; a periodic side must be at least two "
                                 "cut-offs, {:.2f} um, or a particle touches two images of another. "
                                 "Pack a larger cell.",
                                 e.lx, e.ly, 2.0 * cut_off));
-  const int most = most_ranks(e.lx, e.ly, e.primary_diameter);
+  const int most = most_ranks(e.lx, e.ly, e.widest);
   if (ranks > most)
     mistakes.add(0,
                  fmt::format("--ranks {}: a cell of {} x {} um can be shared by at most {} ranks "

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "validate/verb.h"
+#include "pack/given_recipe.h"
 #include "spec/case.h"
 #include "spec/experiment.h"
-#include "spec/recipe.h"
 #include "spec/toml_file.h"
 #include "tomogram/tomogram.h"
 #include <CLI/CLI.hpp>
@@ -58,7 +58,7 @@ std::string name_after_check(const std::string &file) {
     read_tomogram_spec(file);
     return "tomogram";
   default:
-    read_recipe(file);
+    read_input(read_recipe(file));
     return "recipe";
   }
 }
