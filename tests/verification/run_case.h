@@ -52,9 +52,11 @@ public:
     const std::string start = // one rank needs no launcher
         ranks == 1 ? "OMPI_MCA_ess_singleton_isolated=1 OMPI_MCA_pml=ob1 OMPI_MCA_btl=self "
                    : "mpirun --oversubscribe -np " + std::to_string(ranks) + " ";
-    std::string command =
+    std::string
+        command = // no `-screen none`: the host's meshes write to a screen that is not there
         "cd '" + folder_.string() + "' && " + start + "'" + (other ? other : CALENDEM_PROGRAM) +
-        "' -screen none -in '" CALENDEM_CASES "/" + script + "' -var cases '" CALENDEM_CASES "'";
+        "' -screen /dev/null -in '" CALENDEM_CASES "/" + script +
+        "' -var cases '" CALENDEM_CASES "'";
     for (const auto &s : settings)
       command += " -var " + s.first + " " + s.second;
     status_ = std::system((command + " > output.txt 2>&1").c_str());

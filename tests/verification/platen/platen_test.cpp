@@ -23,23 +23,34 @@ std::vector<BodySphere> column(double spacing, bool bonded) {
   return all;
 }
 
-double top_of(const std::vector<BodySphere> &all) { return all.back().x.z + R; }
-
-CaseRun press(const std::vector<BodySphere> &all, const Settings &motion, Settings settings) {
-  Files files = files_of(all, {0, 0, 0}, {kSide, kSide, 12});
-  std::ostringstream start;
-  start.precision(17);
-  for (const auto &m : motion)
-    start << "variable " << m.first << " index " << m.second << "\n";
-  start << "include ${cases}/platen/in.platen\n";
-  files["start.in"] += start.str();
-  settings.insert({{"bx", "p"}, {"by", "p"}, {"ced", "0"}, {"friction", "0"}, {"skin", "0.15"}});
-  return CaseRun("in.body", settings, 1, files);
+double top_of(const std::vector<BodySphere> &all) {
+  double top = 0.0;
+  for (const BodySphere &s : all)
+    top = std::fmax(top, s.x.z + s.radius);
+  return top;
 }
 
-Settings motion(const std::string &control, double aim, double top, double speed) {
-  return {{"motion", control}, {"aim", number(aim)}, {"top", number(top)}, {"speed", number(speed)},
-          {"window", "0.25"},  {"dwell", "2"},       {"ramp", "2"},        {"lost_at", "0.01"}};
+// The spheres in a cell of that side under `wall`: platen or mesh.
+Files pressed(const std::vector<BodySphere> &all, double side, const Settings &motion,
+              const std::string &wall = "platen") {
+  Files files = files_of(all, {0, 0, 0}, {side, side, 12});
+  std::ostringstream start;
+  for (const auto &m : motion)
+    start << "variable " << m.first << " index " << m.second << "\n";
+  files["start.in"] += start.str() + "include ${cases}/platen/in." + wall + "\n";
+  return files;
+}
+
+CaseRun press(const std::vector<BodySphere> &all, const Settings &motion, Settings settings) {
+  settings.insert({{"bx", "p"}, {"by", "p"}, {"ced", "0"}, {"friction", "0"}, {"skin", "0.15"}});
+  return CaseRun("in.body", settings, 1, pressed(all, kSide, motion));
+}
+
+Settings motion(const std::string &control, double aim, double top, double speed,
+                double ramp = 2.0) {
+  return {{"motion", control},      {"aim", number(aim)}, {"top", number(top)},
+          {"speed", number(speed)}, {"window", "0.25"},   {"dwell", "2"},
+          {"ramp", number(ramp)},   {"lost_at", "0.01"}};
 }
 
 constexpr double kBondLength = 1.28;
@@ -179,4 +190,93 @@ TEST(VerificationPlaten, PressureControlOvershootsByLessThanOnePercent) {
     EXPECT_GE(most / target, 1.0);
     EXPECT_LT(most / target, 1.01);
   }
+}
+
+namespace {
+
+// A plate of the cell's size at height z, two cells along x and y: the host's periodic mesh needs
+// both.
+std::string plate(double side, double z) {
+  std::ostringstream stl;
+  stl.precision(17);
+  stl << "solid plate\n";
+  const auto triangle = [&](double ax, double ay, double bx, double by, double cx, double cy) {
+    stl << "facet normal 0 0 1\n outer loop\n";
+    for (const auto &[x, y] : {std::pair(ax, ay), std::pair(bx, by), std::pair(cx, cy)})
+      stl << "  vertex " << x << " " << y << " " << z << "\n";
+    stl << " endloop\nendfacet\n";
+  };
+  const double h = 0.5 * side;
+  for (const double x : {0.0, h})
+    for (const double y : {0.0, h}) {
+      triangle(x, y, x + h, y, x + h, y + h);
+      triangle(x, y, x + h, y + h, x, y + h);
+    }
+  stl << "endsolid plate\n";
+  return stl.str();
+}
+
+// Three bonded cubes that stand on an edge of their own slope, and loose spheres between them.
+std::vector<BodySphere> heap() {
+  std::vector<BodySphere> all;
+  const Vec3 places[] = {{1.7, 1.9, 0.0}, {5.3, 2.3, 0.0}, {3.1, 5.4, 0.0}};
+  for (const int body : {1, 2, 3}) {
+    const double a = 0.08 * body, c = std::cos(a), s = std::sin(a);
+    const double lowest = -0.5 * kBondLength * (c + s);
+    for (BodySphere b : cube(2, kBondLength, -0.5 * kBondLength * Vec3{1, 1, 1}, body)) {
+      b.x = Vec3{c * b.x.x + s * b.x.z, b.x.y, c * b.x.z - s * b.x.x} + places[body - 1];
+      b.x.z += R + kGap - lowest;
+      all.push_back(b);
+    }
+  }
+  for (const Vec3 &x : {Vec3{6.2, 5.6, 0.8}, Vec3{3.5, 2.0, 0.8}, Vec3{3.5, 2.0, 2.41}})
+    all.push_back({x, R, static_cast<int>(all.size())});
+  return all;
+}
+
+} // namespace
+
+// The host's mesh plates, moved by the host, take the same force as the platen and the collector.
+TEST(VerificationPlaten, SameForceAsAMovingMesh) {
+  const std::vector<BodySphere> spheres = heap();
+  const double side = 7.0, top = top_of(spheres) + kGap;
+  const int steps = 8000;
+  std::map<std::string, std::vector<Row>> walls, end;
+  for (const std::string wall : {"platen", "mesh"}) {
+    Files files = pressed(spheres, side, motion("position", top - 1.0, top, 0.5, 0.0), wall);
+    files["floor.stl"] = plate(side, 0.0);
+    files["plate.stl"] = plate(side, top);
+    const CaseRun run("in.body",
+                      {{"bx", "p"},
+                       {"by", "p"},
+                       {"ced", "0"},
+                       {"skin", "0.15"},
+                       {"dt", "5e-5"},
+                       {"steps", number(steps)},
+                       {"every", "20"}},
+                      1, files);
+    ASSERT_TRUE(run.finished()) << run.why();
+    walls[wall] = run.rows(wall + ".csv");
+    end[wall] = run.frames().back();
+  }
+  const std::vector<Row> &ours = walls["platen"], &mesh = walls["mesh"];
+  ASSERT_EQ(ours.size(), mesh.size());
+  double largest = 0.0, across = 0.0, worst = 0.0, moved = 0.0;
+  for (size_t n = 0; n < ours.size(); ++n) {
+    largest = std::fmax(largest, mesh[n].at("load"));
+    across = std::fmax(across, mesh[n].at("side"));
+    for (const char *force : {"load", "below"})
+      worst = std::fmax(worst, std::fabs(ours[n].at(force) - mesh[n].at(force)));
+  }
+  for (size_t i = 0; i < spheres.size(); ++i)
+    for (const char *x : {"x", "y", "z"})
+      moved = std::fmax(moved, std::fabs(end["platen"][i].at(x) - end["mesh"][i].at(x)));
+  const double ulps = steps * 8.9e-16; // um: one of the height in each step, all of one sign
+  const double depth = std::pow(0.75 * largest / (E_eff * std::sqrt(R)), 2.0 / 3.0);
+  std::printf("platen and mesh: forces differ by %.1e of %.4g nN (tolerance %.1e; friction up to "
+              "%.3g nN), places by %.1e um\n",
+              worst / largest, largest, 1.5 * ulps / depth, across, moved);
+  EXPECT_GT(largest, 1e6);
+  EXPECT_GT(across, 0.1 * largest);
+  EXPECT_LT(worst / largest, 1.5 * ulps / depth);
 }
