@@ -57,7 +57,8 @@ CaseRun crush(const std::vector<BodySphere> &all, double depth, double speed, Se
                    {"damping", "0.05"},
                    {"sc", number(sc)},
                    {"tc", number(tc)},
-                   {"skin", "0.15"}});
+                   {"skin", "0.15"},
+                   {"frames", "1000000"}}); // not read
   return CaseRun("in.body", settings, 1, files);
 }
 
@@ -152,4 +153,96 @@ TEST(VerificationCrush, BallBetweenPlates) {
   }
   std::printf("twice the strength: %.4f times the load\n", first[1] / first[0]);
   EXPECT_NEAR(first[1] / first[0], 2.0, 0.04);
+}
+
+namespace {
+
+constexpr int kLayers = 7;
+constexpr double kModulus = 5.0; // of the Weibull scatter
+
+// Upright cylinder of a face-centred lattice: bonds lie flat or slope by 45 degrees, ends are even.
+std::vector<BodySphere> cylinder() {
+  std::vector<BodySphere> all;
+  const double a = kSpacing * std::sqrt(0.5); // half a cubic cell
+  for (int z = 0; z < kLayers; ++z)
+    for (int x = -2; x <= 2; ++x)
+      for (int y = -2; y <= 2; ++y)
+        if ((x + y + z) % 2 == 0 && std::hypot(a * x, a * y) < 2.3)
+          all.push_back({{0.5 * kSide + a * x, 0.5 * kSide + a * y, R + 1e-4 + a * z}, R, 1});
+  return all;
+}
+
+struct Strength {
+  double first, peak; // nN
+  Row bond;           // the one that broke first
+};
+
+// Strength and speed grow alike. Contacts are soft, or their share in the load would grow with it.
+Strength strength_of_cylinder(int seed, double times) {
+  const double speed = 0.5 * times;
+  const CaseRun run = crush(cylinder(), 0.54 * times, speed,
+                            {{"sc", number(times * sc)},
+                             {"tc", number(times * tc)},
+                             {"Ey", "5e7"},
+                             {"weibull", number(kModulus)},
+                             {"seed", number(seed)},
+                             {"dt", "5e-5"},
+                             {"steps", "15800"},
+                             {"every", "20"}});
+  EXPECT_TRUE(run.finished()) << run.why();
+  const Crushed c = crushed(run);
+  EXPECT_LT(c.trough, 0.5 * c.peak); // brittle
+  return {c.first, c.peak, run.rows("breaks.csv").front()};
+}
+
+double mean(const std::vector<double> &all) {
+  double sum = 0.0;
+  for (const double x : all)
+    sum += x;
+  return sum / all.size();
+}
+
+double coefficient_of_variation(const std::vector<double> &all) {
+  double sum = 0.0;
+  for (const double x : all)
+    sum += std::pow(x - mean(all), 2);
+  return std::sqrt(sum / (all.size() - 1)) / mean(all);
+}
+
+} // namespace
+
+// Weakest link: the load at the first break follows the law of one bond, whatever the stress in the
+// others.
+TEST(VerificationCrush, ScatterOfACylinder) {
+  std::vector<double> first, peak;
+  for (int seed = 1; seed <= 8; ++seed) {
+    const Strength s = strength_of_cylinder(seed, 1.0);
+    first.push_back(s.first);
+    peak.push_back(s.peak);
+  }
+  const double area = cylinder().size() / double(kLayers) * kSpacing * kSpacing;
+  const double g = std::tgamma(1.0 + 1.0 / kModulus);
+  const double bond = std::sqrt(std::tgamma(1.0 + 2.0 / kModulus) / (g * g) - 1.0);
+  const double found = coefficient_of_variation(first), of_peak = coefficient_of_variation(peak);
+  std::printf("cylinder, 8 seeds: peak stress %.4g MPa = %.3f strengths of a bond, coefficient of "
+              "variation %.3f; first break %.4g MPa, %.3f; one bond %.3f\n",
+              1e-3 * mean(peak) / area, mean(peak) / area / sc, of_peak, 1e-3 * mean(first) / area,
+              found, bond);
+  EXPECT_NEAR(found / bond, 1.0, 3.0 * 0.29); // 0.29: standard error with 8
+  EXPECT_GT(of_peak, 0.0);
+  EXPECT_LT(of_peak, found); // other bonds take over
+}
+
+TEST(VerificationCrush, CylinderInProportionToTheBonds) {
+  for (const int seed : {1, 2, 3}) {
+    const Strength one = strength_of_cylinder(seed, 1.0), two = strength_of_cylinder(seed, 2.0);
+    std::printf(
+        "cylinder, seed %d: twice the strength of bonds, %.4f times the first load, %.4f times "
+        "the peak\n",
+        seed, two.first / one.first, two.peak / one.peak);
+    EXPECT_NEAR(two.first / one.first, 2.0, 0.04);
+    EXPECT_NEAR(two.peak / one.peak, 2.0, 0.04);
+    for (const char *tag : {"tag_i", "tag_j"})
+      EXPECT_EQ(one.bond.at(tag), two.bond.at(tag)); // the same bond breaks first
+  }
 }
