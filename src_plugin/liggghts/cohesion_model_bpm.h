@@ -135,6 +135,7 @@ private:
     calendem::BondLoads loads = bond.loads();
     const double tension = k.normal * (r - bond.length());
     if (s.computeflag && s.shearupdate) {
+      fix_->acts(s.i, s.j);
       calendem::advance(loads, motion, k, update->dt);
       bond.set_loads(loads);
       if (b.breakable && calendem::fails(loads, tension, section,

@@ -29,7 +29,7 @@ const int kEventSize = sizeof(BreakEvent) / sizeof(double);
 FixBondBpm::FixBondBpm(LAMMPS *lmp, int narg, char **arg)
     : Fix(lmp, narg, arg), energy_(NULL), body_(NULL), broken_(NULL), history_offset_(-1),
       created_(false), creating_(false), log_ready_(false), initial_(0), by_mode_(),
-      energy_lost_(0.0), overstretched_() {
+      energy_lost_(0.0), overstretched_(), acting_(0) {
   if (!atom->sphere_flag || !atom->tag_enable)
     error->fix_error(FLERR, this, "needs atom_style granular (or sphere) with atom tags");
   if (domain->triclinic)
@@ -193,8 +193,12 @@ void FixBondBpm::gather_breaks(std::vector<BreakEvent> &all) {
 }
 
 void FixBondBpm::post_force(int) {
-  double mine[2] = {static_cast<double>(pending_.size()), overstretched_[2]}, all[2];
-  MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_SUM, world);
+  double mine[3] = {static_cast<double>(pending_.size()), overstretched_[2],
+                    static_cast<double>(acting_)};
+  double all[3];
+  MPI_Allreduce(mine, all, 3, MPI_DOUBLE, MPI_SUM, world);
+  acting_ = 0;
+  const bigint acting = static_cast<bigint>(all[2]), intact = initial_ - broken();
   if (all[0] > 0.0) {
     std::vector<BreakEvent> events;
     gather_breaks(events);
@@ -203,7 +207,24 @@ void FixBondBpm::post_force(int) {
   }
   if (all[1] > 0.0)
     stop_if_overstretched();
+  if (acting != intact)
+    stop_lost(acting, intact);
 }
+
+// Beyond the range of histories the host calls no contact model: a bond stretched from within that
+// range to beyond it in one step, or one whose history is gone, just does not act any more.
+void FixBondBpm::stop_lost(bigint acting, bigint intact) {
+  char message[500];
+  snprintf(message, sizeof message,
+           "of " BIGINT_FORMAT " intact bonds only " BIGINT_FORMAT
+           " acted in this step. Either a bond was stretched within one step to more than %.2f "
+           "times the sum of radii, where its history is lost: the time step is too large. Or the "
+           "host lost histories: leave 'one' and 'page' of neigh_modify as they are",
+           intact, acting, kContactDistanceFactor);
+  error->fix_error(FLERR, this, message);
+}
+
+bigint FixBondBpm::broken() const { return by_mode_[1] + by_mode_[2] + by_mode_[3] + by_mode_[4]; }
 
 // Every copy of a broken pair's history, on whichever rank, changes state in the step of the break,
 // after its last force: both sides agree whatever their last bits say.
@@ -248,23 +269,22 @@ void FixBondBpm::apply_breaks(const std::vector<BreakEvent> &all) {
 }
 
 double FixBondBpm::compute_vector(int n) {
-  const bigint broken = by_mode_[1] + by_mode_[2] + by_mode_[3] + by_mode_[4];
   if (n == 0)
     return initial_;
   if (n == 1) {
     const bigint intact = count_intact();
-    if (intact + broken != initial_) {
+    if (intact + broken() != initial_) {
       char message[256];
       snprintf(message, sizeof message,
                "bonds do not add up: " BIGINT_FORMAT " made, " BIGINT_FORMAT
                " intact, " BIGINT_FORMAT " logged as broken. A bond vanished without a break",
-               initial_, intact, broken);
+               initial_, intact, broken());
       error->fix_error(FLERR, this, message);
     }
     return intact;
   }
   if (n == 2)
-    return broken;
+    return broken();
   if (n <= 6)
     return by_mode_[n - 2];
   if (n == 8)

@@ -81,6 +81,7 @@ public:
   void record_break(int i, int j, const calendem::BondLoads &, double tension,
                     const calendem::BondSection &, const calendem::BondStiffness &, double factor);
   void check_stretch(int i, int j, double r, double radius_sum);
+  void acts(int i, int j) { acting_ += decides(i, j); }
   int friction_history_offset(int bond_offset);
 
   // for computes and dumps
@@ -112,6 +113,7 @@ private:
   double energy_lost_;
   std::vector<BreakEvent> pending_, breaks_;
   double overstretched_[3]; // tags and stretch of the worst pair found, 0 if none
+  bigint acting_;           // bonds that acted in this step, those this rank decides
 
   void parse(int narg, char **arg);
   int parse_keyword(int iarg, int narg, char **arg);
@@ -126,12 +128,14 @@ private:
   void read_bodies();
   void check_box();
   bigint count_intact();
+  bigint broken() const;
   template <class Visit> void for_each_neighbor(Visit visit);
   void gather_breaks(std::vector<BreakEvent> &all);
   void apply_breaks(const std::vector<BreakEvent> &all);
   void open_log();
   void log_breaks(const std::vector<BreakEvent> &all);
   void stop_if_overstretched();
+  void stop_lost(bigint acting, bigint intact);
 };
 
 } // namespace LAMMPS_NS
