@@ -55,7 +55,9 @@ FixBondBpm::~FixBondBpm() {
   memory->destroy(broken_);
 }
 
-int FixBondBpm::setmask() { return PRE_FORCE | POST_FORCE; } // PRE_FORCE for its set-up call
+int FixBondBpm::setmask() {
+  return PRE_FORCE | POST_FORCE | END_OF_STEP; // PRE_FORCE for its set-up call
+}
 
 FixBondBpm *FixBondBpm::find(LAMMPS *lmp, const char *caller) {
   const int n = lmp->modify->n_fixes_style_strict("bond/bpm");
@@ -216,11 +218,12 @@ void FixBondBpm::post_force(int) {
 void FixBondBpm::stop_lost(bigint acting, bigint intact) {
   char message[500];
   snprintf(message, sizeof message,
-           "of " BIGINT_FORMAT " intact bonds only " BIGINT_FORMAT
-           " acted in this step. Either a bond was stretched within one step to more than %.2f "
-           "times the sum of radii, where its history is lost: the time step is too large. Or the "
-           "host lost histories: leave 'one' and 'page' of neigh_modify as they are",
-           intact, acting, kContactDistanceFactor);
+           BIGINT_FORMAT
+           " of " BIGINT_FORMAT
+           " intact bonds acted in this step. Either a bond was stretched within one step to more "
+           "than %.2f times the sum of radii, where its history is lost: the time step is too "
+           "large. Or the host lost histories: leave 'one' and 'page' of neigh_modify as they are",
+           acting, intact, kContactDistanceFactor);
   error->fix_error(FLERR, this, message);
 }
 

@@ -54,6 +54,7 @@ public:
   void setup_pre_force(int);
   void setup(int);
   void post_force(int);
+  void end_of_step();
   double compute_vector(int);
   double memory_usage();
 

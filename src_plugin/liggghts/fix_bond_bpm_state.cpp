@@ -4,7 +4,11 @@
 #include "comm.h"
 #include "error.h"
 #include "fix_bond_bpm.h"
+#include "fix_contact_history.h"
 #include "memory.h"
+#include "neighbor.h"
+#include "output.h"
+#include "update.h"
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -68,6 +72,17 @@ void FixBondBpm::unpack_restart(int nlocal, int nth) {
     m += static_cast<int>(values[m]);
   body_[nlocal] = static_cast<int>(values[m + 1]);
   broken_[nlocal] = static_cast<int>(values[m + 2]);
+}
+
+// In a step of `restart N` the host has stored histories before the forces: its file would heal the
+// bonds that broke in that step and lose the step's increments. Stored again, it is the file of
+// write_restart.
+void FixBondBpm::end_of_step() {
+  if (neighbor->ago != 0 || !output->restart_requested(update->ntimestep))
+    return; // such a step always rebuilds the lists
+  PairGran *pair = static_cast<PairGran *>(force->pair_match("gran", 1));
+  if (pair && pair->get_fix_history())
+    pair->get_fix_history()->pre_exchange();
 }
 
 void FixBondBpm::write_restart(FILE *fp) {

@@ -34,7 +34,9 @@ CaseRun draw(double speed, const Settings &settings, int ranks = 1) {
 }
 
 bool says(const CaseRun &run, const std::string &words) {
-  return run.why().find("ERROR: Fix bond/bpm (id bonds): " + words) != std::string::npos;
+  const std::string log = run.why();
+  const size_t error = log.find("ERROR: Fix bond/bpm (id bonds): ");
+  return error != std::string::npos && log.find(words, error) != std::string::npos;
 }
 
 } // namespace
@@ -47,14 +49,14 @@ TEST(LostBonds, DrawnOutOfRangeIsAnError) {
     for (const double speed : {1e3, 1e4}) { // from within the range to beyond it in one step
       const CaseRun at_once = draw(speed, bond);
       EXPECT_FALSE(at_once.finished());
-      EXPECT_TRUE(says(at_once, "of 1 intact bonds only 0 acted")) << at_once.why();
+      EXPECT_TRUE(says(at_once, "0 of 1 intact bonds acted")) << at_once.why();
     }
   }
 }
 
 TEST(LostBonds, DrawnApartByTwoRanksIsAnError) {
   EXPECT_TRUE(says(draw(5.0, kUnbreakable, 2), "an intact bond is stretched to 1.078"));
-  EXPECT_TRUE(says(draw(1e4, kUnbreakable, 2), "of 1 intact bonds only 0 acted"));
+  EXPECT_TRUE(says(draw(1e4, kUnbreakable, 2), "0 of 1 intact bonds acted"));
 }
 
 TEST(LostBonds, ABondThatBreaksInTimeIsLogged) {
@@ -72,8 +74,8 @@ TEST(LostBonds, AnUnstableStepIsAnError) {
   std::vector<BodySphere> body = cube(3, 1.28, {-1.28, -1.28, -1.28}, 1);
   body[0].v = {0.1, 0.2, 0.3};
   const std::pair<const char *, const char *> cases[] = {{"1.5", "an intact bond is stretched to"},
-                                                         {"3", "of 54 intact bonds only"},
-                                                         {"10", "of 54 intact bonds only"}};
+                                                         {"3", " of 54 intact bonds acted"},
+                                                         {"10", " of 54 intact bonds acted"}};
   for (const Settings &bond : {kUnbreakable, kTooStrong})
     for (const auto &[step, words] : cases) {
       Settings all = unasked(bond);
@@ -90,5 +92,5 @@ TEST(LostBonds, AHistoryThatTheHostForgetsIsAnError) {
   files["start.in"] += "neigh_modify one 500 page 50000\n";
   const CaseRun run("in.body", unasked({{"steps", "10"}}), 1, files);
   EXPECT_FALSE(run.finished());
-  EXPECT_TRUE(says(run, "of 54 intact bonds only 0 acted")) << run.why();
+  EXPECT_TRUE(says(run, "0 of 54 intact bonds acted")) << run.why();
 }

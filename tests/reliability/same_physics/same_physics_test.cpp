@@ -81,13 +81,62 @@ std::string contents(const std::filesystem::path &file) {
 }
 
 // Goes on from another run's restart file.
-Outcome go_on(const Outcome &from, const Settings &settings, int ranks) {
-  Files files = {{"half.restart", contents(from.folder / "half.restart")},
+Outcome go_on(const Outcome &from, const Settings &settings, int ranks,
+              const std::string &file = "half.restart") {
+  Files files = {{"half.restart", contents(from.folder / file)},
                  {"bodies.map", contents(from.folder / "bodies.map")},
                  {"breaks.csv", from.breaks}};
   Settings with = settings;
   with["from"] = "restart";
   return outcome(CaseRun("in.breaks", with, ranks, files));
+}
+
+const Settings kSerial = {{"px", "1"}, {"py", "1"}, {"pz", "1"}};
+
+Settings with(Settings more) {
+  more.insert(kSerial.begin(), kSerial.end());
+  return more;
+}
+
+// Rows of the log: time, tags, body and mode of each break, without stresses and places.
+std::vector<std::string> events(const std::string &log) {
+  std::vector<std::string> all;
+  std::istringstream in(log);
+  for (std::string line; std::getline(in, line);) {
+    size_t end = 0;
+    for (int comma = 0; comma < 5; ++comma)
+      end = line.find(',', end + 1);
+    all.push_back(line.substr(0, end));
+  }
+  return all;
+}
+
+// Bonds that broke in that step of 1e-5 us.
+long breaks_in(const std::string &log, int step) {
+  std::ostringstream time;
+  time.precision(9);
+  time << step * 1e-5 << ",";
+  const std::vector<std::string> all = events(log);
+  return std::count_if(all.begin(), all.end(), [&](const std::string &e) {
+    return e.compare(0, time.str().size(), time.str()) == 0;
+  });
+}
+
+// Numbers of final.txt, ten for each sphere: tag, place, velocity, spin.
+std::vector<double> numbers(const std::string &state) {
+  std::istringstream in(state.substr(state.find("omegaz") + 6));
+  return {std::istream_iterator<double>(in), {}};
+}
+
+// Largest difference of places (1) or velocities (4).
+double difference(const std::string &a, const std::string &b, int first) {
+  const std::vector<double> p = numbers(a), q = numbers(b);
+  EXPECT_EQ(p.size(), q.size());
+  double most = 0.0;
+  for (size_t n = 0; n < p.size() && n < q.size(); n += 10)
+    for (int k = first; k < first + 3; ++k)
+      most = std::fmax(most, std::fabs(p[n + k] - q[n + k]));
+  return most;
 }
 
 } // namespace
@@ -142,5 +191,64 @@ TEST(SamePhysics, RestartOnOtherRanksGivesTheSameBreaks) {
   EXPECT_EQ(go_on(reference(), {{"px", "2"}, {"py", "1"}, {"pz", "1"}}, 2).breaks,
             reference().breaks);
   EXPECT_EQ(go_on(reference(), {{"px", "1"}, {"py", "2"}, {"pz", "2"}}, 4).breaks,
+            reference().breaks);
+}
+
+TEST(SamePhysics, PiecesWithoutASetUpAndRestartFilesChangeNoBit) {
+  const Outcome once = throw_them(with({{"how", "once"}}));
+  for (const char *how : {"on", "periodic"}) {
+    const Outcome o = throw_them(with({{"how", how}}));
+    EXPECT_EQ(o.breaks, once.breaks) << how;
+    EXPECT_EQ(o.state, once.state) << how;
+  }
+}
+
+// Without damping a set-up computes the forces that were there, but for bonds that broke in that
+// step.
+TEST(SamePhysics, TwoRunsAreOneWithoutDamping) {
+  const Settings undamped = with({{"damping", "0"}, {"restitution", "1"}});
+  const auto in = [&](const char *how, int half) {
+    Settings s = undamped;
+    s.insert({{"how", how}, {"half", std::to_string(half)}});
+    return throw_them(s);
+  };
+  const Outcome once = in("once", 250);
+  int half = 200;
+  while (breaks_in(once.breaks, half) > 0)
+    ++half;
+  const Outcome twice = in("twice", half);
+  EXPECT_EQ(twice.breaks, once.breaks) << "parted after step " << half;
+  EXPECT_EQ(twice.state, once.state) << "parted after step " << half;
+}
+
+// With damping, and in a step with breaks, the force of one moment differs: half a step's kick.
+TEST(SamePhysics, TwoRunsAreOneButForAKickWithDamping) {
+  const auto in = [&](const char *how, int steps) {
+    return throw_them(with({{"how", how}, {"steps", std::to_string(steps)}}));
+  };
+  const Outcome before = in("once", 250), next = in("once", 251), parted = in("twice", 251);
+  EXPECT_GT(breaks_in(before.breaks, 250), 0);
+  const double step = difference(before.state, next.state, 4);
+  const double kick = difference(next.state, parted.state, 4);
+  const Outcome once = in("once", 1500), twice = in("twice", 1500);
+  const double shift = difference(once.state, twice.state, 1), time = 1250 * 1e-5;
+  std::printf(
+      "set-up: velocities change by %.1e um/us more or less, %.2f of a step's; 1250 steps later "
+      "places by %.1e um\n",
+      kick, kick / step, shift);
+  EXPECT_GT(kick, 0.0);
+  EXPECT_LE(kick, 0.5 * step);
+  EXPECT_LE(shift, 0.5 * step * time);
+  EXPECT_EQ(events(twice.breaks), events(once.breaks));
+}
+
+// `restart N` writes the file of write_restart, also in a step with breaks.
+TEST(SamePhysics, PeriodicRestartIsWriteRestart) {
+  const Outcome periodic = throw_them(with({{"how", "periodic"}}));
+  EXPECT_GT(breaks_in(periodic.breaks, 250), 0);
+  const Outcome o = go_on(periodic, kSerial, 1, "half.250.restart");
+  EXPECT_EQ(o.breaks, reference().breaks);
+  EXPECT_EQ(o.state, reference().state);
+  EXPECT_EQ(go_on(periodic, {{"px", "2"}, {"py", "1"}, {"pz", "1"}}, 2, "half.250.restart").breaks,
             reference().breaks);
 }
