@@ -7,7 +7,13 @@ if [ "$(id -u)" -eq 0 ]; then export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_
 fail() { echo "FAILED: $*" >&2; exit 1; }
 
 mkdir -p "$work"
-cp "$here"/*.toml "$work/"
+cp "$here"/*.toml "$here"/*.data "$work/"
+has() { # FOLDER TEXT...: all in its electrode.json
+  local text
+  for text in "${@:2}"; do
+    grep -qF -- "$text" "$work/$1/electrode.json" || fail "no '$text' in $1/electrode.json"
+  done
+}
 case $case in
   image_to_electrode) # tomogram -> shapes -> electrode; the library alone gives the same electrode
     "$bin/calendem" tomogram "$work/tomogram.toml" -o "$work/image.mhd"
@@ -19,4 +25,23 @@ case $case in
     cmp "$work/from_image/electrode.data" "$work/from_library/electrode.data" ||
       fail "image and library gave different electrodes"
     grep -q '"D50"' "$work/from_image/electrode.json" || fail "no measured sizes in electrode.json" ;;
+  structure_to_electrode) # LAMMPS' film -> electrode; that as given clusters -> the same bodies; a cut file -> nothing
+    rm -rf "$work/from_film" "$work/from_clusters" "$work/from_cut"
+    "$bin/calendem" validate "$work/film.toml"
+    "$bin/calendem" pack "$work/film.toml" -o "$work/from_film" --ranks 1
+    has from_film '"bodies": 18,' '"am_particles_in": 18' '"am_particles_out": 18' '"cbd_in": 45' '"cbd_out": 45' \
+      '"each_am_particle_once": true'
+    [ "$(wc -l <"$work/from_film/structure.csv")" -eq 64 ] || fail "structure.csv has not a row for each of 63 particles"
+    "$bin/calendem" pack "$work/clusters.toml" -o "$work/from_clusters" --ranks 1
+    for key in bonds primaries cbd bodies loading_mg_cm2; do
+      has from_clusters "$(grep -m 1 "^  \"$key\"" "$work/from_film/electrode.json")"
+    done
+    head -n 30 "$work/film.data" >"$work/cut.data"
+    sed 's|film.data|cut.data|' "$work/film.toml" >"$work/cut.toml"
+    status=0
+    "$bin/calendem" pack "$work/cut.toml" -o "$work/from_cut" 2>"$work/said" || status=$?
+    cat "$work/said"
+    [ $status -eq 2 ] || fail "exit status $status for a file that is cut"
+    grep -q 'announces 63 atoms, the section Atoms has 19 rows' "$work/said" || fail "the cut was not told"
+    [ ! -e "$work/from_cut" ] || fail "a folder was made for nothing" ;;
 esac

@@ -49,7 +49,8 @@ TEST(ReadPositions, TakesRowsInAnyOrderAndRefusesACutFile) {
   std::ofstream(file) << head << "3 0.5 0.25 0.125\n1 1 1 1\n2 2 2 2\n";
   read_positions(file, particles);
   EXPECT_EQ(particles[2].x, Eigen::Vector3d(0.5, 0.25, 0.125));
-  for (const char *rows : {"1 1 1 1\n2 2 2 2\n", "1 1 1 1\n2 2 2 2\n3 0.5 0.25", ""}) {
+  for (const char *rows :
+       {"1 1 1 1\n2 2 2 2\n", "1 1 1 1\n2 2 2 2\n3 0.5 0.25", "", "1 1 1 1\n2 2 2 2\n2 2 2 2\n"}) {
     std::ofstream(file) << head << rows;
     EXPECT_THROW(read_positions(file, particles), Failure) << rows;
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // From an existing structure to bodies and places: nothing is lost, doubled or lighter than before.
+#include "pack/electrode_files.h"
 #include "pack/given_description.h"
 #include "pack/given_recipe.h"
 #include "pack/start.h"
@@ -185,6 +186,20 @@ TEST_F(GivenFilm, PlacesAreTheStructuresWithTheHeightsStretched) {
   EXPECT_GE(start.placed.moved, 14 - there);
   EXPECT_LT(start.placed.largest_move_um, 4.0);
   EXPECT_GT(start.placed.stretch, 1.5);
+}
+
+TEST_F(GivenFilm, TheOrderOfTheRowsDoesNotMatter) {
+  std::string text = film(), backwards;
+  const size_t rows = text.find("# sphere\n\n") + 10;
+  std::istringstream lines(text.substr(rows));
+  for (std::string line; std::getline(lines, line);)
+    backwards = line + "\n" + backwards;
+  const Recipe recipe = recipe_with(kTable);
+  std::ofstream(recipe.structure.file) << text.substr(0, rows) << backwards;
+  const PackInput other = read_input(recipe);
+  const Start again = make_start(other, (test_folder() / "again").string());
+  EXPECT_EQ(data_file(other.recipe, again.placed.loose.particles, 1.0),
+            data_file(in.recipe, start.placed.loose.particles, 1.0));
 }
 
 TEST_F(GivenFilm, TheTableNamesTheTagsOfEveryParticle) {
