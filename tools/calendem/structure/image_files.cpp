@@ -2,87 +2,19 @@
 #include "structure/image_files.h"
 #include "spec/messages.h"
 #include "spec/provenance.h"
-#include "structure/label_image.h"
+#include "structure/image_header.h"
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <map>
 #include <regex>
-#include <sstream>
 
 namespace calendem {
 namespace fs = std::filesystem;
 namespace {
 
 const char *const kEndings[] = {".vti", ".mhd", ".mha", ".nrrd", ".nhdr", ".tif", ".tiff"};
-
-std::string trimmed(const std::string &text) {
-  const size_t from = text.find_first_not_of(" \t\r"), to = text.find_last_not_of(" \t\r");
-  return from == std::string::npos ? "" : text.substr(from, to - from + 1);
-}
-
-struct Header {
-  std::map<std::string, std::string> fields; ///< names in small letters
-  long bytes = 0;                            ///< up to where data may begin
-};
-
-// "name = value" (MetaImage) or "name: value" (NRRD) up to the data.
-Header read_header(const std::string &file) {
-  std::ifstream in(file, std::ios::binary);
-  const bool meta = image_ending(file)[1] == 'm';
-  Header h;
-  std::string line;
-  while (std::getline(in, line) && line.size() < 4096) {
-    h.bytes += long(line.size()) + 1;
-    line = trimmed(line);
-    if (!meta && line.empty())
-      break;
-    const size_t at = line.find(meta ? '=' : ':');
-    if (at == std::string::npos)
-      continue;
-    std::string name = trimmed(line.substr(0, at));
-    std::transform(name.begin(), name.end(), name.begin(), ::tolower);
-    h.fields[name] = trimmed(line.substr(at + 1));
-    if (meta && name == "elementdatafile")
-      break;
-  }
-  return h;
-}
-
-long bytes_of_type(const std::string &type) {
-  static const std::vector<std::pair<const char *, long>> sizes = {
-      {"MET_CHAR", 1},      {"MET_UCHAR", 1},  {"MET_SHORT", 2},    {"MET_USHORT", 2},
-      {"MET_INT", 4},       {"MET_UINT", 4},   {"MET_FLOAT", 4},    {"MET_LONG", 8},
-      {"MET_ULONG", 8},     {"MET_DOUBLE", 8}, {"uchar", 1},        {"uint8", 1},
-      {"int8", 1},          {"uint8_t", 1},    {"int8_t", 1},       {"signed char", 1},
-      {"unsigned char", 1}, {"short", 2},      {"ushort", 2},       {"unsigned short", 2},
-      {"int16", 2},         {"uint16", 2},     {"int16_t", 2},      {"uint16_t", 2},
-      {"int", 4},           {"uint", 4},       {"unsigned int", 4}, {"int32", 4},
-      {"uint32", 4},        {"int32_t", 4},    {"uint32_t", 4},     {"float", 4},
-      {"double", 8}};
-  for (const auto &[name, size] : sizes)
-    if (type == name)
-      return size;
-  return 0;
-}
-
-// Bytes the header announces; 0 if it cannot be told (compressed, text, or fields missing).
-long announced_bytes(const Header &h, bool meta) {
-  const auto field = [&](const char *name) {
-    const auto at = h.fields.find(name);
-    return at == h.fields.end() ? std::string() : at->second;
-  };
-  if (meta && field("compresseddata") == "True")
-    return std::atol(field("compresseddatasize").c_str());
-  if (!meta && field("encoding") != "raw")
-    return 0;
-  long bytes = bytes_of_type(field(meta ? "elementtype" : "type"));
-  std::istringstream sizes(field(meta ? "dimsize" : "sizes"));
-  for (long n = 0; sizes >> n;)
-    bytes *= n;
-  return bytes;
-}
 
 } // namespace
 
@@ -138,37 +70,28 @@ std::vector<std::string> files_of_series(const std::string &file) {
 
 std::string data_file_of(const std::string &header) {
   const std::string ending = image_ending(header);
-  if (ending != ".mhd" && ending != ".mha" && ending != ".nhdr")
+  const bool meta = ending == ".mhd" || ending == ".mha";
+  if (!meta && ending != ".nrrd" && ending != ".nhdr")
     return "";
-  const Header h = read_header(header);
-  const auto at = h.fields.find(ending[1] == 'm' ? "elementdatafile" : "data file");
-  if (at == h.fields.end() || at->second == "LOCAL" || at->second.find('%') != std::string::npos ||
-      at->second.rfind("LIST", 0) == 0)
+  const ImageHeader h(header, meta ? "=" : ": ");
+  const std::string name = meta                ? h.text("ElementDataFile")
+                           : h.has("datafile") ? h.text("datafile")
+                                               : h.text("data file");
+  if (name.empty() || (meta && name == "LOCAL"))
     return "";
-  const fs::path data = fs::path(header).parent_path() / at->second;
-  if (!fs::is_regular_file(data))
-    throw Failure(kBadInput, fmt::format("{}: the data file '{}' that the header names is not "
-                                         "there. Put it beside the header.",
-                                         header, at->second));
+  if (name.find('%') != std::string::npos || name.rfind("LIST", 0) == 0)
+    refuse_image(header,
+                 fmt::format("the voxels are spread over several files ('{}'), which is not "
+                             "read. Save them to one file.",
+                             name.substr(0, 60)));
+  const fs::path data = fs::path(header).parent_path() / name;
+  std::error_code none;
+  if (!fs::is_regular_file(data, none))
+    refuse_image(header,
+                 fmt::format("the data file '{}' that the header names is not there. Put it "
+                             "beside the header.",
+                             name.substr(0, 200)));
   return data.string();
-}
-
-void check_raw_size(const std::string &file) {
-  const Header h = read_header(file);
-  const auto encoding = h.fields.find("encoding");
-  if (encoding != h.fields.end() &&
-      std::regex_match(encoding->second, std::regex("ascii|te?xt", std::regex::icase)))
-    throw Failure(kBadInput, fmt::format("{}: encoding: {} is not read, because VTK's reader takes "
-                                         "wrong numbers from it; allowed are raw and gzip. Save it "
-                                         "anew (unu save -e gzip).",
-                                         file, encoding->second));
-  const std::string data = data_file_of(file);
-  const long wanted = announced_bytes(h, image_ending(file)[1] == 'm');
-  const long there = data.empty() ? long(fs::file_size(file)) - h.bytes : long(fs::file_size(data));
-  if (wanted > there)
-    throw Failure(kBadInput, fmt::format("{}: the header announces {} bytes of voxels, {} are "
-                                         "there: the file is cut. Copy it again.",
-                                         file, wanted, std::max(there, 0L)));
 }
 
 std::string hash_of_image(const std::string &file) {

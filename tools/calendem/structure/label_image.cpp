@@ -2,6 +2,7 @@
 #include "structure/label_image.h"
 #include "spec/messages.h"
 #include "structure/image_files.h"
+#include "structure/image_header.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -44,10 +45,6 @@ private:
   vtkNew<vtkStringOutputWindow> window_;
 };
 
-[[noreturn]] void refuse(const std::string &file, const std::string &what) {
-  throw Failure(kBadInput, fmt::format("{}: {}", file, what));
-}
-
 // The line of VTK's complaint that says something, without its address and class.
 std::string gist(std::string text) {
   const size_t colon = text.find("): ");
@@ -61,7 +58,8 @@ template <class Reader>
 vtkSmartPointer<vtkImageData> read_with(const std::string &file, vtkNew<Reader> &reader) {
   Complaints complaints;
   if (!reader->CanReadFile(file.c_str()))
-    refuse(file, "this is not a file of the format that its ending says, or its header is cut. "
+    refuse_image(file,
+                 "this is not a file of the format that its ending says, or its header is cut. "
                  "Give the file as the program that segmented it wrote it.");
   reader->SetFileName(file.c_str());
   reader->Update();
@@ -69,7 +67,8 @@ vtkSmartPointer<vtkImageData> read_with(const std::string &file, vtkNew<Reader> 
   const std::string said = complaints.text();
   if (said.find("ERR") != std::string::npos || said.find("rror") != std::string::npos ||
       reader->GetErrorCode() != 0)
-    refuse(file, fmt::format("VTK cannot read it: {}. Give the whole file, and the data file that "
+    refuse_image(file,
+                 fmt::format("VTK cannot read it: {}. Give the whole file, and the data file that "
                              "a header names beside it.",
                              gist(said)));
   return image;
@@ -77,27 +76,28 @@ vtkSmartPointer<vtkImageData> read_with(const std::string &file, vtkNew<Reader> 
 
 vtkSmartPointer<vtkImageData> read_one(const std::string &file) {
   if (!std::filesystem::is_regular_file(file))
-    refuse(file, "no such file. Give the path of a label image that exists.");
+    refuse_image(file, "no such file. Give the path of a label image that exists.");
   const std::string ending = image_ending(file);
   vtkSmartPointer<vtkImageData> image;
   if (ending == ".vti") {
+    check_vti(file);
     vtkNew<vtkXMLImageDataReader> reader;
     image = read_with(file, reader);
   } else if (ending == ".mhd" || ending == ".mha") {
-    check_raw_size(file);
+    check_meta_image(file);
     vtkNew<vtkMetaImageReader> reader;
     image = read_with(file, reader);
   } else if (ending == ".nrrd" || ending == ".nhdr") {
-    check_raw_size(file);
+    check_nrrd(file);
     vtkNew<vtkNrrdReader> reader;
     image = read_with(file, reader);
   } else {
-    check_tiff_size(file);
+    check_tiff(file);
     vtkNew<vtkTIFFReader> reader;
     image = read_with(file, reader);
   }
   if (!image || image->GetNumberOfPoints() == 0 || !image->GetPointData()->GetScalars())
-    refuse(file, "it holds no voxels. Point data with one whole number per voxel is wanted.");
+    refuse_image(file, "it holds no voxels. Point data with one whole number per voxel is wanted.");
   return image;
 }
 
@@ -105,17 +105,17 @@ vtkSmartPointer<vtkImageData> read_one(const std::string &file) {
 void append_labels(const std::string &file, vtkImageData &image, LabelImage &out) {
   vtkDataArray &values = *image.GetPointData()->GetScalars();
   if (values.GetNumberOfComponents() != 1)
-    refuse(file, fmt::format("a voxel has {} numbers (a colour picture?); a label image has one. "
-                             "Export the labels, not a rendering. (VTK takes the first axis of a "
-                             "NRRD file for this if it is shorter than 10.)",
+    refuse_image(file,
+                 fmt::format("a voxel has {} numbers (a colour picture?); a label image has one. "
+                             "Export the labels, not a rendering.",
                              values.GetNumberOfComponents()));
   for (vtkIdType p = 0; p < values.GetNumberOfTuples(); ++p) {
     const double v = values.GetComponent(p, 0);
     if (v != std::floor(v) || std::fabs(v) > 2147483647.0)
-      refuse(file, fmt::format("voxel ({}, {}, {}) is {}; a label is a whole number up to "
-                               "2147483647. Give the label image, not grey values.",
-                               p % out.n[0], p / out.n[0] % out.n[1],
-                               p / out.n[0] / out.n[1] + out.n[2], v));
+      refuse_image(file, fmt::format("voxel ({}, {}, {}) is {}; a label is a whole number up to "
+                                     "2147483647. Give the label image, not grey values.",
+                                     p % out.n[0], p / out.n[0] % out.n[1],
+                                     p / out.n[0] / out.n[1] + out.n[2], v));
     out.label.push_back(static_cast<std::int32_t>(v));
   }
   // VTK turns a single page of TIFF upside down and leaves the pages of a stack as they are.
@@ -131,7 +131,8 @@ void append(const std::string &file, LabelImage &out) {
   int n[3];
   image->GetDimensions(n);
   if (out.n[2] > 0 && (n[0] != out.n[0] || n[1] != out.n[1]))
-    refuse(file, fmt::format("this slice has {} x {} voxels, those before it {} x {}. All slices "
+    refuse_image(file,
+                 fmt::format("this slice has {} x {} voxels, those before it {} x {}. All slices "
                              "of a series must be of one size.",
                              n[0], n[1], out.n[0], out.n[1]));
   out.n[0] = n[0];
@@ -146,10 +147,11 @@ void set_voxel_size(const std::string &file, double voxel_um, LabelImage &image)
   if (voxel_um > 0.0)
     image.voxel.setConstant(voxel_um);
   else if (!stated)
-    refuse(file, "the file states no voxel size. Give shapes.voxel_size_um (or --voxel-um).");
+    refuse_image(file, "the file states no voxel size. Give shapes.voxel_size_um (or --voxel-um).");
   image.voxel = image.voxel.cwiseAbs();
   if (image.voxel.minCoeff() < 1e-3 || image.voxel.maxCoeff() > 10.0)
-    refuse(file, fmt::format("a voxel is {:g} x {:g} x {:g} um by its header; allowed is 0.001 to "
+    refuse_image(file,
+                 fmt::format("a voxel is {:g} x {:g} x {:g} um by its header; allowed is 0.001 to "
                              "10 um. If the header is in mm or m, give shapes.voxel_size_um.",
                              image.voxel[0], image.voxel[1], image.voxel[2]));
 }
@@ -161,14 +163,15 @@ void write_with(vtkNew<Writer> &writer, vtkImageData *data, const std::string &f
   writer->SetInputData(data);
   writer->Write();
   if (!std::filesystem::exists(file))
-    refuse(file, "cannot be written. Check the folder, its rights and the disk.");
+    refuse_image(file, "cannot be written. Check the folder, its rights and the disk.");
 }
 
 } // namespace
 
 LabelImage read_label_image(const std::string &file, double voxel_um) {
   if (!is_readable_image(file))
-    refuse(file, fmt::format("label images with the ending '{}' are not read; allowed are {}. "
+    refuse_image(file,
+                 fmt::format("label images with the ending '{}' are not read; allowed are {}. "
                              "Convert it.",
                              image_ending(file), readable_images()));
   LabelImage image;
@@ -194,8 +197,9 @@ void write_label_image(const LabelImage &image, const std::string &file) {
     vtkNew<vtkMetaImageWriter> writer;
     write_with(writer, data, file);
   } else
-    refuse(file, fmt::format("'{}' is not written; give a name that ends in .mhd, .mha or .vti.",
-                             ending));
+    refuse_image(
+        file,
+        fmt::format("'{}' is not written; give a name that ends in .mhd, .mha or .vti.", ending));
 }
 
 } // namespace calendem
