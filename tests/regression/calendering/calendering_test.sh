@@ -50,12 +50,13 @@ case $case in
   killed_and_resumed) # kill -9 in mid-run, resume: the uninterrupted run's bytes
     rm -rf "$work/killed"
     "$bin/calendem" run "$work/case.toml" -o "$work/killed" --ranks 1 >"$work/killed.log" 2>&1 &
-    for _ in $(seq 400); do
+    run=$!
+    while kill -0 $run 2>/dev/null; do
       [ -s "$work/killed/running.restart" ] && [ "$(wc -l <"$work/killed/curve_raw.csv")" -gt 12 ] && break
       sleep 0.05
     done
     pkill -9 -f "out $work/killed " || fail "the run ended before it could be killed"
-    wait $! && fail "a killed run must not end with exit status 0"
+    wait $run && fail "a killed run must not end with exit status 0"
     "$bin/calendem" run "$work/case.toml" -o "$work/killed" --ranks 1 --resume
     cmp "$work/run/breaks.csv" "$work/killed/breaks.csv" || fail "break logs differ after --resume"
     cmp "$work/run/curve.csv" "$work/killed/curve.csv" || fail "curves differ after --resume" ;;
