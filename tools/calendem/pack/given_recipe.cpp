@@ -133,6 +133,10 @@ void take_composition(const Recipe &r, const GivenStructure &g, Adoption &a, Mis
                              "structure. Correct one of them, or leave [composition] out.",
                              sum, rest));
   const double share = sum > 0.0 ? r.settings.number(carbon) / sum : 0.5;
+  if (percent < 50.0)
+    mistakes.add(0,
+                 "CBD outweighs the active material in the structure. If it still holds solvent, "
+                 "give the dried structure.");
   a.take(am, percent, 0.005);
   a.set(carbon, rest * share);
   a.set(binder, rest * (1.0 - share));
