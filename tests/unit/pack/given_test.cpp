@@ -103,12 +103,12 @@ TEST(Adopt, APorosityOfTheRecipeIsWhatTheFilmIsPackedTo) {
 TEST(Adopt, ValuesOfTheRecipeThatTheStructureContradictsAreNamedAtOnce) {
   expect_parts(refusal(kTable + "[cell]\nx_um = 15\n[density]\nam_g_cm3 = 4.65\n[composition]\n"
                                 "am_weight_percent = 90\ncarbon_weight_percent = 5\n"
-                                "binder_weight_percent = 5\n[coating]\nloading_mg_cm2 = 17\n"
+                                "binder_weight_percent = 5\n[coating]\nloading_mg_cm2 = 1.32\n"
                                 "[cbd]\ndiameter_um = 1.316\nnanoporosity_percent = 27\n"),
                {"recipe.toml:7: cell.x_um is 15, but the structure has 10 um",
                 ":9: density.am_g_cm3 is 4.65, but the structure has 4.5 g/cm3",
                 ":11: composition.am_weight_percent is 90", ":13: carbon and binder are 10 %",
-                ":15: coating.loading_mg_cm2 is 17", ":17: cbd.diameter_um is 1.316",
+                ":15: coating.loading_mg_cm2 is 1.32", ":17: cbd.diameter_um is 1.316",
                 ":18: cbd.nanoporosity_percent is 27"});
   EXPECT_NO_THROW(input(kTable + "[density]\nam_g_cm3 = 4.49\n[cell]\nx_um = 10\n"));
 }

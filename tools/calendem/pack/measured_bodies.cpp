@@ -119,7 +119,9 @@ nlohmann::json describe_shapes(const Recipe &r, const ShapeLibrary &l,
           {"cut_by_border", l.cut.size()},
           {"too_few_voxels", l.coarse.size()},
           {"sphericity_mean", sphericity},
-          {"sizes", r.shapes.measured_sizes ? "measured" : "recipe"},
+          {"sizes", r.structure.given()       ? "structure"
+                    : r.shapes.measured_sizes ? "measured"
+                                              : "recipe"},
           {"volume_percentiles_measured_um", measured},
           {"volume_percentiles_packed_um", packed}};
 }
