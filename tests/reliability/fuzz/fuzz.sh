@@ -23,10 +23,9 @@ if [ "$target" = label_image ]; then
     "$core"/structure/{tiff_header,vti_header}.cpp "$core"/spec/{messages,provenance}.cpp -lfmt -lz \
     -lvtk{IOImage,IOXML,CommonExecutionModel,CommonDataModel,CommonCore,sys}"$suffix" -o "$work/$target"
 else
-  clang++ "${options[@]}" "$here/fuzz_target.cpp" "$core/report/csv_table.cpp" \
+  clang++ "${options[@]}" "$here/fuzz_target.cpp" \
     "$core"/structure/{atom_rows,data_header,data_plausible,given_structure,particle_data}.cpp \
-    "$core"/spec/{toml_file,toml_reader,key,recipe,structure_source,case,experiment,messages,provenance}.cpp -lfmt \
-    -o "$work/$target"
+    "$core"/spec/*.cpp -lfmt -o "$work/$target"
 fi
 cd "$work"
 "./$target" -max_total_time="$seconds" -max_len=8192 -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 corpus \

@@ -7,8 +7,8 @@
 #include <string>
 #include <unistd.h>
 
-#include "report/csv_table.h"
 #include "spec/case.h"
+#include "spec/csv_table.h"
 #include "spec/experiment.h"
 #include "spec/messages.h"
 #include "spec/recipe.h"
@@ -25,7 +25,7 @@ void recipe(const std::string &) { calendem::read_recipe(file()); }
 void case_(const std::string &) { calendem::read_case(file()); }
 void experiment(const std::string &) { calendem::read_experiment(file()); }
 void csv(const std::string &text) {
-  const auto table = calendem::report::CsvTable::parse(text);
+  const auto table = calendem::CsvTable::parse(text);
   for (const std::string &column : table.header())
     if (table.has(column))
       table.numbers(column);

@@ -4,23 +4,11 @@
 #define CALENDEM_TESTS_UNIT_PACK_SUPPORT_H
 
 #include "spec/recipe.h"
-#include <filesystem>
+#include "support/test_folder.h"
 #include <fstream>
-#include <gtest/gtest.h>
 #include <string>
 
 namespace calendem_test {
-
-/// A new folder of the running test, emptied.
-inline std::filesystem::path test_folder() {
-  const auto *info = testing::UnitTest::GetInstance()->current_test_info();
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) /
-      (std::string("calendem_") + info->test_suite_name() + "_" + info->name());
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
-}
 
 /// `lines` is a TOML file; what it leaves out has the default.
 inline calendem::Recipe recipe_of(const std::string &lines) {

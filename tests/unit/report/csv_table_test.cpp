@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/csv_table.h"
+#include "spec/csv_table.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-using calendem::report::CsvTable;
+using calendem::CsvTable;
 
 // Requirement: comments and empty lines are skipped, an empty cell is NaN, columns go by name.
 TEST(CsvTable, ReadsColumnsByName) {

@@ -5,25 +5,13 @@
 
 #include "spec/messages.h"
 #include "structure/label_image.h"
-#include <filesystem>
+#include "support/test_folder.h"
 #include <fstream>
-#include <gtest/gtest.h>
 #include <iterator>
 
 namespace calendem_test {
 
 constexpr double kPi = 3.14159265358979323846;
-
-/// A new folder of the running test, emptied.
-inline std::filesystem::path test_folder() {
-  const auto *info = testing::UnitTest::GetInstance()->current_test_info();
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) /
-      (std::string("calendem_") + info->test_suite_name() + "_" + info->name());
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
-}
 
 inline calendem::LabelImage empty_image(int nx, int ny, int nz, double voxel) {
   calendem::LabelImage image;

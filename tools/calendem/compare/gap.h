@@ -23,7 +23,6 @@ struct SimulatedRun {
   double cracked_fraction = 0.0;              ///< of the bodies
   std::vector<double> pressure, displacement; ///< of the compression, highest pressure so far
   double porosity_slope = 0.0; ///< d porosity / d pressure under load near the maximum [1/MPa]
-  unsigned long seed = 0;      ///< of the packing
   std::string electrode_hash;  ///< two runs of one packing are no two packings
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compare/observables.h"
-#include "report/csv_table.h"
+#include "spec/csv_table.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -15,66 +15,82 @@ constexpr double kCurveShares[] = {0.1, 0.25, 0.5, 0.75}; // of the maximum pres
 
 double none(const SimulatedRun &) { return 0.0; }
 
-/// h/h_solid after relaxation from thickness and mass (or loading): free of the samples' different
-/// loadings. Empty if one of them is missing.
-std::optional<Observable> thickness_ratio(const Experiment &e, const Condition &c) {
-  if (!c.thickness_after_um || !(c.mass_mg || c.loading_mg_cm2))
-    return std::nullopt;
-  const Measured &load = c.mass_mg ? *c.mass_mg : *c.loading_mg_cm2;
-  const double loading = c.mass_mg ? coating_loading_mg_cm2(e, *c.mass_mg) : load.value;
-  const double thickness = coating_thickness_um(e, *c.thickness_after_um);
-  const double ratio = 1.0 / (1.0 - total_porosity(e, loading, thickness));
-  // relative: of the coating's thickness, of the coating's loading
-  const double per_mass =
-      c.mass_mg ? (coating_loading_mg_cm2(e, {load.value + 1.0, 0.0, load.includes_foil}) - loading)
-                : 1.0;
-  const double of_h = c.thickness_after_um->sd / thickness, of_w = load.sd * per_mass / loading;
-  Observable o = {"thickness over solid thickness", "relaxation", "", ratio,
-                  ratio * std::hypot(of_h, of_w),   {},           {}};
-  o.simulated = [](const SimulatedRun &r) { return r.thickness_after / r.solid_column; };
-  o.slope = [](const SimulatedRun &r) {
-    return r.porosity_slope * std::pow(r.thickness_after / r.solid_column, 2);
+/// Loading of the sample [mg/cm2], by its mass if that is given.
+std::optional<Measured> loading_of(const Experiment &e, const Condition &c) {
+  if (c.mass_mg)
+    return Measured{coating_loading_mg_cm2(e, *c.mass_mg), c.mass_mg->sd / sample_area_cm2(e)};
+  return c.loading_mg_cm2;
+}
+
+/// h/h_solid: free of the samples' different loadings. `of`: the run's thickness.
+Observable thickness_ratio(const Experiment &e, const Measured &thickness, const Measured &loading,
+                           const char *stage, double SimulatedRun::*of) {
+  const double h = coating_thickness_um(e, thickness);
+  const double ratio = h / solid_thickness_um(e, loading.value);
+  Observable o;
+  o.name = "thickness over solid thickness";
+  o.stage = stage;
+  o.measured = ratio;
+  o.sd = ratio * std::hypot(thickness.sd / h, loading.sd / loading.value);
+  o.simulated = [of](const SimulatedRun &r) { return r.*of / r.solid_column; };
+  o.slope = [of](const SimulatedRun &r) { // of 1/(1 - porosity)
+    return r.porosity_slope * std::pow(r.*of / r.solid_column, 2);
   };
   return o;
 }
 
 void porosity_after(const Experiment &e, const Condition &c, std::vector<Observable> &out,
                     std::vector<std::string> &not_said) {
-  const std::optional<Observable> ratio = thickness_ratio(e, c);
-  if (c.porosity_after_percent) {
-    Observable o = {"total porosity",
-                    "relaxation",
-                    "%",
-                    c.porosity_after_percent->value,
-                    c.porosity_after_percent->sd,
-                    {},
-                    {}};
-    o.simulated = [](const SimulatedRun &r) { return 100.0 * r.porosity_after; };
-    o.slope = [](const SimulatedRun &r) { return 100.0 * r.porosity_slope; };
-    out.push_back(o);
+  const std::optional<Measured> loading = loading_of(e, c);
+  std::optional<Observable> ratio;
+  if (c.thickness_after_um && loading)
+    ratio = thickness_ratio(e, *c.thickness_after_um, *loading, "relaxation",
+                            &SimulatedRun::thickness_after);
+  if (!c.porosity_after_percent) {
     if (ratio)
-      not_said.push_back(fmt::format(
-          "{}: mass and thickness give a porosity of {:.2f} ± {:.2f} %, stated are {:.2f} %. They "
-          "are one measurement: only the stated porosity is compared.",
-          c.id, 100.0 * (1.0 - 1.0 / ratio->measured),
-          100.0 * ratio->sd / (ratio->measured * ratio->measured), o.measured));
-  } else if (ratio) {
-    out.push_back(*ratio);
+      out.push_back(*ratio);
+    return;
   }
+  Observable o = {"total porosity",
+                  "relaxation",
+                  "%",
+                  c.porosity_after_percent->value,
+                  c.porosity_after_percent->sd,
+                  [](const SimulatedRun &r) { return 100.0 * r.porosity_after; },
+                  [](const SimulatedRun &r) { return 100.0 * r.porosity_slope; }};
+  out.push_back(o);
+  if (ratio)
+    not_said.push_back(fmt::format(
+        "{}: mass and thickness give a porosity of {:.2f} ± {:.2f} %, stated are {:.2f} %. They "
+        "are one measurement: only the stated porosity is compared.",
+        c.id, 100.0 * (1.0 - 1.0 / ratio->measured),
+        100.0 * ratio->sd / (ratio->measured * ratio->measured), o.measured));
 }
 
-void under_load(const Experiment &e, const Condition &c, std::vector<Observable> &out) {
+std::string without_loading(const Condition &c, const std::string &what) {
+  return fmt::format("{}: without a mass or a loading of this sample its {} compared in um, as if "
+                     "it carried the recipe's.",
+                     c.id, what);
+}
+
+void under_load(const Experiment &e, const Condition &c, std::vector<Observable> &out,
+                std::vector<std::string> &not_said) {
   if (c.control != "pressure" && c.max_pressure_MPa)
     out.push_back({"maximum pressure", "compression", "MPa", c.max_pressure_MPa->value,
                    c.max_pressure_MPa->sd, [](const SimulatedRun &r) { return r.max_pressure; },
                    none});
-  if (c.control == "pressure" && c.thickness_at_max_um) {
-    const double h = coating_thickness_um(e, *c.thickness_at_max_um);
-    out.push_back({"thickness", "compression", "um", h, c.thickness_at_max_um->sd,
+  const std::optional<Measured> loading = loading_of(e, c);
+  if (c.control == "pressure" && c.thickness_at_max_um && loading) {
+    out.push_back(thickness_ratio(e, *c.thickness_at_max_um, *loading, "compression",
+                                  &SimulatedRun::thickness_at_max));
+  } else if (c.control == "pressure" && c.thickness_at_max_um) {
+    out.push_back({"thickness", "compression", "um", c.thickness_at_max_um->value,
+                   c.thickness_at_max_um->sd,
                    [](const SimulatedRun &r) { return r.thickness_at_max; },
                    [](const SimulatedRun &r) {
                      return r.porosity_slope * r.thickness_at_max / (1.0 - r.porosity_at_max);
                    }});
+    not_said.push_back(without_loading(c, "thickness is"));
   }
   if (c.cracked_bodies_fraction)
     out.push_back({"cracked bodies", "compression", "fraction", c.cracked_bodies_fraction->value,
@@ -82,39 +98,55 @@ void under_load(const Experiment &e, const Condition &c, std::vector<Observable>
                    [](const SimulatedRun &r) { return r.cracked_fraction; }, none});
 }
 
-/// Displacement at shares of the curve's largest pressure.
-void along_curve(const Condition &c, std::vector<Observable> &out) {
-  if (c.curve.empty())
-    return;
-  std::ifstream in(c.curve);
-  const auto table = report::CsvTable::parse(
-      {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+/// Compression of the curve file up to the highest pressure so far.
+void read_curve(const std::string &file, std::vector<double> &pressure,
+                std::vector<double> &displacement) {
+  std::ifstream in(file);
+  const auto table =
+      CsvTable::parse({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
   const auto d = table.numbers("displacement_um"), p = table.numbers("pressure_MPa");
-  std::vector<double> pressure, displacement;
   for (std::size_t k = 0; k < p.size(); ++k)
     if (pressure.empty() || p[k] > pressure.back()) {
       pressure.push_back(p[k]);
       displacement.push_back(d[k]);
     }
-  if (pressure.size() < 2)
+}
+
+/// Displacement at shares of the curve's largest pressure, over the solid thickness where the
+/// sample's loading is known.
+void along_curve(const Experiment &e, const Condition &c, std::vector<Observable> &out,
+                 std::vector<std::string> &not_said) {
+  if (c.curve.empty())
     return;
+  std::vector<double> pressure, displacement;
+  read_curve(c.curve, pressure, displacement);
+  const std::optional<Measured> loading = loading_of(e, c);
+  const double solid = loading ? solid_thickness_um(e, loading->value) : 1.0;
+  if (!loading)
+    not_said.push_back(without_loading(c, "displacements are"));
+  // a calibration error is a share of each pressure, not of the largest
   const double relative =
       c.max_pressure_MPa ? c.max_pressure_MPa->sd / c.max_pressure_MPa->value : 0.0;
   for (const double share : kCurveShares) {
     const double at = share * pressure.back();
-    const auto slope = [at](const SimulatedRun &r) {
-      return (displacement_at(r.pressure, r.displacement, 1.05 * at) -
-              displacement_at(r.pressure, r.displacement, 0.95 * at)) /
-             (0.1 * at);
+    const bool over_solid = loading.has_value();
+    const auto of_run = [over_solid](const SimulatedRun &r, double p) {
+      return displacement_at(r.pressure, r.displacement, p) / (over_solid ? r.solid_column : 1.0);
     };
-    // a calibration error is a share of each pressure, not of the largest
-    out.push_back(
-        {fmt::format("displacement at {:.0f} MPa", at), "compression", "um",
-         displacement_at(pressure, displacement, at), 0.0,
-         [at](const SimulatedRun &r) { return displacement_at(r.pressure, r.displacement, at); },
-         [slope, at, relative, &c](const SimulatedRun &r) {
-           return relative > 0.0 ? slope(r) * at * relative / c.max_pressure_MPa->sd : 0.0;
-         }});
+    Observable o;
+    o.name =
+        fmt::format("displacement{} at {:.0f} MPa", loading ? " over solid thickness" : "", at);
+    o.stage = "compression";
+    o.unit = loading ? "" : "um";
+    o.measured = displacement_at(pressure, displacement, at) / solid;
+    o.sd = loading ? o.measured * loading->sd / loading->value : 0.0;
+    o.simulated = [of_run, at](const SimulatedRun &r) { return of_run(r, at); };
+    o.slope = [of_run, at, relative, &c](const SimulatedRun &r) {
+      return relative > 0.0 ? (of_run(r, 1.05 * at) - of_run(r, 0.95 * at)) / 0.1 * relative /
+                                  c.max_pressure_MPa->sd
+                            : 0.0;
+    };
+    out.push_back(o);
   }
 }
 
@@ -126,8 +158,8 @@ std::vector<Observable> observables_of(const Experiment &e, const Condition &c,
                                        std::vector<std::string> &not_said) {
   std::vector<Observable> out;
   porosity_after(e, c, out, not_said);
-  under_load(e, c, out);
-  along_curve(c, out);
+  under_load(e, c, out, not_said);
+  along_curve(e, c, out, not_said);
   for (const Observable &o : out)
     if (!(o.sd > 0.0))
       not_said.push_back(fmt::format("{}: {} has no standard deviation; the measurement counts as "

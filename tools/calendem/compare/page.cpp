@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compare/gap.h"
-#include "report/chart.h"
 #include "report/embedded.h"
 #include "report/page_template.h"
 #include "spec/provenance.h"

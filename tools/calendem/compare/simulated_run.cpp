@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compare/gap.h"
-#include "report/csv_table.h"
 #include "spec/case.h"
+#include "spec/csv_table.h"
 #include "spec/provenance.h"
 #include <algorithm>
 #include <cmath>
@@ -41,7 +41,7 @@ double number(const nlohmann::json &j, const char *key, const std::string &file,
 }
 
 void read_curve(const std::string &file, SimulatedRun &run, Mistakes &mistakes) {
-  const auto table = report::CsvTable::parse(text_of(file, mistakes));
+  const auto table = CsvTable::parse(text_of(file, mistakes));
   for (const char *column : {"stage", "displacement_um", "pressure_MPa", "porosity_total"})
     if (!table.has(column))
       return mistakes.add(0, fmt::format("{} has no column '{}'.", file, column));

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compare/verb.h"
 #include "compare/gap.h"
+#include "spec/output_folder.h"
 #include "spec/provenance.h"
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <fmt/format.h>
 
 namespace calendem {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct Options {
   std::string experiment, folder = "gap";
@@ -33,12 +31,7 @@ void compare(const Options &o) {
   j["provenance"]["experiment_file"] = hash_of_file(o.experiment);
   for (const std::string &folder : o.runs)
     j["provenance"]["runs"][folder] = hash_of_file(folder + "/summary.json");
-  std::error_code error;
-  fs::create_directories(o.folder, error);
-  if (error)
-    throw Failure(kBadInput, fmt::format("cannot write into the folder '{}': {}. Give a folder "
-                                         "that you may write to with -o",
-                                         o.folder, error.message()));
+  make_output_folder(o.folder);
   write_file(o.folder + "/gap.json", j.dump(1) + "\n");
   write_file(o.folder + "/gap.html", gap_page(j));
   fmt::print("{:<6} {:<32} {:>9} {:>9} {:>9} {:>7} {:>6}\n", "", "", "measured", "simulated",

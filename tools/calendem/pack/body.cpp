@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pack/body.h"
 #include "pack/sizes.h"
+#include "spec/pi.h"
 #include <algorithm>
 #include <fmt/format.h>
 #include <set>
 
 namespace calendem {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 double legendre(int degree, double x) {
   double before = 1.0, p = x;
@@ -140,7 +139,7 @@ double Shape::volume_ratio() const { return measure(120, 240).volume / (4.0 / 3.
 
 Body make_body(const Recipe &recipe, int count, Random &random, const DrawHull &draw) {
   constexpr int kTries = 100;
-  const double widest = recipe.max_width_fraction * std::min(recipe.cell_x, recipe.cell_y);
+  const double widest = recipe.widest_body();
   Body b;
   for (int tries = 0; tries <= kTries; ++tries) {
     // the last try cuts the shape off where the limit of the width is

@@ -2,6 +2,7 @@
 #include "pack/description.h"
 #include "pack/envelope.h"
 #include "pack/sizes.h"
+#include "spec/pi.h"
 #include "spec/provenance.h"
 #include <cmath>
 #include <fmt/format.h>
@@ -10,7 +11,6 @@
 namespace calendem {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 // 5 % of sigma_c A_b at the default strength of 500 MPa and lambda 1.
 constexpr double kForceLimit_nN = 0.05 * 5e5 * kPi * 0.795 * 0.795;
 constexpr double kPressureLimit_MPa = 0.1;
@@ -80,8 +80,8 @@ void add_bodies(nlohmann::json &j, const FinishedPacking &f) {
   j["bodies_of_one_primary"] = single;
   j["note_small_bodies"] = "bodies below 3 um are made of 1-7 primaries, those below one lattice "
                            "cell of one; their volume is rounded to whole cells, the total is kept";
-  j["largest_equivalent_diameter_allowed_um"] = largest_diameter(f.recipe);
-  j["volume_fraction_cut_off_by_size_limit"] = law.volume_above(largest_diameter(f.recipe));
+  j["largest_equivalent_diameter_allowed_um"] = f.recipe.largest_body();
+  j["volume_fraction_cut_off_by_size_limit"] = law.volume_above(f.recipe.largest_body());
   j["largest_width_um"] = widest;
   j["shapes_redrawn_for_width"] = redrawn;
   j["sphericity_mean"] = sphericity;

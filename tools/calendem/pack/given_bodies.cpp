@@ -153,12 +153,12 @@ GivenBodies bodies_of_clusters(const Recipe &recipe, const GivenStructure &struc
                                   "together with particle {} by primaries that overlap. Correct "
                                   "the molecule ids or the body map.",
                                   cluster, members.size() - x.size(), members.size(), first));
-    else if (out.bodies.back().width > widest_body(recipe))
+    else if (out.bodies.back().width > recipe.widest_body())
       mistakes.add(0,
                    fmt::format("cluster {} (first particle {}) is {:.4g} um wide; at most {:.4g} "
                                "um is allowed in a cell of {:.4g} x {:.4g} um. Give a larger "
                                "structure.",
-                               cluster, first, out.bodies.back().width, widest_body(recipe),
+                               cluster, first, out.bodies.back().width, recipe.widest_body(),
                                recipe.cell_x, recipe.cell_y));
   }
   mistakes.stop_if_any();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pack/given_description.h"
 #include "pack/given_recipe.h"
+#include "spec/pi.h"
 #include "spec/provenance.h"
 #include <filesystem>
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ double mass_of(const std::vector<Particle> &particles, int type) {
   double sum = 0.0;
   for (const Particle &p : particles)
     if (p.type == type)
-      sum += p.density * 3.14159265358979323846 / 6.0 * std::pow(p.diameter, 3);
+      sum += p.density * kPi / 6.0 * std::pow(p.diameter, 3);
   return sum;
 }
 

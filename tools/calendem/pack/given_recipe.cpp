@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pack/given_recipe.h"
 #include "pack/placement.h"
+#include "spec/pi.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -153,8 +154,8 @@ void take_composition(const Recipe &r, const GivenStructure &g, Adoption &a, Mis
 // Spheres of a body that can be made have between half a cell of the lattice and what the cell of
 // the electrode has room for.
 void check_sizes(const Recipe &r, const std::vector<GivenSphere> &am, Mistakes &mistakes) {
-  const double smallest = std::cbrt(3.0 / 3.14159265358979323846) * r.lattice; // half a cell
-  const double largest = widest_body(r) - r.primary_diameter;
+  const double smallest = std::cbrt(3.0 / kPi) * r.lattice; // half a cell
+  const double largest = r.widest_body() - r.primary_diameter;
   const auto count = [&](auto wrong) { return std::count_if(am.begin(), am.end(), wrong); };
   const auto small = [&](const GivenSphere &p) { return p.diameter < smallest; };
   const auto large = [&](const GivenSphere &p) { return p.diameter > largest; };
@@ -172,13 +173,11 @@ void check_sizes(const Recipe &r, const std::vector<GivenSphere> &am, Mistakes &
                  fmt::format("{} spheres of the structure are too large for its cell of {:.4g} x "
                              "{:.4g} um, first particle {} of {:.4g} um; a body may be {:.4g} "
                              "um wide, its sphere {:.4g} um. Give a larger structure.",
-                             n, r.cell_x, r.cell_y, p.id, p.diameter, widest_body(r), largest));
+                             n, r.cell_x, r.cell_y, p.id, p.diameter, r.widest_body(), largest));
   }
 }
 
 } // namespace
-
-double widest_body(const Recipe &r) { return r.max_width_fraction * std::min(r.cell_x, r.cell_y); }
 
 double am_mass(const Recipe &r, const GivenStructure &g) {
   if (r.structure.densities_of_file)

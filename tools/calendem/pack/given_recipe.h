@@ -14,9 +14,6 @@ namespace calendem {
 /// is that of the structure unless the recipe gives one: then the film is packed to that.
 Recipe adopt(const Recipe &recipe, const GivenStructure &structure);
 
-/// Widest body [um] that the recipe allows in its cell.
-double widest_body(const Recipe &recipe);
-
 /// The recipe and, if it names one, its structure: everything that `calendem pack` reads.
 struct PackInput {
   Recipe recipe;

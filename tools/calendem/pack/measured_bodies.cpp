@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pack/measured_bodies.h"
 #include "pack/sizes.h"
+#include "spec/pi.h"
 #include "spec/provenance.h"
 #include <algorithm>
 #include <fmt/format.h>
@@ -9,7 +10,6 @@
 namespace calendem {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kNeighbours = 4; // on either side in the list by size
 
 double equivalent_diameter(double volume) { return std::cbrt(6.0 / kPi * volume); }
@@ -53,15 +53,14 @@ ShapeLibrary library_of(const Recipe &r) {
 std::string hash_of_shapes(const Recipe &r) {
   if (!r.shapes.image.empty())
     return hash_of_image(r.shapes.image);
-  return r.shapes.library.empty() ? "" : read_library(r.shapes.library).source_hash;
+  return r.shapes.library.empty() ? "" : hash_of_folder(r.shapes.library);
 }
 
 double largest_diameter(const Recipe &r, const ShapeLibrary &l) {
   double elongation = 0.0; // width over equivalent diameter
   for (const MeasuredShape &s : l.shapes)
     elongation += 2.0 * s.reach / s.equivalent_diameter / double(l.shapes.size());
-  const double widest = r.max_width_fraction * std::min(r.cell_x, r.cell_y);
-  return (widest - r.primary_diameter) / std::max(1.0, elongation);
+  return (r.widest_body() - r.primary_diameter) / std::max(1.0, elongation);
 }
 
 Body make_body(const Recipe &recipe, const ShapeLibrary &library, int count, Random &random) {

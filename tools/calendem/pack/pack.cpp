@@ -6,6 +6,7 @@
 #include "pack/measured_bodies.h"
 #include "pack/start.h"
 #include "run/process.h"
+#include "spec/output_folder.h"
 #include "spec/provenance.h"
 #include <chrono>
 #include <filesystem>
@@ -136,6 +137,8 @@ void pack_electrode(const Recipe &as_given, PackOptions o) {
   const auto begin = std::chrono::steady_clock::now();
   const PackInput in = read_input(as_given);
   check_machine(in.recipe, o);
+  make_output_folder(o.folder);
+  fs::create_directories(o.folder + "/vtk");
   std::error_code none;
   fs::remove(summary, none);
   fs::remove(o.folder + "/electrode.rejected.json", none);

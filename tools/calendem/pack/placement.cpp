@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pack/placement.h"
 #include "pack/sphere_bins.h"
+#include "spec/pi.h"
 #include <cmath>
 
 namespace calendem {
-namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-} // namespace
-
 Eigen::Vector3d periodic_difference(const Recipe &r, const Eigen::Vector3d &a,
                                     const Eigen::Vector3d &b) {
   Eigen::Vector3d d = a - b;

@@ -59,14 +59,9 @@ SizeLaw measured_law(const Recipe &r) {
   return {r.median, r.sigma_ln, r.min_diameter, r.max_diameter};
 }
 
-double largest_diameter(const Recipe &r) {
-  const double widest = r.max_width_fraction * std::min(r.cell_x, r.cell_y);
-  return std::min(r.max_diameter, (widest - r.primary_diameter) / (1.0 + 0.5 * r.irregularity));
-}
-
 std::vector<double> draw_diameters(const Recipe &recipe, double volume, Random &random) {
   SizeLaw law = measured_law(recipe);
-  law.high = largest_diameter(recipe);
+  law.high = recipe.largest_body();
   if (law.high <= law.low)
     throw Failure(kBadInput, fmt::format("no secondary particle fits a cell of {} x {} um: the "
                                          "smallest is {} um, the largest allowed {:.2f} um. Make "

@@ -26,11 +26,6 @@ struct SizeLaw {
 /// The law as measured, before the cell limits it.
 SizeLaw measured_law(const Recipe &recipe);
 
-/// The largest equivalent diameter [um] that fits the recipe's limit of the width: a body is wider
-/// than its equivalent sphere by about a primary and, at the worst, by its irregularity. The width
-/// itself is kept by drawing the shape again (make_bodies).
-double largest_diameter(const Recipe &recipe);
-
 /// Diameters [um], largest first, that together fill `volume` [um^3] as nearly as whole bodies can:
 /// quantiles of the law in equal steps of number, with one random offset (stratified sampling), so
 /// that even a small cell has the right mix.

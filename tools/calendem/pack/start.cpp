@@ -19,7 +19,6 @@ ShapeLibrary open_library(const Recipe &recipe, const std::string &folder) {
   ShapeLibrary library = library_of(recipe);
   fmt::print("pack: {} shapes of {} labels; the border cuts {}, {} have too few voxels\n",
              library.shapes.size(), library.labels, library.cut.size(), library.coarse.size());
-  make_folder(folder);
   if (!recipe.shapes.image.empty())
     write_library(library, folder + "/shapes");
   return library;
@@ -58,19 +57,9 @@ Start make_all_bodies(const PackInput &in, const std::string &folder) {
 
 } // namespace
 
-void make_folder(const std::string &folder) {
-  std::error_code error;
-  fs::create_directories(folder + "/vtk", error);
-  if (error)
-    throw Failure(kBadInput, fmt::format("cannot make the folder '{}': {}. Give a folder that can "
-                                         "be written with -o",
-                                         folder, error.message()));
-}
-
 Start make_start(const PackInput &in, const std::string &folder) {
   const Recipe &r = in.recipe;
   Start out = make_all_bodies(in, folder);
-  make_folder(folder);
   if (r.structure.given()) {
     out.placed = place_as_given(r, in.structure, out.made);
     write_file(folder + "/structure.csv", structure_table(in.structure, out.made));

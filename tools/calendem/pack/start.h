@@ -16,9 +16,6 @@ struct Start {
   nlohmann::json shapes; ///< of a library, for electrode.json; null: generated
 };
 
-/// Throws Failure(2) if the folder cannot be made.
-void make_folder(const std::string &folder);
-
 /// Makes them and writes start.data, bodies.map, electrode.in and what is known already of shapes
 /// and structure into the folder.
 Start make_start(const PackInput &input, const std::string &folder);

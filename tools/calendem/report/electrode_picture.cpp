@@ -17,16 +17,6 @@ constexpr double kWidestPicture = 420;
 constexpr double kIntactRadius = 0.13, kBrokenRadius = 0.24; // um, as drawn
 constexpr Colour kCbd{96, 96, 96}, kIntact{150, 172, 200}, kBroken{205, 25, 35};
 
-struct Box {
-  Point low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-  void include(const Point &p) {
-    for (int k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], p[k]);
-      high[k] = std::max(high[k], p[k]);
-    }
-  }
-};
-
 Colour from_hue(double hue, double saturation, double value) {
   Colour colour{};
   for (int k = 0; k < 3; ++k) {

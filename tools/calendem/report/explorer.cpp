@@ -10,8 +10,8 @@
 #include <map>
 
 #include "report/base64.h"
-#include "report/csv_table.h"
 #include "report/electrode_picture.h"
+#include "spec/csv_table.h"
 
 namespace calendem::report {
 namespace {
@@ -19,16 +19,6 @@ namespace {
 using nlohmann::json;
 
 constexpr double kSteps = 65535;
-
-struct Box {
-  Point low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-  void include(const Point &p) {
-    for (int k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], p[k]);
-      high[k] = std::max(high[k], p[k]);
-    }
-  }
-};
 
 class Bytes {
 public:

@@ -11,11 +11,11 @@
 #include <vtkUnsignedCharArray.h>
 
 #include "report/base64.h"
+#include "spec/pi.h"
 
 namespace calendem::report {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kSamples = 2;
 constexpr float kFar = -std::numeric_limits<float>::max();
 

@@ -4,6 +4,7 @@
 #ifndef CALENDEM_REPORT_RASTER_H
 #define CALENDEM_REPORT_RASTER_H
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -12,6 +13,16 @@
 namespace calendem::report {
 
 using Point = std::array<double, 3>;
+/// The smallest box that holds what it was shown.
+struct Box {
+  Point low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+  void include(const Point &p) {
+    for (int k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
+    }
+  }
+};
 using Colour = std::array<std::uint8_t, 3>;
 
 /// Orthographic view: azimuth about z, then elevation above the xy plane [degrees]; z is up.

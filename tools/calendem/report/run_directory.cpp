@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "report/csv_table.h"
+#include "spec/csv_table.h"
 
 namespace calendem::report {
 namespace {

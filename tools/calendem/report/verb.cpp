@@ -85,7 +85,7 @@ void add_report_verb(CLI::App &app) {
       "report", "One self-contained page with plots and pictures of one or more runs");
   verb->add_option("DIR", options->directories, "Directories made by calendem run")
       ->required()
-      ->type_name("DIR…");
+      ->type_name("");
   verb->add_option("-o,--output", options->page,
                    "Page to write; its data go to the same name with .json. Default: report.html "
                    "in the run's directory, or here if there are several")

@@ -16,8 +16,6 @@ namespace {
 
 const char *const kStageNames[] = {"hold", "compression", "dwell", "relaxation", "relaxation"};
 
-constexpr size_t kWithoutLedger = 18; // columns of curve_raw.csv
-
 // Waves after a burst of breaks swing for some tenths of a microsecond.
 constexpr double kImbalanceWindow = 0.5; // us
 // Rows are 0.1 us apart: the highest of them lies a little below the pressure that was met.
@@ -155,7 +153,6 @@ std::vector<RawRow> read_raw(const std::string &file) {
     if (in.eof()) // a line without its end is being written
       break;
     std::array<double, 22> v;
-    v.fill(std::nan(""));
     size_t n = 0;
     std::istringstream fields(line);
     std::string field;
@@ -166,7 +163,7 @@ std::vector<RawRow> read_raw(const std::string &file) {
         break;
       ++n;
     }
-    if (n == v.size() || n == kWithoutLedger)
+    if (n == v.size())
       rows[static_cast<long>(v[0])] = {v[0],  v[1],  v[2],  v[3],  v[4],  v[5],  v[6],  v[7],
                                        v[8],  v[9],  v[10], v[11], v[12], v[13], v[14], v[15],
                                        v[16], v[17], v[18], v[19], v[20], v[21]};

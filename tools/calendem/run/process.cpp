@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "run/process.h"
 #include "spec/messages.h"
+#include "spec/output_folder.h"
 #include <chrono>
 #include <csignal>
 #include <cstring>
@@ -124,12 +125,6 @@ std::string wait_for(pid_t pid, const LiggghtsJob &job, int &status,
 }
 
 } // namespace
-
-std::uintmax_t room_on_disk(const std::string &folder) {
-  std::error_code error;
-  const auto space = std::filesystem::space(folder, error);
-  return error ? UINTMAX_MAX : space.available;
-}
 
 std::string wrong_program(const std::string &program) {
   std::error_code none;

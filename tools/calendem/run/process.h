@@ -25,9 +25,6 @@ struct LiggghtsJob {
 /// What is wrong with the program, what to do; empty if it can be started.
 std::string wrong_program(const std::string &program);
 
-/// Bytes that may still be written there.
-std::uintmax_t room_on_disk(const std::string &folder);
-
 /// Runs the job; calls `tick` about twice a second meanwhile. SIGINT and SIGTERM are passed on.
 /// Throws Failure(3) with LIGGGHTS's own error if it fails or is stopped, Failure(2) if it cannot
 /// be started.

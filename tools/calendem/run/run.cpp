@@ -4,6 +4,7 @@
 #include "run/process.h"
 #include "run/run_folder.h"
 #include "spec/case.h"
+#include "spec/output_folder.h"
 #include "spec/provenance.h"
 #include "spec/recipe.h"
 #include <chrono>
@@ -188,7 +189,8 @@ void run_case(const Settings &settings, RunOptions o) {
   const std::string hash = case_hash(settings, o.liggghts);
   const std::string folder = fs::absolute(o.folder).lexically_normal().string();
   o.folder = folder;
-  make_run_folder(folder, 2 * room_for_next_files(electrode));
+  make_output_folder(folder, 2 * room_for_next_files(electrode));
+  fs::create_directories(folder + "/vtk");
   const FolderLock lock(folder);
   if (holds_this_run(o, settings, hash)) {
     fmt::print("run: {} already holds this run\n", folder);

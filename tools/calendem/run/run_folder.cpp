@@ -47,22 +47,6 @@ FolderLock::~FolderLock() {
     close(file_);
 }
 
-void make_run_folder(const std::string &folder, std::uintmax_t room) {
-  std::error_code error;
-  fs::create_directories(fs::path(folder) / "vtk", error);
-  if (!error && access(folder.c_str(), W_OK) != 0)
-    error = std::error_code(errno, std::generic_category());
-  if (error)
-    throw Failure(kBadInput, fmt::format("cannot write into the folder '{}': {}. Give a folder "
-                                         "that you may write to with -o.",
-                                         folder, error.message()));
-  if (room_on_disk(folder) < room)
-    throw Failure(kBadInput, fmt::format("the disk of '{}' has {:.1f} MB left; this run needs at "
-                                         "least {:.1f} MB. Make room or give another folder with "
-                                         "-o.",
-                                         folder, 1e-6 * room_on_disk(folder), 1e-6 * room));
-}
-
 bool holds_this_run(const RunOptions &o, const Settings &settings, const std::string &hash) {
   std::ifstream in(o.folder + "/summary.json");
   const nlohmann::json old = nlohmann::json::parse(in, nullptr, false);

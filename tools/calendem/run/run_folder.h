@@ -21,10 +21,6 @@ private:
   int file_;
 };
 
-/// Makes the folder and its vtk/. Throws Failure(2) if it cannot be written or its disk has less
-/// than `room` bytes left.
-void make_run_folder(const std::string &folder, std::uintmax_t room);
-
 /// True if the folder already holds this run, finished. Throws Failure(2) if it holds another run,
 /// or an unfinished one and neither --resume nor --force was given; Failure(4) if it holds this run
 /// and its checks did not hold.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // An experiment file: what was measured on a calendered electrode, with its uncertainty, and how it
-// was calendered. Keys, units and ranges are tables in experiment.cpp, shown by `calendem validate
-// --help`.
+// was calendered. Keys, units and ranges are the tables of experiment_keys.cpp, shown by `calendem
+// validate --help`; experiment_reader.cpp reads the file, experiment_checks.cpp what hangs together
+// in it.
 #ifndef CALENDEM_SPEC_EXPERIMENT_H
 #define CALENDEM_SPEC_EXPERIMENT_H
 
@@ -48,8 +49,11 @@ Experiment read_experiment(const std::string &file);
 /// Of the coating alone, from a thickness or a mass that may include the foil.
 double coating_thickness_um(const Experiment &e, const Measured &thickness);
 double coating_loading_mg_cm2(const Experiment &e, const Measured &mass);
-/// Total porosity [0-1] of a coating, with the solid density of the recipe.
-double total_porosity(const Experiment &e, double loading_mg_cm2, double thickness_um);
+/// Of the coating without pores, with the recipe's composition and densities.
+double solid_thickness_um(const Experiment &e, double loading_mg_cm2);
+
+double sample_area_cm2(const Experiment &e);
+double foil_mg_cm2(const Experiment &e);
 
 /// Every key with unit, range and meaning, for --help.
 std::string list_of_experiment_keys();

@@ -63,8 +63,9 @@ double Recipe::cbd_solid_column() const {
 double Recipe::thickness() const {
   return (am_column() + cbd_solid_column()) / (1.0 - porosity_total);
 }
+double Recipe::widest_body() const { return max_width_fraction * std::min(cell_x, cell_y); }
 double Recipe::largest_body() const {
-  return std::min(max_diameter, max_width_fraction * std::min(cell_x, cell_y));
+  return std::min(max_diameter, (widest_body() - primary_diameter) / (1.0 + 0.5 * irregularity));
 }
 
 namespace {
@@ -125,13 +126,9 @@ void check_cell(const Settings &s, const Recipe &r, Mistakes &mistakes) {
 // The [shapes] section: paths are relative to the recipe.
 ShapeSource read_shapes(const Settings &s, const std::string &file, Mistakes &mistakes) {
   namespace fs = std::filesystem;
-  const auto path = [&](const char *key) {
-    const fs::path given = s.text(key);
-    return given == "none" ? "" : (fs::absolute(file).parent_path() / given).lexically_normal();
-  };
   ShapeSource out;
-  out.image = path("shapes.image").string();
-  out.library = path("shapes.library").string();
+  out.image = path_of(s, "shapes.image", file);
+  out.library = path_of(s, "shapes.library", file);
   out.voxel_um = s.number("shapes.voxel_size_um");
   out.background = static_cast<std::int32_t>(s.number("shapes.background"));
   out.measured_sizes = s.text("shapes.sizes") == "measured";
@@ -149,10 +146,6 @@ ShapeSource read_shapes(const Settings &s, const std::string &file, Mistakes &mi
                  fmt::format("shapes.library '{}' is not there. Give the folder, relative to "
                              "this file.",
                              out.library));
-  if (s.number("shapes.background") != out.background)
-    mistakes.add(s.line("shapes.background"),
-                 fmt::format("shapes.background is {}; a label is a whole number.",
-                             s.text("shapes.background")));
   return out;
 }
 

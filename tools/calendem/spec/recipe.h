@@ -37,7 +37,11 @@ struct Recipe {
   double am_column() const;        ///< solid AM per area [um]
   double cbd_solid_column() const; ///< solid carbon + binder per area [um]
   double thickness() const;        ///< of the coating [um]
-  double largest_body() const;     ///< diameter limit from the cell and the distribution [um]
+  double widest_body() const;      ///< largest width of a body that the cell allows [um]
+  /// The largest equivalent diameter [um]: the distribution's, or that of a body within the width.
+  /// It is wider than its equivalent sphere by about a primary and, at the worst, by its
+  /// irregularity; the width itself is kept by drawing the shape again (make_bodies).
+  double largest_body() const;
 };
 
 /// Distance [um] up to which LIGGGHTS lists neighbours of the widest particle: contact distance

@@ -8,12 +8,6 @@ namespace calendem {
 namespace fs = std::filesystem;
 namespace {
 
-std::string path_of(const Settings &s, const std::string &key, const std::string &file) {
-  const fs::path given = s.text(key);
-  return given == "none" ? ""
-                         : (fs::absolute(file).parent_path() / given).lexically_normal().string();
-}
-
 // "1 2, 3" as numbers.
 std::set<int> types_of(const Settings &s, const std::string &key, Mistakes &mistakes) {
   std::string text = s.text(key);

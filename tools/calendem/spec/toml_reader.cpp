@@ -2,6 +2,7 @@
 #include "spec/toml_reader.h"
 #include "spec/toml_file.h"
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -102,6 +103,13 @@ void Settings::note(const std::string &name, int line, bool wrong) {
   lines_[name] = line;
   if (wrong)
     wrong_.insert(name);
+}
+
+std::string path_of(const Settings &s, const std::string &key, const std::string &file) {
+  const std::filesystem::path given = s.text(key);
+  return given == "none"
+             ? ""
+             : (std::filesystem::absolute(file).parent_path() / given).lexically_normal().string();
 }
 
 Settings read_toml(const std::string &file, const std::vector<Key> &keys, Mistakes &mistakes) {

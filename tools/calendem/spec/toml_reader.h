@@ -36,6 +36,10 @@ private:
 /// All mistakes go to `mistakes`; what could be read is returned, defaults filled in.
 Settings read_toml(const std::string &file, const std::vector<Key> &keys, Mistakes &mistakes);
 
+/// The path that a key gives, relative to the file it stands in, as an absolute one; empty for
+/// "none".
+std::string path_of(const Settings &settings, const std::string &key, const std::string &file);
+
 /// Writes the settings as a TOML file that reads back the same.
 std::string write_toml(const Settings &settings, const std::vector<Key> &keys,
                        const std::string &heading);

@@ -3,6 +3,7 @@
 #ifndef CALENDEM_STRUCTURE_GIVEN_STRUCTURE_H
 #define CALENDEM_STRUCTURE_GIVEN_STRUCTURE_H
 
+#include "spec/pi.h"
 #include "spec/structure_source.h"
 #include <Eigen/Core>
 
@@ -15,7 +16,7 @@ struct GivenSphere {
   double diameter = 0.0, density = 0.0;
   Eigen::Vector3d x; ///< inside the cell; z from the lowest point of the film
 
-  double volume() const { return 3.14159265358979323846 / 6.0 * diameter * diameter * diameter; }
+  double volume() const { return kPi / 6.0 * diameter * diameter * diameter; }
   double mass() const { return density * volume(); }
 };
 

@@ -147,7 +147,7 @@ void set_voxel_size(const std::string &file, double voxel_um, LabelImage &image)
   if (voxel_um > 0.0)
     image.voxel.setConstant(voxel_um);
   else if (!stated)
-    refuse_image(file, "the file states no voxel size. Give shapes.voxel_size_um (or --voxel-um).");
+    refuse_image(file, "the file states no voxel size. Give shapes.voxel_size_um.");
   image.voxel = image.voxel.cwiseAbs();
   if (image.voxel.minCoeff() < 1e-3 || image.voxel.maxCoeff() > 10.0)
     refuse_image(file,

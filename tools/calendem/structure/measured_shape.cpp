@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "structure/measured_shape.h"
+#include "spec/pi.h"
 #include "structure/distance.h"
 #include "structure/smooth_surface.h"
 #include <algorithm>
@@ -10,8 +11,6 @@
 
 namespace calendem {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // Cells whose volume lies to one half or more inside.
 void coarsen(const ParticleMask &m, MeasuredShape &s) {

@@ -2,6 +2,7 @@
 #include "tomogram/tomogram.h"
 #include "pack/body.h"
 #include "pack/sizes.h"
+#include "spec/pi.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -9,8 +10,6 @@
 
 namespace calendem {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 using Voxel = std::array<int, 3>;
 

@@ -2,13 +2,13 @@
 // A comma-separated table with a header line; lines that begin with '#' are comments. Cells are
 // kept as text, numbers are made on request (an empty or unreadable cell is NaN). No quoting: none
 // of the project's tables needs it.
-#ifndef CALENDEM_REPORT_CSV_TABLE_H
-#define CALENDEM_REPORT_CSV_TABLE_H
+#ifndef CALENDEM_SPEC_CSV_TABLE_H
+#define CALENDEM_SPEC_CSV_TABLE_H
 
 #include <string>
 #include <vector>
 
-namespace calendem::report {
+namespace calendem {
 
 class CsvTable {
 public:
@@ -33,6 +33,6 @@ private:
   int last_line_ = 0;
 };
 
-} // namespace calendem::report
+} // namespace calendem
 
 #endif

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/csv_table.h"
+#include "spec/csv_table.h"
 
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <sstream>
 
-namespace calendem::report {
+namespace calendem {
 namespace {
 
 std::string trimmed(const std::string &text) {
@@ -83,4 +83,4 @@ std::vector<double> CsvTable::numbers(const std::string &column) const {
   return values;
 }
 
-} // namespace calendem::report
+} // namespace calendem

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Whether a condition of an experiment has what its values need.
+#ifndef CALENDEM_SPEC_EXPERIMENT_CHECKS_H
+#define CALENDEM_SPEC_EXPERIMENT_CHECKS_H
+
+#include "spec/experiment.h"
+#include "spec/messages.h"
+
+namespace calendem {
+
+/// Foil and sample are known where masses and thicknesses hold them, and leave a coating.
+void check_foil(const Experiment &experiment, const Condition &condition, const std::string &who,
+                int line, Mistakes &mistakes);
+
+/// A CSV file whose displacements and pressures are numbers; `line` is that of its key.
+void check_curve(const std::string &path, int line, Mistakes &mistakes);
+
+} // namespace calendem
+
+#endif

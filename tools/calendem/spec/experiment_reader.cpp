@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "spec/experiment_checks.h"
+#include "spec/experiment_keys.h"
+#include "spec/toml_file.h"
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace calendem {
+namespace fs = std::filesystem;
+namespace {
+
+/// Reads one file; every message goes to `mistakes`.
+class ExperimentReader {
+public:
+  ExperimentReader(const std::string &file, Mistakes &mistakes)
+      : folder_(fs::absolute(file).parent_path()), mistakes_(mistakes) {}
+
+  Experiment read(const TomlFile &file) {
+    whole_ = file.whole;
+    for (const auto &[key, node] : file.root)
+      if (key.str() != "experiment" && key.str() != "condition")
+        unknown(std::string(key.str()), line_of(node), {"experiment", "condition"});
+    const toml::table *head = file.root["experiment"].as_table();
+    if (head)
+      read_head(*head);
+    else if (whole_)
+      mistakes_.add(0, "there is no table [experiment].");
+    const toml::array *list = file.root["condition"].as_array();
+    if (!list || list->empty())
+      mistakes_.add(0, "there is no [[condition]]: an experiment needs at least one.");
+    else
+      for (const toml::node &node : *list)
+        read_condition(node);
+    if (head && list)
+      read_split(*head);
+    return e_;
+  }
+
+private:
+  fs::path folder_;
+  Mistakes &mistakes_;
+  Experiment e_;
+  bool whole_ = true;
+
+  void unknown(const std::string &name, int line, const std::vector<std::string> &known) {
+    mistakes_.add(line,
+                  fmt::format("unknown key '{}'. Did you mean '{}'?", name, closest(name, known)));
+  }
+
+  std::string text(const toml::table &t, const Key &key) {
+    const toml::node *node = t.get(key.name);
+    if (!node) {
+      if (key.fallback.empty() && whole_)
+        mistakes_.add(line_of(t), fmt::format("key '{}' is missing ({}).", key.name, key.meaning));
+      return "";
+    }
+    if (!node->is_string())
+      mistakes_.add(line_of(*node), fmt::format("{} must be a text in quotes ({}), not {}.",
+                                                key.name, key.meaning, shown(*node)));
+    else if (const auto wrong = wrong_text(key, **node->as_string()))
+      mistakes_.add(line_of(*node), *wrong);
+    else
+      return **node->as_string();
+    return "";
+  }
+
+  std::optional<double> number(const toml::node &node, const Key &key) {
+    if (!node.is_number())
+      mistakes_.add(line_of(node), fmt::format("{} must be a number without quotes ({}), not {}.",
+                                               key.name, key.meaning, shown(node)));
+    else if (const auto wrong = wrong_number(key, *node.value<double>()))
+      mistakes_.add(line_of(node), *wrong);
+    else
+      return *node.value<double>();
+    return std::nullopt;
+  }
+
+  double number(const toml::table &t, const Key &key) {
+    const toml::node *node = t.get(key.name);
+    return node ? number(*node, key).value_or(0.0) : 0.0;
+  }
+
+  /// Absolute path of a file that must exist; empty if it is not given.
+  std::string existing(const toml::table &t, const Key &key) {
+    const std::string name = text(t, key);
+    if (name.empty())
+      return "";
+    const std::string path = (folder_ / name).lexically_normal().string();
+    std::error_code none;
+    if (!fs::exists(path, none))
+      mistakes_.add(line_of(*t.get(key.name)),
+                    fmt::format("{} = \"{}\": there is no file '{}'. Paths are relative to this "
+                                "file.",
+                                key.name, name, path));
+    else if (fs::is_directory(path, none))
+      mistakes_.add(line_of(*t.get(key.name)),
+                    fmt::format("{} = \"{}\" is a folder; a file is wanted.", key.name, name));
+    else
+      return path;
+    return "";
+  }
+
+  void read_head(const toml::table &head) {
+    std::vector<std::string> known = {"split"};
+    for (const Key &key : head_keys())
+      known.push_back(key.name);
+    for (const auto &[key, node] : head)
+      if (std::find(known.begin(), known.end(), key.str()) == known.end())
+        unknown("experiment." + std::string(key.str()), line_of(node), known);
+    e_.name = text(head, head_keys()[0]);
+    e_.electrode = existing(head, head_keys()[1]);
+    e_.sample_diameter_mm = number(head, head_keys()[2]);
+    e_.foil_thickness_um = number(head, head_keys()[3]);
+    e_.foil_density_g_cm3 = number(head, head_keys()[4]);
+    if (!e_.electrode.empty())
+      try {
+        e_.recipe = read_recipe(e_.electrode);
+      } catch (const Failure &f) {
+        mistakes_.add(line_of(*head.get("electrode")),
+                      fmt::format("the recipe has mistakes of its own:\n{}", f.what()));
+      }
+  }
+
+  void read_condition(const toml::node &node) {
+    const toml::table *t = node.as_table();
+    if (!t) {
+      mistakes_.add(line_of(node), "write a condition as a table: [[condition]].");
+      return;
+    }
+    std::vector<std::string> known;
+    for (const Key &key : condition_keys())
+      known.push_back(key.name);
+    for (const Quantity &q : quantities())
+      known.push_back(q.key.name);
+    for (const auto &[key, value] : *t)
+      if (std::find(known.begin(), known.end(), key.str()) == known.end())
+        unknown("condition." + std::string(key.str()), line_of(value), known);
+    Condition c;
+    c.id = text(*t, condition_keys()[0]);
+    c.control = text(*t, condition_keys()[1]);
+    c.curve = existing(*t, condition_keys()[2]);
+    c.labels_before = existing(*t, condition_keys()[3]);
+    c.labels_after = existing(*t, condition_keys()[4]);
+    c.dwell_s = number(*t, condition_keys()[5]);
+    for (const Quantity &q : quantities())
+      if (const toml::node *value = t->get(q.key.name))
+        c.*(q.field) = measured(*value, q.key);
+    check_condition(c, *t);
+    e_.conditions.push_back(c);
+  }
+
+  std::optional<Measured> measured(const toml::node &node, const Key &key) {
+    Measured m;
+    m.includes_foil = key.name == "mass_mg";
+    const toml::table *t = node.as_table();
+    if (!t) {
+      const auto value = number(node, key);
+      m.value = value.value_or(0.0);
+      return value ? std::optional(m) : std::nullopt;
+    }
+    const bool has_foil = key.name == "mass_mg" || key.name == "thickness_after_um";
+    std::vector<std::string> known = {"value", "sd", "sd_relative"};
+    if (has_foil)
+      known.push_back("includes_foil");
+    for (const auto &[k, part] : *t)
+      if (std::find(known.begin(), known.end(), k.str()) == known.end())
+        unknown(key.name + "." + std::string(k.str()), line_of(part), known);
+    if (const toml::node *foil = t->get("includes_foil"); foil && has_foil)
+      read_foil(*foil, key, m);
+    const toml::node *value = t->get("value");
+    if (!value) {
+      mistakes_.add(line_of(*t), fmt::format("{} has no 'value'.", key.name));
+      return std::nullopt;
+    }
+    const auto read = number(*value, key);
+    m.value = read.value_or(0.0);
+    const bool good = read_sd(*t, key, m);
+    return read && good ? std::optional(m) : std::nullopt;
+  }
+
+  void read_foil(const toml::node &node, const Key &key, Measured &m) {
+    if (node.is_boolean())
+      m.includes_foil = **node.as_boolean();
+    else
+      mistakes_.add(line_of(node), fmt::format("{}.includes_foil must be true or false, not {}.",
+                                               key.name, shown(node)));
+  }
+
+  bool read_sd(const toml::table &t, const Key &key, Measured &m) {
+    const toml::node *sd = t.get("sd"), *relative = t.get("sd_relative");
+    if (sd && relative) {
+      mistakes_.add(line_of(*sd), fmt::format("{} has both 'sd' and 'sd_relative'; give one of "
+                                              "them.",
+                                              key.name));
+      return false;
+    }
+    if (!sd && !relative)
+      return true;
+    const Key rule =
+        sd ? Key{key.name + ".sd", "", "", 0, key.high - key.low, key.unit, "standard deviation"}
+           : Key{key.name + ".sd_relative", "", "", 0, 1, "fraction", "sd over the value"};
+    const auto read = number(sd ? *sd : *relative, rule);
+    m.sd = read.value_or(0.0) * (sd ? 1.0 : std::fabs(m.value));
+    return read.has_value();
+  }
+
+  void check_condition(const Condition &c, const toml::table &t) {
+    const std::string who = c.id.empty() ? "this condition" : "condition \"" + c.id + "\"";
+    const auto needs = [&](bool there, const char *key) {
+      if (!there && whole_)
+        mistakes_.add(line_of(t),
+                      fmt::format("{} has control = \"{}\" but no {}.", who, c.control, key));
+    };
+    if (c.control == "pressure")
+      needs(t.contains("max_pressure_MPa"), "max_pressure_MPa");
+    if (c.control == "displacement")
+      needs(t.contains("displacement_um") || t.contains("curve"), "displacement_um and no curve");
+    if (c.control == "thickness")
+      needs(t.contains("thickness_at_max_um"), "thickness_at_max_um");
+    if (c.control == "roll_gap")
+      needs(t.contains("roll_gap_um"), "roll_gap_um");
+    check_foil(e_, c, who, line_of(t), mistakes_);
+    if (!c.curve.empty())
+      check_curve(c.curve, line_of(*t.get("curve")), mistakes_);
+    for (const Condition &other : e_.conditions)
+      if (!c.id.empty() && other.id == c.id)
+        mistakes_.add(line_of(t),
+                      fmt::format("the id \"{}\" is taken by another condition.", c.id));
+  }
+
+  void read_split(const toml::table &head) {
+    const toml::node *node = head.get("split");
+    if (!node)
+      return;
+    const toml::table *split = node->as_table();
+    if (!split) {
+      mistakes_.add(line_of(*node), "split must be { train = [\"id\"], test = [\"id\"] }.");
+      return;
+    }
+    for (const auto &[key, ids] : *split)
+      if (key.str() == "train" || key.str() == "test")
+        read_ids(ids, std::string(key.str()), key.str() == "train" ? e_.train : e_.test);
+      else
+        unknown("split." + std::string(key.str()), line_of(ids), {"train", "test"});
+    for (const std::string &id : e_.test)
+      if (std::find(e_.train.begin(), e_.train.end(), id) != e_.train.end())
+        mistakes_.add(line_of(*node),
+                      fmt::format("\"{}\" is in both train and test of split.", id));
+  }
+
+  void read_ids(const toml::node &node, const std::string &part, std::vector<std::string> &out) {
+    const toml::array *list = node.as_array();
+    if (!list) {
+      mistakes_.add(line_of(node), fmt::format("split.{} must be a list of ids in quotes, not {}.",
+                                               part, shown(node)));
+      return;
+    }
+    std::vector<std::string> known;
+    for (const Condition &c : e_.conditions)
+      if (!c.id.empty())
+        known.push_back(c.id);
+    for (const toml::node &id : *list)
+      if (!id.is_string())
+        mistakes_.add(line_of(id),
+                      fmt::format("split.{} holds {}; ids are texts in quotes.", part, shown(id)));
+      else if (std::find(known.begin(), known.end(), **id.as_string()) == known.end())
+        mistakes_.add(
+            line_of(id),
+            fmt::format("split.{} names \"{}\", which is no [[condition]]; there are: {}.", part,
+                        **id.as_string(), fmt::join(known, ", ")));
+      else
+        out.push_back(**id.as_string());
+  }
+};
+
+} // namespace
+
+Experiment read_experiment(const std::string &file) {
+  Mistakes mistakes(file);
+  const TomlFile parsed = parse_toml(file, mistakes);
+  Experiment e;
+  if (!parsed.root.empty())
+    e = ExperimentReader(file, mistakes).read(parsed);
+  mistakes.stop_if_any();
+  return e;
+}
+
+} // namespace calendem
