@@ -7,6 +7,7 @@
 #include "run/collect_verb.h"
 #include "run/verb.h"
 #include "spec/messages.h"
+#include "structure/measure_verb.h"
 #include "tomogram/verb.h"
 #include "validate/verb.h"
 #include <CLI/CLI.hpp>
@@ -19,6 +20,7 @@ int main(int argc, char **argv) {
   calendem::add_pack_verb(app);
   calendem::add_run_verb(app);
   calendem::add_collect_verb(app);
+  calendem::add_measure_verb(app);
   calendem::add_report_verb(app);
   calendem::add_compare_verb(app);
   calendem::add_tomogram_verb(app);

@@ -88,4 +88,34 @@ case $case in
       fail "1 and 2 ranks made different numbers of bonds"
     cmp <(rows "$work/run/breaks.csv" | head -n 1 | cut -d, -f2-5) \
       <(rows "$work/ranks/breaks.csv" | head -n 1 | cut -d, -f2-5) || fail "first breaks differ" ;;
+  measured) # calendem measure agrees with the run's own files; the report shows it
+    rm -rf "$work/measured"
+    cp -r "$work/run" "$work/measured"
+    "$bin/calendem" measure "$work/measured" --voxel-um 0.2
+    s=$work/measured/structure.json
+    mapfile -t total < <(number porosity_total "$s") # before, max, after
+    mapfile -t macro < <(number porosity_macro "$s")
+    mapfile -t tau < <(number tau_through_plane "$s")
+    near() { holds "($1) - ($2) < $3 && ($2) - ($1) < $3" "$4: $1 instead of $2"; }
+    i=0
+    for key in porosity_initial porosity_at_max porosity_after_relaxation; do
+      near "${total[i]}" "$(number $key "$work/run/summary.json")" 1e-5 "total porosity, $key"
+      i=$((i + 1))
+    done
+    for when in "0 0.100" "1 3.600"; do # the curve's macro porosity: CBD outside the bare primaries
+      read -r i time <<<"$when"
+      near "${macro[i]}" "$(awk -F, -v t="$time" 'index($1, t) == 1 { print $14 }' "$work/run/curve.csv")" 0.006 \
+        "macro porosity at $time us"
+    done
+    profile() { awk -F, -v m="$1" -v c="$2" '$1 == m { n += $c } END { print n }' "$work/measured/structure.csv"; }
+    for moment in before max after; do
+      near "$(profile $moment 9)" "$(number bonds_initial "$work/run/summary.json")" 0.5 "bonds in the profile, $moment"
+    done
+    near "$(profile before 10)" 0 0.5 "broken bonds before"
+    near "$(profile after 10)" "$(rows "$work/run/breaks.csv" | wc -l)" 0.5 "broken bonds after"
+    holds "${tau[0]} > 1 && ${tau[1]} > ${tau[0]} && ${tau[2]} < ${tau[1]}" "tortuosity ${tau[*]}"
+    "$bin/calendem" report "$work/measured"
+    for text in "Porosity through the thickness" "Tortuosity factor through the plane"; do
+      grep -q "$text" "$work/measured/report.html" || fail "the report does not show '$text'"
+    done ;;
 esac

@@ -250,6 +250,29 @@ output_read_only() { # nobody can make a folder there, not even root
   expect 2 calendem pack "$work/recipe.toml" -o /proc/calendem
   says "/proc/calendem" "with -o"
 }
+nothing_to_measure() {
+  mkdir "$work/empty"
+  expect 2 calendem measure "$work/empty"
+  says "$work/empty/curve.csv: missing" "calendem run"
+  expect 2 calendem measure "$work/no.mhd" -o "$work/out"
+  says "$work/no.mhd: no such file"
+  echo "not an image" >"$work/image.txt"
+  expect 2 calendem measure "$work/image.txt" -o "$work/out"
+  says "label images with the ending '.txt' are not read; allowed are" ".mhd"
+  printf '%s\n' "ObjectType = Image" "NDims = 3" "DimSize = 4 4 4" "ElementSpacing = 0.3 0.3 0.3" \
+    "ElementType = MET_UCHAR" "ElementDataFile = image.raw" >"$work/image.mhd"
+  head -c 40 /dev/zero >"$work/image.raw"
+  expect 2 calendem measure "$work/image.mhd" -o "$work/out"
+  says "announces 64 bytes of voxels, 40 are there"
+  expect 1 calendem measure "$work/image.mhd"
+  says "--output is required"
+  expect 1 calendem measure "$work/image.mhd" -o "$work/out" --voxel-um 0
+  says "--voxel-um"
+  head -c 64 /dev/zero >"$work/image.raw"
+  expect 2 calendem measure "$work/image.mhd" -o /proc/calendem
+  says "/proc/calendem" "with -o"
+  expect 0 calendem measure "$work/image.mhd" -o "$work/out" # an empty image is one
+}
 no_mpirun() {
   a_case "$electrode"
   expect 2 env PATH=/nowhere "$bin/calendem" run "$work/case.toml" -o "$work/run" --ranks 1

@@ -87,24 +87,6 @@ long read_body_map(const std::string &file, const std::set<long> &tags, Mistakes
   return static_cast<long>(seen.size());
 }
 
-void read_description(const nlohmann::json &j, ElectrodeFacts &e) {
-  e.lx = j.at("cell_um").at(0);
-  e.ly = j.at("cell_um").at(1);
-  e.area = e.lx * e.ly;
-  e.thickness = j.at("thickness_um");
-  const double volume = e.area * e.thickness;
-  e.solid = volume * (1.0 - j.at("porosity_total").get<double>());
-  e.bonds = j.at("bonds");
-  e.bodies = j.at("bodies");
-  const nlohmann::json &recipe = j.at("recipe");
-  e.lattice = std::stod(recipe.at("particles.lattice_um").get<std::string>());
-  for (const char *key : {"particles.primary_diameter_um", "cbd.diameter_um"})
-    e.widest = std::max(e.widest, std::stod(recipe.at(key).get<std::string>()));
-  e.primaries = j.at("primaries");
-  e.am = e.primaries * std::pow(e.lattice, 3);
-  e.cbd_envelope = volume * (1.0 - j.at("porosity_macro").get<double>()) - e.am;
-}
-
 void stop_if_files_are_missing(const std::string &folder) {
   Mistakes mistakes(folder);
   std::error_code none;
@@ -126,6 +108,26 @@ void stop_if_files_are_missing(const std::string &folder) {
 
 } // namespace
 
+ElectrodeFacts describe_electrode(const nlohmann::json &j) {
+  ElectrodeFacts e;
+  e.lx = j.at("cell_um").at(0);
+  e.ly = j.at("cell_um").at(1);
+  e.area = e.lx * e.ly;
+  e.thickness = j.at("thickness_um");
+  const double volume = e.area * e.thickness;
+  e.solid = volume * (1.0 - j.at("porosity_total").get<double>());
+  e.bonds = j.at("bonds");
+  e.bodies = j.at("bodies");
+  const nlohmann::json &recipe = j.at("recipe");
+  e.lattice = std::stod(recipe.at("particles.lattice_um").get<std::string>());
+  for (const char *key : {"particles.primary_diameter_um", "cbd.diameter_um"})
+    e.widest = std::max(e.widest, std::stod(recipe.at(key).get<std::string>()));
+  e.primaries = j.at("primaries");
+  e.am = e.primaries * std::pow(e.lattice, 3);
+  e.cbd_envelope = volume * (1.0 - j.at("porosity_macro").get<double>()) - e.am;
+  return e;
+}
+
 ElectrodeFacts read_electrode(const std::string &folder) {
   stop_if_files_are_missing(folder);
   ElectrodeFacts e;
@@ -133,7 +135,7 @@ ElectrodeFacts read_electrode(const std::string &folder) {
       map(folder + "/bodies.map"), script(folder + "/electrode.in");
   try {
     std::ifstream in(folder + "/electrode.json");
-    read_description(nlohmann::json::parse(in), e);
+    e = describe_electrode(nlohmann::json::parse(in));
   } catch (const std::exception &x) { // cut, edited, or of another program
     description.add(0, fmt::format("cannot be used: {}. {}", x.what(), kAgain));
   }

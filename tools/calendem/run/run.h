@@ -5,6 +5,7 @@
 
 #include "spec/toml_reader.h"
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace calendem {
@@ -34,6 +35,9 @@ struct ElectrodeFacts {
   double widest = 0.0; ///< largest diameter of a primary or a CBD sphere [um]
   long bonds = 0, atoms = 0, bodies = 0, primaries = 0;
 };
+
+/// From electrode.json; `atoms` is not in it. Throws std::exception where a field is missing.
+ElectrodeFacts describe_electrode(const nlohmann::json &electrode);
 
 /// Throws Failure(2) if a file is missing or cut.
 ElectrodeFacts read_electrode(const std::string &folder);

@@ -100,7 +100,7 @@ void clear_old_results(const std::string &folder) {
   for (const char *name :
        {"curve_raw.csv", "breaks.csv", "curve.csv", "summary.json", "bodies.csv", "running.restart",
         "running.previous", "running.damaged", "running.restart.part", "compressed.restart",
-        "final.restart", "time_step.in"})
+        "final.restart", "time_step.in", "structure.csv", "structure.json"})
     fs::remove(fs::path(folder) / name);
   for (const auto &entry : fs::directory_iterator(fs::path(folder) / "vtk"))
     fs::remove(entry.path());

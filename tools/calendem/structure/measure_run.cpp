@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The moments of a run's directory that are measured.
+#include "report/run_directory.h"
+#include "run/run.h"
+#include "spec/messages.h"
+#include "structure/measure_structure.h"
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace calendem {
+namespace {
+
+using report::Run;
+
+void stop_if_any(const report::Problems &problems) {
+  std::string text;
+  for (const report::Problem &p : problems)
+    text += fmt::format("{}{}: {}. What to do: {}.", text.empty() ? "" : "\n", p.file, p.what,
+                        p.remedy);
+  if (!text.empty())
+    throw Failure(kBadInput, text);
+}
+
+Run read_whole_run(const std::string &folder, ElectrodeFacts &electrode) {
+  report::Problems problems;
+  Run run = report::read_run(folder, problems);
+  stop_if_any(problems);
+  if (run.particles.empty() || run.platen.empty())
+    stop_if_any(run.notes);
+  try {
+    electrode = describe_electrode(run.electrode);
+  } catch (const std::exception &x) {
+    throw Failure(kBadInput,
+                  fmt::format("{}/electrode.json: it is missing or cannot be used ({}). Copy it "
+                              "from the folder of the run's electrode.",
+                              folder, x.what()));
+  }
+  return run;
+}
+
+double platen_height(const Run &run, double time, report::Problems &problems) {
+  double height = 0.0;
+  for (const auto &outline :
+       report::read_platen(report::closest(run.platen, time).path, problems).outlines)
+    for (const auto &point : outline)
+      height = std::max(height, point[2]);
+  return height;
+}
+
+// The frame nearest to `time`; `height` 0: the platen's in that frame.
+SimulatedStructure read_frame(const Run &run, const ElectrodeFacts &e, double time, double height) {
+  report::Problems problems;
+  SimulatedStructure s;
+  s.cell = {e.lx, e.ly, height > 0.0 ? height : platen_height(run, time, problems)};
+  s.lattice = e.lattice;
+  s.cbd_solid = e.solid - e.am;
+  const auto particles =
+      report::read_particles(report::closest(run.particles, time).path, problems);
+  for (size_t i = 0; i < particles.centre.size(); ++i)
+    s.spheres.push_back(
+        {Eigen::Vector3d(particles.centre[i].data()), particles.radius[i], particles.body[i]});
+  if (!run.bonds.empty()) {
+    const auto bonds = report::read_bonds(report::closest(run.bonds, time).path, problems);
+    for (size_t i = 0; i < bonds.from.size(); ++i)
+      s.bonds.push_back({0.5 * (bonds.from[i][2] + bonds.to[i][2]), !bonds.intact[i]});
+  }
+  stop_if_any(problems);
+  return s;
+}
+
+} // namespace
+
+std::vector<StructureMeasures> measure_run(const std::string &folder,
+                                           const MeasureOptions &options) {
+  ElectrodeFacts electrode;
+  const Run run = read_whole_run(folder, electrode);
+  std::vector<StructureMeasures> moments;
+  const auto measure = [&](const char *name, double time, double height) {
+    StructureMeasures m = measure_spheres(read_frame(run, electrode, time, height), options);
+    m.moment = name;
+    m.time_us = report::closest(run.particles, time).time_us;
+    size_t row = 0;
+    for (size_t i = 0; i < run.curve.rows(); ++i)
+      if (std::fabs(run.curve["time_us"][i] - *m.time_us) <
+          std::fabs(run.curve["time_us"][row] - *m.time_us))
+        row = i;
+    m.pressure_MPa = run.curve["pressure_MPa"][row];
+    moments.push_back(std::move(m));
+  };
+  measure("before", run.particles.front().time_us, 0.0);
+  if (!run.curve.relaxation().empty())
+    measure("max", run.curve["time_us"][run.curve.row_of_max_pressure()], 0.0);
+  if (run.unfinished.empty())
+    measure("after", run.particles.back().time_us,
+            run.summary.value("thickness_after_relaxation_um", 0.0));
+  return moments;
+}
+
+} // namespace calendem
