@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "report/paper_reference.h"
+#include "report/structure_part.h"
 
 namespace calendem::report {
 namespace {
@@ -305,6 +306,9 @@ std::vector<Chart> plots_of(const std::vector<Run> &runs) {
   std::vector<Chart> charts{pressure_displacement(runs), breaks_by_pressure(runs),
                             porosity_by_pressure(runs), both_pressures(runs),
                             quasi_static_check(runs)};
+  for (Chart chart : {porosity_profiles(runs), broken_profiles(runs)})
+    if (!chart.series.empty())
+      charts.push_back(std::move(chart));
   for (std::size_t i = 0; i < runs.size(); ++i) {
     Chart energy = energy_ledger(runs[i], runs.size() == 1);
     energy.id = "energy-" + std::to_string(i + 1);

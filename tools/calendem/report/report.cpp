@@ -4,6 +4,7 @@
 #include "report/explorer.h"
 #include "report/file_hash.h"
 #include "report/plots.h"
+#include "report/structure_part.h"
 #include "report/tables.h"
 
 #ifndef CALENDEM_VERSION
@@ -25,6 +26,7 @@ RunPart part_of(Run &run) {
   part.facts = facts_of(run.summary, {"provenance"});
   part.electrode =
       facts_of(run.electrode, {"provenance", "recipe", "sphericity_histogram", "identity"});
+  part.structure = structure_table(run);
   part.provenance = facts_of(run.summary.value("provenance", json::object()), {});
   part.files = json::array();
   for (const auto &file : run.files_read)
@@ -56,6 +58,7 @@ json to_json(const RunPart &run) {
           {"headline", run.headline},
           {"facts", run.facts},
           {"electrode", run.electrode},
+          {"structure", run.structure},
           {"provenance", run.provenance},
           {"files", run.files},
           {"notes", notes},

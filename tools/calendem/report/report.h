@@ -17,7 +17,7 @@ namespace calendem::report {
 struct RunPart {
   std::string name;
   std::string unfinished; ///< why; empty = finished
-  nlohmann::json headline, facts, electrode, provenance, files;
+  nlohmann::json headline, facts, electrode, structure, provenance, files;
   Problems notes;
   std::vector<Picture> pictures;
   nlohmann::json explorer; ///< of the 3-D view; null: no frames

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "report/structure_part.h"
 #include "spec/csv_table.h"
 
 namespace calendem::report {
@@ -128,6 +129,7 @@ void read_optional(const fs::path &directory, Run &run) {
   run.particles = series("particles.pvd");
   run.bonds = series("bonds.pvd");
   run.platen = series("platen.pvd");
+  read_structure(directory, run);
   for (const char *name : {"breaks.csv", "bodies.csv", "case.toml"})
     if (fs::exists(directory / name))
       run.files_read.push_back((directory / name).string());

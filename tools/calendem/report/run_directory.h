@@ -14,13 +14,22 @@
 
 namespace calendem::report {
 
+/// A row of structure.csv.
+struct StructureRow {
+  std::string moment;
+  double height; ///< of the slice's middle above the collector over the thickness
+  double macro, bonds, broken;
+};
+
 struct Run {
   std::string name;      ///< of the directory; unique among the runs of a report
   std::string directory; ///< as given
   Curve curve;           ///< curve.csv
   nlohmann::json summary = nlohmann::json::object();   ///< summary.json, empty if unfinished
   nlohmann::json electrode = nlohmann::json::object(); ///< electrode.json if it is there
-  std::vector<FrameFile> particles, bonds, platen;     ///< vtk/*.pvd; may be empty
+  nlohmann::json structure; ///< structure.json, null unless `calendem measure` wrote it
+  std::vector<StructureRow> profile;
+  std::vector<FrameFile> particles, bonds, platen; ///< vtk/*.pvd; may be empty
   std::vector<std::string> files_read;
   std::string unfinished; ///< why the run counts as unfinished; empty = finished
   Problems notes;         ///< what is missing without making the report impossible

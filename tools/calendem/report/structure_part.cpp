@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/structure_part.h"
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "report/csv_table.h"
+#include "report/tables.h"
+#include "spec/provenance.h"
+
+namespace calendem::report {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr double kPercent = 100;
+const char *const kColumns[] = {"moment", "z_over_thickness", "porosity_macro", "bonds",
+                                "bonds_broken"};
+
+struct MomentLook {
+  const char *moment, *shown, *colour, *dash;
+  Symbol symbol;
+};
+const MomentLook kMoments[] = {{"before", "before", "#0064b0", "", Symbol::circle},
+                               {"max", "at maximum pressure", "#c8321e", "9 4", Symbol::square},
+                               {"after", "after relaxation", "#00845a", "2 3", Symbol::triangle}};
+// With several runs a colour means a run, as in the other charts.
+const char *const kRunColours[] = {"#0064b0", "#c8500a", "#00845a",
+                                   "#a8508c", "#8a6d00", "#222222"};
+
+std::string contents(const fs::path &file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// One series per run and moment; `value` of a row of structure.csv, NaN: no point.
+template <typename Value> std::vector<Series> series_of(const std::vector<Run> &runs, Value value) {
+  std::vector<Series> all;
+  for (std::size_t r = 0; r < runs.size(); ++r)
+    for (const auto &look : kMoments) {
+      Series series;
+      series.name = (runs.size() == 1 ? "" : runs[r].name + ": ") + look.shown;
+      series.colour = runs.size() == 1 ? look.colour : kRunColours[r % std::size(kRunColours)];
+      series.dash = look.dash;
+      series.symbol = look.symbol;
+      for (const StructureRow &row : runs[r].profile)
+        if (const double y = value(row); row.moment == look.moment && std::isfinite(y)) {
+          series.x.push_back(row.height);
+          series.y.push_back(y);
+        }
+      if (!series.x.empty())
+        all.push_back(std::move(series));
+    }
+  return all;
+}
+
+double at(const json &object, const std::string &pointer) {
+  const json::json_pointer place(pointer);
+  return object.contains(place) && object[place].is_number() ? object[place].get<double>() : NAN;
+}
+
+struct Quantity {
+  const char *name, *place;
+  double factor;
+  int decimals;
+};
+const Quantity kQuantities[] = {
+    {"Pressure, MPa", "/pressure_MPa", 1, 1},
+    {"Thickness, µm", "/thickness_um", 1, 2},
+    {"Porosity total, %", "/porosity_total", kPercent, 2},
+    {"Porosity macro, %", "/porosity_macro", kPercent, 2},
+    {"Porosity nano, %", "/porosity_nano", kPercent, 2},
+    {"Pore–solid area per volume, 1/µm", "/area_per_volume_1_um/pore_solid", 1, 3},
+    {"Pore–AM area per volume, 1/µm", "/area_per_volume_1_um/pore_am", 1, 3},
+    {"Bodies that a body touches", "/coordination/am_am", 1, 2},
+    {"CBD spheres that a body touches", "/coordination/am_cbd", 1, 2},
+    {"Bodies that a CBD sphere touches", "/coordination/cbd_am", 1, 2},
+    {"Bodies seen in pieces", "/bodies_on_voxels/in_pieces", 1, 0},
+    {"Tortuosity factor through the plane", "/tortuosity/tau_through_plane", 1, 2},
+    {"Tortuosity factor in the plane", "/tortuosity/tau_in_plane", 1, 2}};
+
+/// A tortuosity that could not be extrapolated is an upper bound.
+std::string bound_of(const json &moment, const std::string &place) {
+  const auto given = [&](const char *direction) {
+    const json::json_pointer extrapolated(std::string("/tortuosity/") + direction +
+                                          "/extrapolated");
+    return moment.value(extrapolated, true);
+  };
+  if (place == "/tortuosity/tau_through_plane")
+    return given("through_plane") ? "" : "≤ ";
+  if (place == "/tortuosity/tau_in_plane")
+    return given("in_plane_x") && given("in_plane_y") ? "" : "≤ ";
+  return "";
+}
+
+} // namespace
+
+void read_structure(const fs::path &directory, Run &run) {
+  const fs::path file = directory / "structure.json", profile = directory / "structure.csv";
+  if (!fs::exists(file) || !fs::exists(profile))
+    return;
+  const std::string again = "measure it again: calendem measure " + directory.string();
+  json structure = json::parse(contents(file), nullptr, false);
+  const CsvTable table = CsvTable::parse(contents(profile));
+  bool whole = structure.is_object() && structure.contains("moments") && table.bad_lines().empty();
+  for (const char *column : kColumns)
+    whole = whole && table.has(column);
+  const std::string curve = hash_of_file((directory / "curve.csv").string());
+  if (!whole) {
+    run.notes.push_back({file.string(), "it or structure.csv is cut or damaged", again});
+    return;
+  }
+  if (structure.value("/provenance/curve"_json_pointer, "") != curve) {
+    run.notes.push_back({file.string(), "measured of another curve.csv, left out", again});
+    return;
+  }
+  const auto moment = table.texts("moment");
+  const auto height = table.numbers("z_over_thickness"), macro = table.numbers("porosity_macro"),
+             bonds = table.numbers("bonds"), broken = table.numbers("bonds_broken");
+  for (std::size_t i = 0; i < table.rows(); ++i)
+    run.profile.push_back({moment[i], height[i], macro[i], bonds[i], broken[i]});
+  run.structure = std::move(structure);
+  run.files_read.push_back(file.string());
+  run.files_read.push_back(profile.string());
+}
+
+Chart porosity_profiles(const std::vector<Run> &runs) {
+  Chart chart;
+  chart.id = "profile-porosity";
+  chart.title = "Porosity through the thickness";
+  chart.x_label = "Height above the collector / thickness";
+  chart.y_label = "Macro porosity (%)";
+  chart.series = series_of(runs, [](const StructureRow &row) { return kPercent * row.macro; });
+  chart.note = "Slices of about 1 µm on voxels. Before: the film as packed, below the platen; its "
+               "rough top counts as pore.";
+  return chart;
+}
+
+Chart broken_profiles(const std::vector<Run> &runs) {
+  Chart chart;
+  chart.id = "profile-broken";
+  chart.title = "Broken bonds through the thickness";
+  chart.x_label = "Height above the collector / thickness";
+  chart.y_label = "Broken bonds (% of the slice's)";
+  chart.series = series_of(runs, [](const StructureRow &row) {
+    return row.moment == "before" || !(row.bonds > 0) ? NAN : kPercent * row.broken / row.bonds;
+  });
+  chart.note = "A bond counts in the slice that holds its mid-point at that moment.";
+  bool any = false;
+  for (const Series &series : chart.series)
+    for (const double y : series.y)
+      any = any || y > 0;
+  if (!any)
+    chart.series.clear();
+  return chart;
+}
+
+json structure_table(const Run &run) {
+  if (!run.structure.is_object() || run.structure.empty())
+    return nullptr;
+  json table = {{"moments", json::array()}, {"rows", json::array()}};
+  const json &moments = run.structure["moments"];
+  for (const json &moment : moments)
+    for (const auto &look : kMoments)
+      if (moment.value("moment", "") == look.moment)
+        table["moments"].push_back(look.shown);
+  for (const Quantity &q : kQuantities) {
+    json cells = json::array();
+    bool any = false;
+    for (const json &moment : moments) {
+      const double value = at(moment, q.place);
+      any = any || std::isfinite(value);
+      cells.push_back({{"value", std::isfinite(value) ? json(value) : json(nullptr)},
+                       {"text", (std::isfinite(value) ? bound_of(moment, q.place) : "") +
+                                    shown(q.factor * value, q.decimals)}});
+    }
+    if (any)
+      table["rows"].push_back({{"quantity", q.name}, {"cells", cells}});
+  }
+  return table;
+}
+
+} // namespace calendem::report
