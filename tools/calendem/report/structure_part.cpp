@@ -5,8 +5,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "report/csv_table.h"
 #include "report/tables.h"
+#include "spec/csv_table.h"
 #include "spec/provenance.h"
 
 namespace calendem::report {
