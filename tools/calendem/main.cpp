@@ -8,6 +8,7 @@
 #include "run/verb.h"
 #include "spec/messages.h"
 #include "structure/measure_verb.h"
+#include "study/verb.h"
 #include "tomogram/verb.h"
 #include "validate/verb.h"
 #include <CLI/CLI.hpp>
@@ -23,6 +24,7 @@ int main(int argc, char **argv) {
   calendem::add_measure_verb(app);
   calendem::add_report_verb(app);
   calendem::add_compare_verb(app);
+  calendem::add_study_verb(app);
   calendem::add_tomogram_verb(app);
   calendem::add_validate_verb(app);
   try {

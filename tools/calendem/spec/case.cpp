@@ -114,14 +114,18 @@ void check_target(const Settings &s, Mistakes &mistakes) {
 
 } // namespace
 
-Settings read_case(const std::string &file) {
-  namespace fs = std::filesystem;
-  Mistakes mistakes(file);
-  Settings s = read_toml(file, case_keys(), mistakes);
+void check_case(const Settings &s, Mistakes &mistakes) {
   check_collapse(s, "am", "am", 0.1, mistakes);
   check_collapse(s, "cbd", "cbd", 0.1, mistakes);
   check_collapse(s, "am", "cbd", 0.2, mistakes);
   check_target(s, mistakes);
+}
+
+Settings read_case(const std::string &file) {
+  namespace fs = std::filesystem;
+  Mistakes mistakes(file);
+  Settings s = read_toml(file, case_keys(), mistakes);
+  check_case(s, mistakes);
   mistakes.stop_if_any();
   const fs::path electrode = s.text("electrode");
   s.set("electrode",

@@ -10,6 +10,9 @@ namespace calendem {
 
 const std::vector<Key> &case_keys();
 
+/// What the settings contradict, beyond what each key may hold.
+void check_case(const Settings &settings, Mistakes &mistakes);
+
 /// Throws Failure(2) with every mistake of the file. `electrode` is made absolute, relative to the
 /// file.
 Settings read_case(const std::string &file);

@@ -2,6 +2,7 @@
 #include "spec/key.h"
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fmt/format.h>
 
 namespace calendem {
@@ -63,6 +64,18 @@ std::optional<std::string> wrong_text(const Key &key, const std::string &value) 
     return std::nullopt;
   return fmt::format("{} is \"{}\"; it must be one of {}. The closest is \"{}\".", key.name, value,
                      key.choices, closest(value, choices));
+}
+
+bool wants_text(const Key &key) { return key.text || !key.choices.empty(); }
+
+std::optional<std::string> wrong_cell(const Key &key, const std::string &cell) {
+  if (wants_text(key))
+    return wrong_text(key, cell);
+  char *end = nullptr;
+  const double value = std::strtod(cell.c_str(), &end);
+  if (cell.empty() || *end != '\0')
+    return fmt::format("{} is '{}'; it must be a number ({}).", key.name, cell, key.meaning);
+  return wrong_number(key, value);
 }
 
 int edit_distance(const std::string &a, const std::string &b) {

@@ -27,6 +27,11 @@ struct Key {
 std::optional<std::string> wrong_number(const Key &key, double value);
 std::optional<std::string> wrong_text(const Key &key, const std::string &value);
 
+/// What is wrong with a value that stands in a file without types (CSV).
+std::optional<std::string> wrong_cell(const Key &key, const std::string &cell);
+/// The key holds a text, not a number.
+bool wants_text(const Key &key);
+
 /// The word of `words` that is the fewest typing errors away from `word`; `words` is not empty.
 std::string closest(const std::string &word, const std::vector<std::string> &words);
 int edit_distance(const std::string &a, const std::string &b);

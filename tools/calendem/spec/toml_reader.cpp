@@ -9,8 +9,6 @@
 namespace calendem {
 namespace {
 
-bool wants_text(const Key &key) { return key.text || !key.choices.empty(); }
-
 std::optional<std::string> wrong_value(const Key &key, const toml::node &node) {
   if (wants_text(key) && node.is_string())
     return wrong_text(key, **node.as_string());

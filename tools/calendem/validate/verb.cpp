@@ -4,6 +4,7 @@
 #include "spec/case.h"
 #include "spec/experiment.h"
 #include "spec/toml_file.h"
+#include "study/study_file.h"
 #include "tomogram/tomogram.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -12,7 +13,7 @@
 namespace calendem {
 namespace {
 
-enum class Kind { Recipe, Case, Tomogram, Experiment };
+enum class Kind { Recipe, Case, Tomogram, Experiment, Study };
 
 int keys_known(const toml::table &table, const std::string &prefix, const std::vector<Key> &keys) {
   int known = 0;
@@ -34,6 +35,8 @@ Kind kind_of(const std::string &file) {
   const toml::table root = parse_toml(file, elsewhere).root;
   if (root.contains("experiment") || root.contains("condition"))
     return Kind::Experiment;
+  if (root.contains("study") || root.contains("vary"))
+    return Kind::Study;
   Kind best = Kind::Recipe;
   int most = keys_known(root, "", recipe_keys());
   const auto consider = [&](Kind kind, const std::vector<Key> &keys) {
@@ -51,6 +54,8 @@ std::string name_after_check(const std::string &file) {
   switch (kind_of(file)) {
   case Kind::Experiment:
     return fmt::format("experiment of {} conditions", read_experiment(file).conditions.size());
+  case Kind::Study:
+    return fmt::format("study of {} runs", read_study(file).runs.size());
   case Kind::Case:
     read_case(file);
     return "case";
@@ -80,11 +85,13 @@ void validate(const std::vector<std::string> &files) {
 void add_validate_verb(CLI::App &app) {
   auto files = std::make_shared<std::vector<std::string>>();
   CLI::App *verb = app.add_subcommand(
-      "validate", "Every mistake in recipes, cases, tomograms and experiment files, at once");
+      "validate",
+      "Every mistake in recipes, cases, tomograms, studies and experiment files, at once");
   verb->add_option("FILE", *files, "TOML files")->required();
   verb->footer(
       list_of_experiment_keys() +
-      "Keys of the others: calendem pack --help, calendem run --help, calendem tomogram --help");
+      "Keys of the others: calendem pack --help, calendem run --help, calendem tomogram --help,\n"
+      "calendem study --help");
   verb->callback([files] { validate(*files); });
 }
 

@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# study_test.sh BIN WORK: two strengths on two packings; stopped, gone on with, split as an array of jobs would.
+set -euo pipefail
+bin=$1 work=$2
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+fail() { echo "FAILED: $*" >&2; exit 1; }
+column() { # NAME: its cells in the table
+  awk -F, -v name="$1" 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == name) c = k } NR > 1 { print $c }' "$work/out/study.csv"
+}
+
+rm -rf "$work"
+mkdir -p "$work"
+cp "$here"/../calendering/{electrode,case}.toml "$work/"
+cat >"$work/study.toml" <<'T'
+[study]
+name = "two strengths, two packings"
+recipe = "electrode.toml"
+case = "case.toml"
+at_pressure_MPa = [10]
+keep = "tables"
+[[vary]]
+keys = ["recipe.seed"]
+values = [1, 2]
+[[vary]]
+keys = ["case.bond.tensile_strength_MPa", "case.bond.shear_strength_MPa"]
+values = [150, [400, 400]]
+T
+study() { "$bin/calendem" study "$work/study.toml" -o "$work/out" "$@"; }
+
+study --only 4 # the second strength on the second packing
+[ "$(column status | paste -sd,)" = "not started,not started,not started,done" ] || fail "--only made others"
+"$bin/calendem" study "$work/study.toml" -o "$work/out" --jobs 2 >"$work/stopped.log" 2>&1 &
+job=$!
+until [ -s "$work/out/packings/$(column packing | head -n 1)/electrode.json" ]; do sleep 0.05; done
+kill -TERM $job
+wait $job && fail "a study that was stopped must not end with exit status 0"
+grep -q "goes on" "$work/stopped.log" || fail "it is not said how to go on"
+study --jobs 2
+study >"$work/again.log"
+grep -q "4 runs, 4 of them there" "$work/again.log" || fail "a second call should find all runs done"
+
+[ "$(column status | sort -u)" = "done" ] || fail "not all runs are done"
+[ "$(column packing | sort -u | wc -l)" = 2 ] || fail "runs of one seed do not share their packing"
+[ "$(column case.bond.shear_strength_MPa | paste -sd,)" = 150,400,150,400 ] || fail "settings are not those of the study"
+mapfile -t broken < <(column broken_fraction_at_max)
+awk "BEGIN { exit !(${broken[0]} > ${broken[1]} && ${broken[2]} > ${broken[3]}) }" || fail "weaker bonds did not break more"
+first=$work/out/runs/$(column run | head -n 1)
+[ ! -e "$first/vtk" ] || fail "frames were kept"
+[ -z "$(find "$first" -name '*.restart')" ] || fail "restart files were kept"
+awk -F, -v p="$(column thickness_um_at_10_MPa | head -n 1)" 'NR == 1 { for (k = 1; k <= NF; k++) { if ($k == "thickness_um") h = k; if ($k == "pressure_MPa") q = k } next }
+  $q >= 10 { exit !(p >= $h && p <= before) } { before = $h }' "$first/curve.csv" || fail "thickness at 10 MPa is not between its rows"
