@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // fix ID all bond/bpm bodies FILE youngs_modulus E nu NU radius_ratio L tensile S shear T
-//     criterion signed|unsigned|as_printed damping D weibull M SEED breakable yes|no
-//     log FILE pressure PLATEN_FIX
+//     criterion signed|unsigned|as_printed damping D weibull M SEED pre_cracks F
+//     breakable yes|no log FILE pressure PLATEN_FIX
 //
 // Owns the bonds of `pair_style gran ... cohesion bpm surface bpm`: their material, their creation
 // (at the first set-up after the fix appears, between touching primaries of one body, once), the
@@ -31,7 +31,8 @@ struct BondSettings {
   calendem::BondStrength strength = {0.0, 0.0};
   calendem::FailureCriterion criterion = calendem::FailureCriterion::Signed;
   double weibull_modulus = 0.0; ///< <= 0: no scatter
-  std::uint64_t seed = 0;
+  double pre_cracks = 0.0;      ///< fraction of the bonds that have no strength
+  std::uint64_t seed = 0;       ///< of both
   bool breakable = true;
 
   calendem::BondStrength strength_of(double factor) const {

@@ -61,7 +61,9 @@ int FixBondBpm::parse_keyword(int iarg, int narg, char **arg) {
   else if (key == "weibull") {
     settings_.weibull_modulus = positive("weibull", value, true);
     settings_.seed = seed(arg[iarg + 2]);
-  } else if (key == "log")
+  } else if (key == "pre_cracks")
+    settings_.pre_cracks = positive("pre_cracks", value, true);
+  else if (key == "log")
     log_file_ = value;
   else if (key == "pressure")
     platen_id_ = value;
@@ -77,8 +79,8 @@ int FixBondBpm::parse_keyword(int iarg, int narg, char **arg) {
     const std::string message =
         "unknown setting '" + key + " " + value +
         "'; known: bodies FILE, youngs_modulus, nu, radius_ratio, tensile, shear, criterion "
-        "signed|unsigned|as_printed, damping, weibull MODULUS SEED, breakable yes|no, log FILE, "
-        "pressure FIX";
+        "signed|unsigned|as_printed, damping, weibull MODULUS SEED, pre_cracks FRACTION, breakable "
+        "yes|no, log FILE, pressure FIX";
     error->fix_error(FLERR, this, message.c_str());
   }
   return iarg + 1 + values;
@@ -96,6 +98,8 @@ void FixBondBpm::check_settings() {
   const double nu = m.shear_modulus;
   if (m.youngs_modulus <= 0.0 || nu < 0.0 || bodies_file_.empty())
     error->fix_error(FLERR, this, "needs at least 'bodies FILE youngs_modulus E nu NU'");
+  if (settings_.pre_cracks >= 1.0)
+    error->fix_error(FLERR, this, "'pre_cracks' is a fraction of the bonds and must be below 1");
   if (nu > 0.5)
     error->fix_error(FLERR, this, "'nu' must be between 0 and 0.5");
   check_modulus("'youngs_modulus'", m.youngs_modulus);

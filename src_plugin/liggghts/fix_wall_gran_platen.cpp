@@ -92,6 +92,8 @@ void FixWallGranPlaten::set_keyword(const std::string &key, const std::string &v
     programme_.lost_fraction = number(key, value, true);
   else if (key == "lowest")
     programme_.lowest = number(key, value, true);
+  else if (key == "compliance")
+    programme_.compliance = number(key, value, true);
   else if (key == "average")
     window_ = number(key, value, false);
   else if (key == "release" && (value == "yes" || value == "no"))
@@ -101,8 +103,7 @@ void FixWallGranPlaten::set_keyword(const std::string &key, const std::string &v
         "unknown setting '" + key + " " + value +
         "'; known: side top|bottom, motion hold | motion pressure P | motion position Z, "
         "touch_speed, load_speed, release_speed, touch_pressure, dwell, ramp, lost, lowest, "
-        "average, "
-        "release yes|no";
+        "average, compliance, release yes|no";
     error->fix_error(FLERR, this, message.c_str());
   }
 }

@@ -2,7 +2,8 @@
 // fix ID all wall/gran/platen model hertz tangential history primitive type T zplane Z
 //     side top|bottom motion hold
 //     side top motion pressure P | position Z2  touch_speed V load_speed V release_speed V
-//          touch_pressure P dwell T ramp T lost F lowest Z average T release yes|no
+//          touch_pressure P dwell T ramp T lost F lowest Z average T compliance C
+//          release yes|no
 //
 // A flat wall of fix wall/gran that moves along z by the programme of physics/platen_motion.h and
 // measures what it carries. All contact models of fix wall/gran can be used. Units micro.
@@ -11,6 +12,7 @@
 //   now, 7 work done on the particles [fJ], 8 closing speed, 9 largest averaged pressure, 10 target
 //   reached, 11 1 when the dwell is over and `release no` holds the platen, 12 averaging window
 //   [us].
+// A position is what the machine shows, which is `compliance` [um/kPa] times the pressure further.
 // Load is positive when the wall presses the film. State restarts under the same fix ID.
 #ifdef FIX_CLASS
 

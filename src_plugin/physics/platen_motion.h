@@ -35,6 +35,7 @@ struct PlatenProgramme {
   double ramp_time = 0.0;      ///< >= 0
   double lost_fraction = 0.01; ///< of the maximum pressure: contact is lost below it
   double lowest = 0.0;         ///< the platen never goes below
+  double compliance = 0.0;     ///< of the machine [um/kPa]; a position is what it shows
 };
 
 /// What changes; restarts store it as it is.
@@ -101,9 +102,10 @@ inline void compress(const PlatenProgramme &p, PlatenState &s, double average, d
   s.speed = wanted < s.speed ? wanted : approach_speed(s.speed, wanted, scale, p.ramp_time, dt);
   s.position -= s.speed * dt;
   const bool by_pressure = p.control == PlatenControl::Pressure;
-  const bool there = by_pressure ? average >= p.target : s.position <= p.target;
+  const double stretch = p.compliance * average; // the machine is that much further than its platen
+  const bool there = by_pressure ? average >= p.target : s.position - stretch <= p.target;
   if (!by_pressure && there)
-    s.position = p.target;
+    s.position = p.target + stretch;
   if (!there && s.position > p.lowest)
     return;
   s.reached = there ? 1.0 : 0.0;

@@ -27,7 +27,8 @@ case $case in
       fail "a second pack of the same recipe should find it done" ;;
   run)
     rm -rf "$work/run"
-    (cd "$work" && "$bin/calendem" run case.toml -o run --ranks 1) # paths may be relative
+    (cd "$work" && "$bin/calendem" run case.toml -o run --ranks 1 \
+      --liggghts "$(realpath --relative-to=. "$bin/liggghts")") # paths may be relative
     p=$(number max_pressure_MPa "$work/run/summary.json")
     holds "$p >= 40 && $p <= 40.4" "maximum pressure $p MPa is not within 1 % above 40"
     before=$(number porosity_initial "$work/run/summary.json")

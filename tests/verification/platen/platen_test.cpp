@@ -280,3 +280,31 @@ TEST(VerificationPlaten, SameForceAsAMovingMesh) {
   EXPECT_GT(across, 0.1 * largest);
   EXPECT_LT(worst / largest, 1.5 * ulps / depth);
 }
+
+// A machine that gives way by C per pressure stops when film and machine together have moved as far
+// as it was told: d = x + C P(x), on the closed curve of the column.
+TEST(VerificationPlaten, ASoftMachineStopsByWhatItShows) {
+  const std::vector<BodySphere> spheres = column(spacing(false), false);
+  const double top = top_of(spheres) + kGap, told = 0.06, compliance = 4e-6, speed = 0.005;
+  Settings of_motion = motion("position", top - told, top, speed);
+  of_motion.insert({"compliance", number(compliance)});
+  const CaseRun run = press(spheres, of_motion,
+                            {{"bonded", "0"},
+                             {"damping", "0.02"},
+                             {"dt", "2e-4"},
+                             {"steps", "140000"},
+                             {"every", "100"}});
+  ASSERT_TRUE(run.finished()) << run.why();
+  double low = 0.0, high = told;
+  while (high - low > 1e-12) {
+    const double x = 0.5 * (low + high), load = load_of(std::fmax(x - 2 * kGap, 0.0), false);
+    (x + compliance * load / (kSide * kSide) < told ? low : high) = x;
+  }
+  double moved = 0.0;
+  for (const Row &r : run.rows("platen.csv"))
+    moved = std::fmax(moved, r.at("moved"));
+  std::printf("soft machine: film compressed by %.5f of %.5f um told, %.5f by hand\n", moved, told,
+              low);
+  EXPECT_LT(low, 0.9 * told);
+  EXPECT_NEAR(moved, low, 0.25 * speed); // the averaging window's way at most
+}

@@ -2,10 +2,11 @@
 // Requirement, formulas and tolerances: README.md of this folder.
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <gtest/gtest.h>
 
-#include "physics/weibull_strength.h"
+#include "physics/pre_cracks.h"
 #include "spheres.h"
 
 using namespace calendem;
@@ -28,7 +29,7 @@ Files chains_of(int bonds, int chains) {
 }
 
 // Every bond is stretched alike (v = rate x) up to a stress of `upto` x kMean in `steps` steps.
-CaseRun stretch(int bonds, int chains, double upto, int steps) {
+CaseRun stretch(int bonds, int chains, double upto, int steps, double pre_cracks = 0.0) {
   const double dt = 1e-4, rate = upto * kMean / E / (steps * dt);
   Files files = chains_of(bonds, chains);
   files["start.in"] += "unfix integrate\nvariable v atom " + number(rate) +
@@ -41,6 +42,7 @@ CaseRun stretch(int bonds, int chains, double upto, int steps) {
                   {"breakable", "yes"},
                   {"weibull", number(kModulus)},
                   {"seed", std::to_string(kSeed)},
+                  {"pre_cracks", number(pre_cracks)},
                   {"skin", "0.15"},
                   {"dt", number(dt)},
                   {"steps", std::to_string(steps)},
@@ -129,4 +131,22 @@ TEST(VerificationStrength, AChainIsAsStrongAsItsWeakestBond) {
     EXPECT_NEAR(fitted(strengths).modulus / kModulus, 1.0,
                 3.0 * 0.7797 / std::sqrt(double(chains)));
   }
+}
+
+TEST(VerificationStrength, CrackedBondsBreakAtTheFirstLoadAndNoOther) {
+  const int bonds = 1000, steps = 100;
+  const double fraction = 0.2;
+  const CaseRun run = stretch(1, bonds, 0.2, steps, fraction); // sound ones need 0.26 kMean or more
+  std::set<std::pair<long, long>> expected, found;
+  for (int c = 1; c <= bonds; ++c)
+    if (pre_crack_factor(fraction, kSeed, c, c + bonds) < 1.0)
+      expected.insert({c, c + bonds});
+  double last = 0.0;
+  for (const Row &b : run.rows("breaks.csv")) {
+    found.insert({std::lround(b.at("tag_i")), std::lround(b.at("tag_j"))});
+    last = std::fmax(last, b.at("sigma_MPa"));
+  }
+  std::printf("pre-cracks: %zu of %d bonds, the last at %.3g MPa\n", found.size(), bonds, last);
+  EXPECT_EQ(found, expected) << run.why();
+  EXPECT_LT(last, 1e-3 * 0.2 * kMean / steps * 1.01); // the first step's stress
 }

@@ -36,17 +36,19 @@ double number(const nlohmann::json &j, const char *key, const std::string &file,
   if (j.contains(key) && j[key].is_number())
     return j[key].get<double>();
   mistakes.add(
-      0, fmt::format("{} has no number '{}'. Make the run again with this version.", file, key));
+      0, fmt::format("{} has no number '{}'. Run calendem collect on the folder with this version.",
+                     file, key));
   return 0.0;
 }
 
 void read_curve(const std::string &file, SimulatedRun &run, Mistakes &mistakes) {
   const auto table = CsvTable::parse(text_of(file, mistakes));
-  for (const char *column : {"stage", "displacement_um", "pressure_MPa", "porosity_total"})
+  for (const char *column :
+       {"stage", "displacement_shown_um", "pressure_shown_MPa", "porosity_total"})
     if (!table.has(column))
       return mistakes.add(0, fmt::format("{} has no column '{}'.", file, column));
   const auto stage = table.texts("stage");
-  const auto d = table.numbers("displacement_um"), p = table.numbers("pressure_MPa"),
+  const auto d = table.numbers("displacement_shown_um"), p = table.numbers("pressure_shown_MPa"),
              porosity = table.numbers("porosity_total");
   double sp = 0, sq = 0, spp = 0, spq = 0, n = 0;
   for (std::size_t k = 0; k < stage.size(); ++k) {
@@ -69,15 +71,15 @@ void read_summary(const std::string &folder, SimulatedRun &run, Mistakes &mistak
     return mistakes.add(0, fmt::format("{} is of a run that is not finished ({}). Go on with "
                                        "calendem run --resume.",
                                        folder, s.value("stopped_because", "?")));
-  run.max_pressure = number(s, "max_pressure_MPa", file, mistakes);
-  run.thickness_at_max = number(s, "thickness_at_max_um", file, mistakes);
-  run.thickness_after = number(s, "thickness_after_relaxation_um", file, mistakes);
+  run.max_pressure = number(s, "max_pressure_shown_MPa", file, mistakes);
+  run.thickness_at_max = number(s, "thickness_at_max_shown_um", file, mistakes);
+  run.thickness_after = number(s, "thickness_after_relaxation_shown_um", file, mistakes);
   run.porosity_initial = number(s, "porosity_initial", file, mistakes);
   run.porosity_at_max = number(s, "porosity_at_max", file, mistakes);
-  run.porosity_after = number(s, "porosity_after_relaxation", file, mistakes);
+  run.porosity_after = number(s, "porosity_after_relaxation_shown", file, mistakes);
   const double bodies = number(s, "bodies", file, mistakes);
   run.cracked_fraction = bodies > 0.0 ? number(s, "cracked_bodies", file, mistakes) / bodies : 0.0;
-  run.solid_column = run.thickness_at_max * (1.0 - run.porosity_at_max);
+  run.solid_column = number(s, "thickness_at_max_um", file, mistakes) * (1.0 - run.porosity_at_max);
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "run/collect.h"
+#include "physics/press_instruments.h"
 #include "run/energy.h"
 #include "spec/provenance.h"
 #include <algorithm>
@@ -20,6 +21,12 @@ const char *const kStageNames[] = {"hold", "compression", "dwell", "relaxation",
 constexpr double kImbalanceWindow = 0.5; // us
 // Rows are 0.1 us apart: the highest of them lies a little below the pressure that was met.
 constexpr double kTargetTolerance = 0.02;
+
+PressInstruments instruments_of(const Settings &s) { // MPa, um
+  return {s.number("effects.pressure_calibration.factor"),
+          s.number("effects.machine_compliance.um_per_MPa"),
+          s.number("effects.thickness_zero.offset_um")};
+}
 
 double total_porosity(const ElectrodeFacts &e, double gap) {
   return 1.0 - e.solid / (e.area * gap);
@@ -52,24 +59,30 @@ std::vector<double> imbalance(const std::vector<RawRow> &rows, double average) {
 }
 
 std::string curve(const std::vector<RawRow> &rows, const ElectrodeFacts &e,
-                  const UnionVolume &filled, double average) {
+                  const UnionVolume &filled, const Settings &settings) {
+  const double average = settings.number("numerics.average_us");
+  const PressInstruments press = instruments_of(settings);
   const std::vector<double> difference = imbalance(rows, average);
   std::string out =
       "time_us,stage,displacement_um,thickness_um,pressure_MPa,pressure_bottom_MPa,bonds_broken,"
       "broken_fraction,broken_tension,broken_bending,broken_shear,broken_torsion,porosity_total,"
       "porosity_macro,kinetic_to_strain,kinetic_fJ,strain_fJ,work_platen_fJ,work_bonds_lost_fJ,"
       "work_collector_fJ,pressure_difference,contact_elastic_fJ,cohesion_fJ,damped_fJ,"
-      "friction_fJ\n";
+      "friction_fJ,displacement_shown_um,thickness_shown_um,pressure_shown_MPa\n";
   for (size_t i = 0; i < rows.size(); ++i) {
     const RawRow &r = rows[i];
     out += fmt::format(
         "{:.6f},{},{:.6f},{:.6f},{:.6g},{:.6g},{:.0f},{:.6f},{:.0f},{:.0f},{:.0f},{:.0f},{:.6f},"
-        "{:.6f},{:.4g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.4g},{:.6g},{:.6g},{:.6g},{:.6g}\n",
+        "{:.6f},{:.4g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.4g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6f}"
+        ","
+        "{:.6f},{:.6g}\n",
         r.time, kStageNames[static_cast<int>(r.stage)], r.displacement, r.gap, r.p_top, r.p_bottom,
         r.broken, r.made > 0 ? r.broken / r.made : 0.0, r.tension, r.bending, r.shear, r.torsion,
         total_porosity(e, r.gap), 1.0 - filled.at(r.time) / (e.area * r.gap),
         r.strain > 0 ? r.kinetic / r.strain : 0.0, r.kinetic, r.strain, r.work_platen, r.work_lost,
-        r.work_collector, difference[i], r.contact_elastic, r.cohesion, r.damped, r.friction);
+        r.work_collector, difference[i], r.contact_elastic, r.cohesion, r.damped, r.friction,
+        press.displacement_shown(r.displacement, r.p_top), press.thickness_shown(r.gap),
+        press.pressure_shown(r.p_top));
   }
   return out;
 }
@@ -95,11 +108,12 @@ nlohmann::json quasi_static(const std::vector<RawRow> &rows, double average) {
 }
 
 std::string platen_stopped(const std::vector<RawRow> &rows, const Settings &s) {
-  double pressure = 0.0, gap = rows.front().gap, moved = 0.0;
+  double pressure = 0.0, gap = rows.front().gap, moved = 0.0; // as the press shows them
+  const PressInstruments press = instruments_of(s);
   for (const RawRow &r : rows) {
-    pressure = std::max(pressure, r.p_top);
-    gap = std::min(gap, r.gap);
-    moved = std::max(moved, r.displacement);
+    pressure = std::max(pressure, press.pressure_shown(r.p_top));
+    gap = std::min(gap, r.gap - press.compliance * r.p_top);
+    moved = std::max(moved, press.displacement_shown(r.displacement, r.p_top));
   }
   const std::string &control = s.text("platen.control");
   const std::string key =
@@ -182,7 +196,7 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   const double dt = rows.back().time / rows.back().step;
   const auto frames = write_series(folder, dt);
   const UnionVolume filled = union_volumes(folder, e, frames);
-  write_file(folder + "/curve.csv", curve(rows, e, filled, settings.number("numerics.average_us")));
+  write_file(folder + "/curve.csv", curve(rows, e, filled, settings));
   const auto [bodies, cracked] = write_bodies(folder, e, settings.text("electrode"), frames);
 
   const RawRow top = *std::max_element(
@@ -212,6 +226,11 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   s["cracked_criterion"] = "at least 8 % of its bonds broken and more than one fragment";
   s["quasi_static"] = quasi_static(rows, settings.number("numerics.average_us"));
   s["energy_fJ"] = energy_ledger(rows, top);
+  const PressInstruments press = instruments_of(settings);
+  s["max_pressure_shown_MPa"] = press.pressure_shown(top.p_top);
+  s["thickness_at_max_shown_um"] = press.thickness_shown(top.gap);
+  s["thickness_after_relaxation_shown_um"] = press.thickness_shown(gap);
+  s["porosity_after_relaxation_shown"] = total_porosity(e, press.thickness_shown(gap));
   if (facts.ranks > 0) {
     s["wall_clock_s"] = facts.wall_clock_s;
     s["ranks"] = facts.ranks;

@@ -184,6 +184,7 @@ bool prepare(const Settings &settings, const ElectrodeFacts &electrode, const Ru
 } // namespace
 
 void run_case(const Settings &settings, RunOptions o) {
+  o.liggghts = fs::absolute(o.liggghts).lexically_normal().string(); // it runs in the run's folder
   const ElectrodeFacts electrode = read_electrode(settings.text("electrode"));
   check_case(settings, electrode, o);
   const std::string hash = case_hash(settings, o.liggghts);

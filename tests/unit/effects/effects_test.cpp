@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The table of effects against the case's keys and the files it names.
+#include "effects/effects.h"
+#include "spec/case.h"
+#include "spec/messages.h"
+#include <algorithm>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <set>
+
+namespace {
+
+using namespace calendem;
+namespace fs = std::filesystem;
+
+const fs::path kSource = CALENDEM_SOURCE_DIR;
+
+const Key *key_named(const std::string &name) {
+  const auto at = std::find_if(case_keys().begin(), case_keys().end(),
+                               [&](const Key &k) { return k.name == name; });
+  return at == case_keys().end() ? nullptr : &*at;
+}
+
+TEST(Effects, NamesAreUnique) {
+  std::set<std::string> names;
+  for (const Effect &e : effects())
+    EXPECT_TRUE(names.insert(e.name).second) << e.name;
+  EXPECT_GE(names.size(), 6u);
+}
+
+TEST(Effects, OffIsTheDefaultOfTheBaseModel) {
+  for (const Effect &e : effects())
+    for (const std::string &name : e.amplitude.keys) {
+      const Key *key = key_named(name);
+      ASSERT_TRUE(key) << e.name << ": " << name;
+      EXPECT_EQ(key->fallback, e.amplitude.off) << name;
+    }
+}
+
+TEST(Effects, RangesAreAllowedByTheCase) {
+  for (const Effect &e : effects()) {
+    const EffectParameter &a = e.amplitude;
+    EXPECT_LT(a.low, a.high) << e.name;
+    EXPECT_TRUE(a.prior == Prior::Uniform || a.low > 0.0) << e.name;
+    for (const std::string &name : a.keys)
+      for (const double v : {a.low, a.high})
+        EXPECT_FALSE(wrong_number(*key_named(name), v)) << e.name;
+  }
+}
+
+TEST(Effects, LawAndVerificationAreThere) {
+  for (const Effect &e : effects()) {
+    EXPECT_TRUE(fs::exists(kSource / "src_plugin/physics" / e.law)) << e.name;
+    const bool bare = e.verification.find('/') == std::string::npos;
+    EXPECT_TRUE(fs::exists(kSource / "tests" / (bare ? "verification" : "") / e.verification))
+        << e.name;
+    EXPECT_FALSE(e.moves.empty() || e.source.empty() || e.what.empty()) << e.name;
+  }
+}
+
+TEST(Effects, AnUnknownNameIsToldTheClosest) {
+  try {
+    find_effect("frictoin");
+    FAIL();
+  } catch (const Failure &e) {
+    EXPECT_NE(std::string(e.what()).find("Did you mean 'friction'"), std::string::npos);
+  }
+}
+
+} // namespace

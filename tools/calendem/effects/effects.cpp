@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "effects/effects.h"
+#include "spec/key.h"
+#include "spec/messages.h"
+#include <algorithm>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace calendem {
+
+const std::vector<Effect> &effects() {
+  static const std::vector<Effect> table = {
+      {"friction",
+       "contact",
+       "Coulomb friction between particles at a physical level",
+       {{"material.am.friction", "material.cbd.friction"},
+        "0.001",
+        0.05,
+        0.6,
+        Prior::Uniform,
+        false},
+       "more pressure from 1 to 30 MPa on, more hysteresis, a gradient through the thickness",
+       "public calendering decks use 0.001; 0.3-0.6 is usual for dry mineral grains",
+       "hertz_contact.h",
+       "collision"},
+      {"weibull_strength",
+       "bond",
+       "strength of bonds scattered by a Weibull law of the same mean",
+       {{"bond.weibull_modulus"}, "0", 1.5, 10, Prior::LogUniform, true},
+       "breaks begin earlier and spread over more of the curve; porosity hardly changes",
+       "Weibull 1951; a modulus of 3-8 is an unsourced prior for NMC, widened here",
+       "weibull_strength.h",
+       "strength"},
+      {"pre_cracks",
+       "bond",
+       "a fraction of the bonds has no strength from the start",
+       {{"effects.pre_cracks.fraction"}, "0", 0.02, 0.5, Prior::LogUniform, false},
+       "weaker bodies from the first load on: lower pressure at a displacement, more cracked "
+       "bodies",
+       "random bond percolation; intrinsic pores and cracks of NMC in tomograms",
+       "pre_cracks.h",
+       "strength"},
+      {"machine_compliance",
+       "boundary",
+       "frame and rolls give way in proportion to the pressure",
+       {{"effects.machine_compliance.um_per_MPa"}, "0", 0.005, 0.2, Prior::LogUniform, false},
+       "displacement shown grows with pressure on both ways; thickness after relaxation does not",
+       "Oliver & Pharr 1992, eq. 1",
+       "press_instruments.h",
+       "platen"},
+      {"pressure_calibration",
+       "measurement",
+       "the pressure shown is the pressure times a factor",
+       {{"effects.pressure_calibration.factor"}, "1", 0.6, 1.6, Prior::LogUniform, false},
+       "stretches the pressure axis of every curve, and nothing else",
+       "pressures converted from a roll gap: 10-25 % systematic is plausible; unsourced, widened "
+       "here",
+       "press_instruments.h",
+       "unit/physics"},
+      {"thickness_zero",
+       "measurement",
+       "the thickness shown is off by a constant",
+       {{"effects.thickness_zero.offset_um"}, "0", -6, 6, Prior::Uniform, false},
+       "the same shift of every thickness and its porosity, at any pressure",
+       "micrometre zero, foil thickness; table 1 states 0.8 um between samples",
+       "press_instruments.h",
+       "unit/physics"},
+  };
+  return table;
+}
+
+const Effect &find_effect(const std::string &name) {
+  const auto at = std::find_if(effects().begin(), effects().end(),
+                               [&](const Effect &e) { return e.name == name; });
+  if (at != effects().end())
+    return *at;
+  std::vector<std::string> names;
+  for (const Effect &e : effects())
+    names.push_back(e.name);
+  throw Failure(kBadInput, fmt::format("there is no effect '{}'. Did you mean '{}'? Known are {}.",
+                                       name, closest(name, names), fmt::join(names, ", ")));
+}
+
+nlohmann::json to_json(const Effect &e) {
+  const EffectParameter &a = e.amplitude;
+  return {{"name", e.name},
+          {"layer", e.layer},
+          {"what", e.what},
+          {"keys", a.keys},
+          {"off", a.off},
+          {"low", a.low},
+          {"high", a.high},
+          {"prior", a.prior == Prior::Uniform ? "uniform" : "log-uniform"},
+          {"stronger_when", a.falling ? "smaller" : "larger"},
+          {"moves", e.moves},
+          {"source", e.source},
+          {"law", "src_plugin/physics/" + e.law},
+          {"verification", e.verification}};
+}
+
+} // namespace calendem
