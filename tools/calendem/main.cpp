@@ -7,6 +7,7 @@
 #include "report/verb.h"
 #include "run/collect_verb.h"
 #include "run/verb.h"
+#include "slurry/verb.h"
 #include "spec/messages.h"
 #include "structure/measure_verb.h"
 #include "study/verb.h"
@@ -19,6 +20,7 @@ int main(int argc, char **argv) {
   CLI::App app{"Calendering of battery electrodes: pack an electrode, press it, report."};
   app.require_subcommand(1);
   app.set_version_flag("--version", CALENDEM_VERSION);
+  calendem::add_dry_verb(app);
   calendem::add_pack_verb(app);
   calendem::add_run_verb(app);
   calendem::add_collect_verb(app);

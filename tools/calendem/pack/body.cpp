@@ -181,13 +181,18 @@ Body make_body(const Recipe &recipe, int count, Random &random) {
   });
 }
 
-std::vector<Body> make_bodies(const Recipe &recipe) {
+std::vector<int> draw_counts(const Recipe &recipe) {
   const double volume = recipe.area() * recipe.am_column();
-  Random sizes(recipe.seed, 1), shapes(recipe.seed, 2);
+  Random sizes(recipe.seed, 1);
   const std::vector<double> diameters = draw_diameters(recipe, volume, sizes);
   const int total = static_cast<int>(std::lround(volume / std::pow(recipe.lattice, 3)));
+  return primary_counts(diameters, recipe.lattice, total);
+}
+
+std::vector<Body> make_bodies(const Recipe &recipe) {
+  Random shapes(recipe.seed, 2);
   std::vector<Body> bodies;
-  for (int count : primary_counts(diameters, recipe.lattice, total))
+  for (int count : draw_counts(recipe))
     bodies.push_back(make_body(recipe, count, shapes));
   return bodies;
 }

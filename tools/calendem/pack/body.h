@@ -78,6 +78,9 @@ Body make_body(const Recipe &recipe, int count, Random &random, const DrawHull &
 /// The same with a generated Shape of the recipe's irregularity.
 Body make_body(const Recipe &recipe, int count, Random &random);
 
+/// Primaries per body by the recipe's law of sizes, largest first.
+std::vector<int> draw_counts(const Recipe &recipe);
+
 /// Bodies whose primaries add up to round(A * am_column / s^3), largest first. Bodies below about
 /// 3 um are made of few primaries (1-7), those below 1 s^3 of one.
 std::vector<Body> make_bodies(const Recipe &recipe);

@@ -6,7 +6,9 @@
 #include "spec/provenance.h"
 #include <cmath>
 #include <fmt/format.h>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace calendem {
 namespace {
@@ -119,6 +121,20 @@ void add_state(nlohmann::json &j, const FinishedPacking &f) {
 }
 
 } // namespace
+
+LastRow last_row(const std::string &file) {
+  std::ifstream in(file);
+  std::string line, last;
+  while (std::getline(in, line))
+    if (!line.empty() && line.find_first_of("0123456789") == 0)
+      last = line;
+  LastRow row;
+  double step = 0;
+  char comma = 0;
+  std::istringstream(last) >> step >> comma >> row.gap_um >> comma >> row.pressure_MPa >> comma >>
+      row.kinetic_fJ;
+  return row;
+}
 
 nlohmann::json describe(const FinishedPacking &f) {
   nlohmann::json j;

@@ -9,10 +9,11 @@
 
 namespace calendem {
 
-/// The last row of packing.csv.
+/// The last row of packing.csv, and of other tables with its columns: step, gap, pressure, kinetic.
 struct LastRow {
   double gap_um = 0.0, pressure_MPa = 0.0, kinetic_fJ = 0.0;
 };
+LastRow last_row(const std::string &file);
 
 struct FinishedPacking {
   const Recipe &recipe;

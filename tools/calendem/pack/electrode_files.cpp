@@ -19,12 +19,13 @@ std::string array(const char *attributes, const std::vector<Particle> &particles
 
 } // namespace
 
-std::string data_file(const Recipe &recipe, const std::vector<Particle> &particles, double height) {
+std::string data_file(const Recipe &recipe, const std::vector<Particle> &particles, double height,
+                      const std::string &heading) {
   std::string out =
-      fmt::format("Electrode made by calendem pack; micro units: id type diameter density x y z\n\n"
+      fmt::format("{}; micro units: id type diameter density x y z\n\n"
                   "{} atoms\n4 atom types\n\n0 {} xlo xhi\n0 {} ylo yhi\n0 {} zlo zhi\n\n"
                   "Atoms\n\n",
-                  particles.size(), recipe.cell_x, recipe.cell_y, height);
+                  heading, particles.size(), recipe.cell_x, recipe.cell_y, height);
   for (const Particle &p : particles)
     out += fmt::format("{} {} {} {:.12g} {:.12g} {:.12g} {:.12g}\n", p.tag, p.type, p.diameter,
                        p.density, p.x.x(), p.x.y(), p.x.z());
@@ -107,6 +108,11 @@ void read_positions(const std::string &dump, std::vector<Particle> &particles) {
     if (!(row >> tag >> x.x() >> x.y() >> x.z()) || tag < 1 ||
         tag > static_cast<int>(particles.size()))
       continue;
+    if (seen[tag - 1])
+      throw Failure(kSimulationFailed,
+                    fmt::format("'{}' holds particle {} twice: the simulation doubled it, or two "
+                                "wrote the file at once",
+                                dump, tag));
     particles[tag - 1].x = x;
     seen[tag - 1] = true;
   }

@@ -11,7 +11,8 @@
 namespace calendem {
 
 /// LIGGGHTS data file, atom_style granular, 4 atom types; box z from 0 to `height`.
-std::string data_file(const Recipe &recipe, const std::vector<Particle> &particles, double height);
+std::string data_file(const Recipe &recipe, const std::vector<Particle> &particles, double height,
+                      const std::string &heading = "Electrode made by calendem pack");
 std::string body_map(const std::vector<Particle> &particles);
 /// Variables that the input scripts include.
 std::string script_variables(const Recipe &recipe, double thickness);
@@ -21,7 +22,8 @@ std::string bodies_table(const std::vector<Body> &bodies, const std::vector<Pose
 /// VTK polydata (text): points with id, type, body, radius.
 std::string picture_file(const std::vector<Particle> &particles);
 
-/// Takes positions from a LIGGGHTS dump with columns id x y z; throws Failure(3) if any is missing.
+/// Takes positions from a LIGGGHTS dump with columns id x y z; throws Failure(3) if any is
+/// missing or there twice.
 void read_positions(const std::string &dump, std::vector<Particle> &particles);
 
 } // namespace calendem

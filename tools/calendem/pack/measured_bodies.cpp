@@ -76,15 +76,20 @@ Body make_body(const Recipe &recipe, const ShapeLibrary &library, int count, Ran
   });
 }
 
-std::vector<Body> make_bodies(const Recipe &recipe, const ShapeLibrary &library) {
+std::vector<int> draw_counts(const Recipe &recipe, const ShapeLibrary &library) {
   const double volume = recipe.area() * recipe.am_column();
-  Random sizes(recipe.seed, 1), shapes(recipe.seed, 2);
+  Random sizes(recipe.seed, 1);
   const std::vector<double> diameters = recipe.shapes.measured_sizes
                                             ? measured_diameters(recipe, library, volume, sizes)
                                             : draw_diameters(recipe, volume, sizes);
   const int total = static_cast<int>(std::lround(volume / std::pow(recipe.lattice, 3)));
+  return primary_counts(diameters, recipe.lattice, total);
+}
+
+std::vector<Body> make_bodies(const Recipe &recipe, const ShapeLibrary &library) {
+  Random shapes(recipe.seed, 2);
   std::vector<Body> bodies;
-  for (int count : primary_counts(diameters, recipe.lattice, total))
+  for (int count : draw_counts(recipe, library))
     bodies.push_back(make_body(recipe, library, count, shapes));
   return bodies;
 }

@@ -23,6 +23,10 @@ double largest_diameter(const Recipe &recipe, const ShapeLibrary &library);
 /// random), scaled to them and filled.
 Body make_body(const Recipe &recipe, const ShapeLibrary &library, int count, Random &random);
 
+/// Primaries per body, largest first: sizes from the library (each shape with its weight) or from
+/// the recipe's law. Throws Failure(2) if none fits.
+std::vector<int> draw_counts(const Recipe &recipe, const ShapeLibrary &library);
+
 /// Bodies whose primaries add up to round(A * am_column / s^3), largest first; sizes from the
 /// library (each shape with its weight) or from the recipe's law. Throws Failure(2) if none fits.
 std::vector<Body> make_bodies(const Recipe &recipe, const ShapeLibrary &library);

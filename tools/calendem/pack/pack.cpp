@@ -11,29 +11,13 @@
 #include <chrono>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <unistd.h>
 
 namespace calendem {
 namespace fs = std::filesystem;
 namespace {
-
-LastRow last_row(const std::string &file) {
-  std::ifstream in(file);
-  std::string line, last;
-  while (std::getline(in, line))
-    if (!line.empty() && line.find_first_of("0123456789") == 0)
-      last = line;
-  LastRow row;
-  double step = 0;
-  char comma = 0;
-  std::istringstream(last) >> step >> comma >> row.gap_um >> comma >> row.pressure_MPa >> comma >>
-      row.kinetic_fJ;
-  return row;
-}
 
 void show_progress(const PackOptions &o, const Recipe &r, std::string &shown) {
   const LastRow row = last_row(o.folder + "/packing.csv");
@@ -80,12 +64,6 @@ std::string identity_of(const Recipe &recipe, const std::string &liggghts) {
   return hash_of_text(text + hash_of_shapes(recipe) + hash_of_structure(recipe.structure));
 }
 
-bool holds_already(const std::string &summary, const std::string &identity) {
-  std::ifstream in(summary);
-  const nlohmann::json old = nlohmann::json::parse(in, nullptr, false);
-  return old.is_object() && old.value("identity", "") == identity;
-}
-
 void check_machine(const Recipe &r, const PackOptions &o) {
   Mistakes mistakes("pack");
   const int most = most_ranks(r.cell_x, r.cell_y, std::max(r.primary_diameter, r.cbd_diameter));
@@ -130,7 +108,7 @@ void pack_electrode(const Recipe &as_given, PackOptions o) {
   o.liggghts = fs::absolute(o.liggghts).lexically_normal().string();
   const std::string summary = o.folder + "/electrode.json",
                     identity = identity_of(as_given, o.liggghts);
-  if (holds_already(summary, identity)) {
+  if (made_of(summary, identity)) {
     fmt::print("pack: {} already holds this electrode\n", o.folder);
     return;
   }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 namespace calendem {
@@ -24,6 +25,12 @@ std::string hash_of_file(const std::string &file) {
   if (!in)
     return "";
   return hash_of_text({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+}
+
+bool made_of(const std::string &json_file, const std::string &identity) {
+  std::ifstream in(json_file);
+  const nlohmann::json old = nlohmann::json::parse(in, nullptr, false);
+  return old.is_object() && old.value("identity", "") == identity;
 }
 
 std::string hash_of_folder(const std::string &folder) {

@@ -14,6 +14,9 @@ std::string hash_of_text(const std::string &text);
 /// Of all files below `folder`, by name and bytes, in the order of their names.
 std::string hash_of_folder(const std::string &folder);
 
+/// True if that JSON file exists and its "identity" is this one.
+bool made_of(const std::string &json_file, const std::string &identity);
+
 std::string version();
 
 /// Folder with the input scripts: beside the installed program, else the source tree.

@@ -123,7 +123,8 @@ void check_cell(const Settings &s, const Recipe &r, Mistakes &mistakes) {
                           r.min_diameter, r.largest_body()));
 }
 
-// The [shapes] section: paths are relative to the recipe.
+} // namespace
+
 ShapeSource read_shapes(const Settings &s, const std::string &file, Mistakes &mistakes) {
   namespace fs = std::filesystem;
   ShapeSource out;
@@ -148,8 +149,6 @@ ShapeSource read_shapes(const Settings &s, const std::string &file, Mistakes &mi
                              out.library));
   return out;
 }
-
-} // namespace
 
 Recipe recipe_of(const Settings &s) {
   Recipe r;

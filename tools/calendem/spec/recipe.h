@@ -50,6 +50,9 @@ double neighbour_cut_off(double diameter);
 /// Ranks that a cell can be shared by, each part at least a cut-off wide (z is not split).
 int most_ranks(double lx, double ly, double diameter);
 
+/// The [shapes] section; paths are relative to `file`.
+ShapeSource read_shapes(const Settings &settings, const std::string &file, Mistakes &mistakes);
+
 /// The recipe's numbers, without shapes and structure; what they contradict.
 Recipe recipe_of(const Settings &settings);
 void check_recipe(const Settings &settings, const Recipe &recipe, Mistakes &mistakes);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "validate/verb.h"
 #include "pack/given_recipe.h"
+#include "slurry/film_recipe.h"
 #include "spec/case.h"
 #include "spec/experiment.h"
 #include "spec/toml_file.h"
@@ -13,7 +14,7 @@
 namespace calendem {
 namespace {
 
-enum class Kind { Recipe, Case, Tomogram, Experiment, Study };
+enum class Kind { Recipe, Case, Tomogram, Film, Experiment, Study };
 
 int keys_known(const toml::table &table, const std::string &prefix, const std::vector<Key> &keys) {
   int known = 0;
@@ -47,6 +48,7 @@ Kind kind_of(const std::string &file) {
   };
   consider(Kind::Case, case_keys());
   consider(Kind::Tomogram, tomogram_keys());
+  consider(Kind::Film, film_keys());
   return best;
 }
 
@@ -62,6 +64,9 @@ std::string name_after_check(const std::string &file) {
   case Kind::Tomogram:
     read_tomogram_spec(file);
     return "tomogram";
+  case Kind::Film:
+    read_film_recipe(file);
+    return "recipe of a film";
   default:
     read_input(read_recipe(file));
     return "recipe";
@@ -91,7 +96,7 @@ void add_validate_verb(CLI::App &app) {
   verb->footer(
       list_of_experiment_keys() +
       "Keys of the others: calendem pack --help, calendem run --help, calendem tomogram --help,\n"
-      "calendem study --help");
+      "calendem dry --help, calendem study --help");
   verb->callback([files] { validate(*files); });
 }
 
