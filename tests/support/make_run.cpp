@@ -11,6 +11,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "run/fracture.h"
+
 namespace calendem::tests {
 namespace {
 
@@ -165,18 +167,56 @@ void write_summary(const fs::path &file, const Film &film, const MadeRun &option
   std::ofstream(file) << summary.dump(1) << '\n';
 }
 
-void write_side_files(const fs::path &directory, const Film &film, const MadeRun &options) {
+/// When the bond breaks: at the first row that has seen its pressure.
+double break_time(const Bond &bond, const std::vector<Row> &rows) {
+  const auto row =
+      std::find_if(rows.begin(), rows.end(), [&](const Row &r) { return bond.breaks_at < r.seen; });
+  return row == rows.end() ? HUGE_VAL : row->time;
+}
+
+/// bodies.csv, cracks.csv, thresholds.csv as `calendem run` would write them.
+void write_fracture(const fs::path &directory, const Film &film, const std::vector<Row> &rows,
+                    const MadeRun &options) {
+  std::vector<BodyBonds> bodies(options.bodies);
+  std::vector<int> place;
+  std::vector<double> height(options.bodies, 0.0);
+  for (const Sphere &s : film.spheres) {
+    place.push_back(s.body > 0 ? bodies[s.body - 1].primaries++ : 0);
+    if (s.body > 0)
+      height[s.body - 1] += s.z;
+  }
+  for (const Bond &b : film.bonds)
+    bodies[film.spheres[b.i - 1].body - 1].bonds.push_back(
+        {place[b.i - 1], place[b.j - 1], break_time(b, rows)});
+  std::ofstream out(directory / "bodies.csv");
+  out << "body,primaries,bonds,broken,broken_fraction,fragments,largest_fragment,shape_change,"
+         "depth_um,cracked\n";
+  for (int k = 0; k < options.bodies; ++k) {
+    const FractureState s = state_at(bodies[k], rows.back().time);
+    out << k + 1 << ',' << bodies[k].primaries << ',' << s.bonds << ',' << s.broken << ','
+        << s.broken_fraction() << ',' << s.fragments << ',' << s.largest << ",0,"
+        << kThickness - height[k] / bodies[k].primaries << ',' << is_cracked(s) << '\n';
+  }
+  std::vector<MomentOfRun> moments;
+  for (const Row &r : rows)
+    moments.push_back({r.time, r.pressure, r.stage});
+  std::ofstream(directory / "cracks.csv") << cracks_table(bodies, moments, kSpacing * kSpacing);
+  std::ofstream(directory / "thresholds.csv")
+      << thresholds_table(test_thresholds(bodies, rows.back().time));
+}
+
+void write_side_files(const fs::path &directory, const Film &film, const std::vector<Row> &rows,
+                      const MadeRun &options) {
   static const char *const kModes[] = {"", "tension", "bending", "shear", "torsion"};
   std::ofstream breaks(directory / "breaks.csv");
   breaks << "time_us,tag_i,tag_j,body,mode,sigma_MPa,tau_MPa,x_um,y_um,z_um,pressure_MPa\n";
   for (const auto &bond : film.bonds)
-    if (bond.breaks_at < options.max_pressure_MPa) {
+    if (const double time = break_time(bond, rows); std::isfinite(time)) {
       const Sphere &s = film.spheres[static_cast<std::size_t>(bond.i) - 1];
-      breaks << "0," << bond.i << ',' << bond.j << ',' << s.body << ',' << kModes[bond.mode]
+      breaks << time << ',' << bond.i << ',' << bond.j << ',' << s.body << ',' << kModes[bond.mode]
              << ",500,100," << s.x << ',' << s.y << ',' << s.z << ',' << bond.breaks_at << '\n';
     }
-  std::ofstream(directory / "bodies.csv")
-      << "body,bonds,broken,fragments,largest_fragment,shape_change,centre_depth_um,cracked\n";
+  write_fracture(directory, film, rows, options);
   std::ofstream(directory / "case.toml") << "electrode = \"made up\"\n";
   std::ofstream(directory / "electrode.json")
       << nlohmann::json({{"thickness_um", kThickness},
@@ -306,7 +346,7 @@ void write_frames(const fs::path &vtk, const Film &film, const std::vector<Row> 
                   const MadeRun &options) {
   fs::create_directories(vtk);
   std::vector<Row> frames;
-  const std::size_t every = std::max<std::size_t>(1, rows.size() / 8);
+  const std::size_t every = std::max<std::size_t>(1, rows.size() / 24);
   for (std::size_t i = 0; i < rows.size(); i += every)
     frames.push_back(rows[i]);
   frames.back() = rows.back();
@@ -328,7 +368,7 @@ void make_run(const fs::path &directory, const MadeRun &options) {
   const Film film = make_film(options);
   const auto rows = make_rows(options);
   write_curve(directory / "curve.csv", film, rows);
-  write_side_files(directory, film, options);
+  write_side_files(directory, film, rows, options);
   if (options.finished)
     write_summary(directory / "summary.json", film, options);
   if (options.frames)

@@ -35,6 +35,14 @@ case $case in
     after=$(number porosity_after_relaxation "$work/run/summary.json")
     holds "$after < $before" "porosity $before -> $after did not fall"
     [ "$(rows "$work/run/breaks.csv" | wc -l)" -gt 0 ] || fail "no bond broke"
+    # cracks.csv ends as bodies.csv does, with a face of 1.28 x 1.28 um for every broken bond
+    awk -F, -v file="$work/run/cracks.csv" 'NR > 1 { broken += $4; cracked += $10; apart += $6 > 1; all += $3 > 0 }
+      END { while ((getline line < file) > 0) last = line
+            split(last, c, ","); d = c[9] - broken * 1.28 * 1.28
+            exit !(c[4] == all && c[5] == apart && c[6] == cracked && d * d < 1e-6 * c[9] * c[9] && c[9] > 0) }' \
+      "$work/run/bodies.csv" || fail "cracks.csv does not end as bodies.csv does"
+    awk -F, 'NR > 1 && $2 + $3 + $4 + $5 != n { if (n) exit 1; n = $2 + $3 + $4 + $5 } END { exit !(NR == 17 && n > 0) }' \
+      "$work/run/thresholds.csv" || fail "thresholds.csv does not count every body at each threshold"
     for f in curve.csv bodies.csv case.toml vtk/particles.pvd vtk/bonds.pvd vtk/platen.pvd; do
       [ -s "$work/run/$f" ] || fail "$f is missing"
     done ;;
@@ -45,7 +53,7 @@ case $case in
     cmp <(rows "$work/run/curve_raw.csv") <(rows "$work/split/curve_raw.csv") || fail "curves differ"
     cmp "$work/run/breaks.csv" "$work/split/breaks.csv" || fail "break logs differ"
     "$bin/calendem" collect "$work/split" # as `calendem run` does at its end
-    for f in curve.csv bodies.csv vtk/bonds.pvd; do
+    for f in curve.csv bodies.csv cracks.csv thresholds.csv vtk/bonds.pvd; do
       cmp "$work/run/$f" "$work/split/$f" || fail "$f of collect differs from that of run"
     done ;;
   killed_and_resumed) # kill -9 in mid-run, resume: the uninterrupted run's bytes

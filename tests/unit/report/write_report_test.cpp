@@ -73,15 +73,17 @@ TEST_F(WriteReport, PageIsSelfContained) {
   const std::string plain = without_scripts(page);
   for (const char *outside : {"http://", "https://", "src=", "@import", "url(h", "{{"})
     EXPECT_EQ(plain.find(outside), std::string::npos) << outside;
+  const auto json = twin("run/report.json");
   std::size_t pictures = 0;
   for (auto at = page.find("data:image/png"); at != std::string::npos;
        at = page.find("data:image/png", at + 1))
     ++pictures;
-  EXPECT_EQ(pictures, 6u);
-  const auto json = twin("run/report.json");
+  const std::size_t stages = 5; // the paper's pressures, all below 150 MPa
+  EXPECT_EQ(pictures, 6u + 2 * stages + 1 + 2 * stages);
   EXPECT_EQ(json["status"], "finished");
-  EXPECT_EQ(json["charts"].size(), 7u);
+  EXPECT_EQ(json["charts"].size(), 13u);
   EXPECT_EQ(json["runs"][0]["pictures"].size(), 6u);
+  EXPECT_EQ(json["runs"][0]["stages"].size(), 2 * stages);
   EXPECT_NEAR(json["runs"][0]["headline"][0]["value"].get<double>(), 150, 1);
   EXPECT_EQ(json["runs"][0]["files"][0]["sha256"].get<std::string>().size(), 64u);
 }

@@ -3,69 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <sstream>
 
-#include "report/raster.h"
+#include "report/scene.h"
 
 namespace calendem::report {
 namespace {
 
-constexpr double kAzimuth = 28, kElevation = 14; // degrees
-constexpr double kTallestPicture = 620;          // pixels
+constexpr double kTallestPicture = 620; // pixels
 constexpr double kWidestPicture = 420;
 constexpr double kIntactRadius = 0.13, kBrokenRadius = 0.24; // um, as drawn
-constexpr Colour kCbd{96, 96, 96}, kIntact{150, 172, 200}, kBroken{205, 25, 35};
-
-Colour from_hue(double hue, double saturation, double value) {
-  Colour colour{};
-  for (int k = 0; k < 3; ++k) {
-    const double place = std::fmod(hue * 6 + (k == 0 ? 5 : k == 1 ? 3 : 1), 6.0);
-    const double dip = std::max(0.0, std::min({place, 4 - place, 1.0}));
-    colour[k] = static_cast<std::uint8_t>(255 * value * (1 - saturation * dip));
-  }
-  return colour;
-}
-
-/// Hues a golden angle apart, with changing brightness: neighbours in number differ most.
-Colour colour_of(int body) {
-  if (body <= 0)
-    return kCbd;
-  return from_hue(std::fmod(body * 0.61803398875, 1.0), body % 2 ? 0.50 : 0.68,
-                  body % 3 ? 0.95 : 0.78);
-}
-
-std::string outline_of(const Camera &camera, const std::vector<Point> &corners) {
-  std::ostringstream points;
-  for (const auto &corner : corners) {
-    const Point p = camera.project(corner);
-    char text[40];
-    std::snprintf(text, sizeof text, "%.1f,%.1f ", p[0], p[1]);
-    points << text;
-  }
-  return points.str();
-}
-
-/// Camera that shows the first frame whole; `box` is what that frame holds.
-Camera camera_for(const Box &box) {
-  constexpr double kMargin = 1.2; // um: the spheres' radius and some air
-  Camera camera(kAzimuth, kElevation);
-  camera.frame(box.low, box.high, kMargin, 100.0);
-  const double wide = camera.width() / 100.0, tall = camera.height() / 100.0;
-  camera.frame(box.low, box.high, kMargin, std::min(kTallestPicture / tall, kWidestPicture / wide));
-  return camera;
-}
-
-int scale_bar(double pixels_per_um) {
-  for (const int length : {50, 20, 10, 5, 2})
-    if (length * pixels_per_um <= 110)
-      return length;
-  return 1;
-}
-
-std::string png_of(const Raster &raster, const Camera &camera) {
-  return png_base64(raster.pixels(), camera.width(), camera.height());
-}
+constexpr Colour kIntact{150, 172, 200}, kBroken{205, 25, 35};
 
 std::string draw_electrode(const ParticleFrame &frame, const Camera &camera) {
   Raster raster(camera);
@@ -93,37 +40,6 @@ std::string draw_bonds(const BondFrame &frame, const Camera &camera, double long
   return png_of(raster, camera);
 }
 
-std::size_t row_near(const Curve &curve, double time_us) {
-  const Column &time = curve["time_us"];
-  std::size_t nearest = 0;
-  for (std::size_t i = 1; i < time.size(); ++i)
-    if (std::abs(time[i] - time_us) < std::abs(time[nearest] - time_us))
-      nearest = i;
-  return nearest;
-}
-
-void add_state(const Curve &curve, Picture &picture) {
-  const std::size_t nearest = row_near(curve, picture.time_us);
-  picture.pressure_MPa = curve["pressure_MPa"][nearest];
-  picture.broken_fraction = curve["broken_fraction"][nearest];
-}
-
-Picture framed(const Moment &moment, const char *subject, const FrameFile &source,
-               const Camera &camera, const PlatenFrame &platen) {
-  Picture picture;
-  picture.moment = moment.name;
-  picture.subject = subject;
-  picture.time_us = source.time_us;
-  picture.file = source.path;
-  picture.width = camera.width();
-  picture.height = camera.height();
-  picture.pixels_per_um = camera.scale();
-  picture.scale_bar_um = scale_bar(camera.scale());
-  for (const auto &outline : platen.outlines)
-    picture.outlines.push_back(outline_of(camera, outline));
-  return picture;
-}
-
 } // namespace
 
 std::vector<Moment> moments_of(const Run &run) {
@@ -148,16 +64,10 @@ std::vector<Picture> draw_pictures(Run &run) {
   std::vector<Picture> pictures;
   if (run.particles.empty())
     return pictures;
-  Box box;
-  for (const auto &centre : read_particles(run.particles.front().path, run.notes).centre)
-    box.include(centre);
+  const Box box = box_of(run);
   if (box.low[0] > box.high[0])
     return pictures;
-  if (!run.platen.empty())
-    for (const auto &outline : read_platen(run.platen.front().path, run.notes).outlines)
-      for (const auto &corner : outline)
-        box.include(corner);
-  const Camera camera = camera_for(box);
+  const Camera camera = camera_for(box, kTallestPicture, kWidestPicture);
   const double longest = 0.5 * std::min(box.high[0] - box.low[0], box.high[1] - box.low[1]);
   for (const auto &moment : moments_of(run)) {
     PlatenFrame platen;

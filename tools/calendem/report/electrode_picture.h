@@ -28,7 +28,7 @@ struct Picture {
 };
 
 struct Moment {
-  const char *name;
+  std::string name;
   double time_us;
 };
 

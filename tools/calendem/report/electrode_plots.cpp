@@ -5,6 +5,7 @@ namespace calendem::report {
 
 Chart sphericities(const Run &run, bool single) {
   Chart chart;
+  chart.id = "shape";
   chart.title = single ? "Shape of the bodies" : "Shape of the bodies: " + run.name;
   chart.x_label = "Sphericity";
   chart.y_label = "Bodies";

@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <fstream>
 #include <iterator>
-#include <map>
 
 #include "report/base64.h"
 #include "report/electrode_picture.h"
+#include "report/wholes.h"
 #include "spec/csv_table.h"
 
 namespace calendem::report {
@@ -41,38 +41,6 @@ struct Frames {
   Moment moment;
   ParticleFrame particles;
   BondFrame bonds;
-};
-
-/// Puts the pieces of bodies that the periodic faces cut back together, around each body's centre.
-class Wholes {
-public:
-  Wholes(const ParticleFrame &frame, const std::array<double, 2> &period) : period_(period) {
-    std::map<int, std::array<double, 4>> sums; // cosines and sines of x and y as angles
-    for (std::size_t i = 0; i < frame.centre.size(); ++i)
-      for (int k = 0; k < 2; ++k) {
-        const double angle = kTurn * frame.centre[i][k] / period_[k];
-        sums[frame.body[i]][k] += std::cos(angle);
-        sums[frame.body[i]][2 + k] += std::sin(angle);
-      }
-    for (const auto &[body, s] : sums)
-      for (int k = 0; k < 2; ++k)
-        centre_[body][k] = period_[k] / kTurn * std::atan2(s[2 + k], s[k]);
-  }
-  Point place(Point p, int body) const {
-    const auto found = centre_.find(body);
-    if (body <= 0 || found == centre_.end())
-      return p;
-    for (int k = 0; k < 2; ++k) { // the centre in the cell, the point at its nearest image
-      const double c = found->second[k] - period_[k] * std::floor(found->second[k] / period_[k]);
-      p[k] -= period_[k] * std::round((p[k] - c) / period_[k]);
-    }
-    return p;
-  }
-
-private:
-  static constexpr double kTurn = 6.283185307179586;
-  std::array<double, 2> period_;
-  std::map<int, std::array<double, 2>> centre_;
 };
 
 void make_whole(Frames &f, const std::array<double, 2> &period) {
@@ -124,10 +92,7 @@ json bodies_of(const std::string &directory) {
 json explorer_of(Run &run) {
   if (run.particles.empty() || run.bonds.empty())
     return {};
-  std::array<double, 2> period = {0.0, 0.0};
-  const json cell = run.electrode.value("cell_um", json());
-  if (cell.is_array() && cell.size() == 2 && cell[0].is_number() && cell[1].is_number())
-    period = {cell[0], cell[1]};
+  const std::array<double, 2> period = period_of(run);
   std::vector<Frames> all;
   Box box;
   for (const Moment &moment : moments_of(run)) {

@@ -125,6 +125,8 @@ BondFrame read_bonds(const std::string &file, Problems &problems) {
   vtkDataArray *body = array_of(data->GetCellData(), "body", file, problems);
   if (state == nullptr || body == nullptr)
     return frame;
+  vtkDataArray *tag_i = data->GetCellData()->GetArray("tag_i");
+  vtkDataArray *tag_j = data->GetCellData()->GetArray("tag_j");
   for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i) {
     vtkCell *cell = data->GetCell(i);
     if (cell->GetNumberOfPoints() != 2)
@@ -133,6 +135,9 @@ BondFrame read_bonds(const std::string &file, Problems &problems) {
     frame.to.push_back(point_of(data, cell->GetPointId(1)));
     frame.intact.push_back(state->GetTuple1(i) > 0.5);
     frame.body.push_back(static_cast<int>(std::lround(body->GetTuple1(i))));
+    if (tag_i != nullptr && tag_j != nullptr)
+      frame.tags.push_back(std::minmax({static_cast<int>(std::lround(tag_i->GetTuple1(i))),
+                                        static_cast<int>(std::lround(tag_j->GetTuple1(i)))}));
   }
   return frame;
 }

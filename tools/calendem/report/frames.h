@@ -4,6 +4,7 @@
 #define CALENDEM_REPORT_FRAMES_H
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "report/problem.h"
@@ -26,6 +27,7 @@ struct BondFrame {
   std::vector<Point> from, to;
   std::vector<bool> intact;
   std::vector<int> body;
+  std::vector<std::pair<int, int>> tags; ///< of its primaries, lower first; empty: not in the file
 };
 
 struct PlatenFrame {

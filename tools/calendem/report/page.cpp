@@ -31,6 +31,15 @@ json drawn(const Picture &picture) {
           {"across_faces", picture.across_faces > 0 ? json(picture.across_faces) : json(nullptr)}};
 }
 
+/// The pictures of one subject, as the template wants them; null: none.
+json list_of(const std::vector<Picture> &pictures, const char *subject) {
+  json list = json::array();
+  for (const auto &picture : pictures)
+    if (picture.subject == subject)
+      list.push_back(drawn(picture));
+  return list.empty() ? json(nullptr) : json{{"list", list}};
+}
+
 /// Adds what the page draws but the JSON twin leaves out.
 void add_pictures(const RunPart &part, json &run) {
   json electrode = json::array(), bonds = json::array();
@@ -42,6 +51,13 @@ void add_pictures(const RunPart &part, json &run) {
   run["electrode_table"] = !part.electrode.empty();
   run["has_pictures"] = !part.pictures.empty();
   run["has_bond_pictures"] = !bonds.empty();
+  run["stage_electrodes"] = list_of(part.stages, "electrode");
+  run["stage_bonds"] = list_of(part.stages, "bonds");
+  run["has_stages"] = !part.stages.empty();
+  run["body_place"] = list_of(part.one_body, "place");
+  run["body_shapes"] = list_of(part.one_body, "shape");
+  run["body_bonds"] = list_of(part.one_body, "bonds");
+  run["has_one_body"] = !part.one_body.empty();
   run["has_view"] = !part.explorer.is_null();
   run["view"] = part.explorer.dump();
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "report/fracture_part.h"
 #include "report/paper_reference.h"
 #include "report/structure_part.h"
 
@@ -306,7 +307,8 @@ std::vector<Chart> plots_of(const std::vector<Run> &runs) {
   std::vector<Chart> charts{pressure_displacement(runs), breaks_by_pressure(runs),
                             porosity_by_pressure(runs), both_pressures(runs),
                             quasi_static_check(runs)};
-  for (Chart chart : {porosity_profiles(runs), broken_profiles(runs)})
+  for (Chart chart : {cracked_by_pressure(runs), crack_surface(runs), porosity_profiles(runs),
+                      broken_profiles(runs)})
     if (!chart.series.empty())
       charts.push_back(std::move(chart));
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -316,10 +318,14 @@ std::vector<Chart> plots_of(const std::vector<Run> &runs) {
       charts.push_back(std::move(energy));
     charts.push_back(break_modes(runs[i], runs.size() == 1));
     charts.back().id = "modes-" + std::to_string(i + 1);
-    Chart shape = sphericities(runs[i], runs.size() == 1);
-    shape.id = "shape-" + std::to_string(i + 1);
-    if (!shape.series.empty())
-      charts.push_back(std::move(shape));
+    for (Chart chart :
+         {thresholds(runs[i], runs.size() == 1), fragments(runs[i], runs.size() == 1),
+          broken_by_depth(runs[i], runs.size() == 1), one_body(runs[i], runs.size() == 1),
+          sphericities(runs[i], runs.size() == 1)})
+      if (!chart.series.empty()) {
+        chart.id += "-" + std::to_string(i + 1);
+        charts.push_back(std::move(chart));
+      }
   }
   return charts;
 }

@@ -3,6 +3,8 @@
 
 #include "report/explorer.h"
 #include "report/file_hash.h"
+#include "report/fracture_part.h"
+#include "report/fracture_pictures.h"
 #include "report/plots.h"
 #include "report/structure_part.h"
 #include "report/tables.h"
@@ -19,7 +21,10 @@ using nlohmann::json;
 RunPart part_of(Run &run) {
   RunPart part;
   part.pictures = draw_pictures(run); // may add notes
-  part.explorer = explorer_of(run);   // so may this
+  part.stages = draw_stages(run);
+  part.one_body = draw_one_body(run);
+  part.studied_body = studied_body(run);
+  part.explorer = explorer_of(run); // so may this
   part.name = run.name;
   part.unfinished = run.unfinished;
   part.headline = headline_of(run);
@@ -46,12 +51,17 @@ json to_json(const Picture &picture) {
           {"bonds_across_faces", picture.across_faces}};
 }
 
+json to_json(const std::vector<Picture> &list) {
+  json pictures = json::array();
+  for (const auto &picture : list)
+    pictures.push_back(to_json(picture));
+  return pictures;
+}
+
 json to_json(const RunPart &run) {
-  json notes = json::array(), pictures = json::array();
+  json notes = json::array();
   for (const auto &note : run.notes)
     notes.push_back({{"file", note.file}, {"what", note.what}, {"remedy", note.remedy}});
-  for (const auto &picture : run.pictures)
-    pictures.push_back(to_json(picture));
   return {{"name", run.name},
           {"status", run.unfinished.empty() ? "finished" : "unfinished"},
           {"unfinished", run.unfinished},
@@ -62,7 +72,10 @@ json to_json(const RunPart &run) {
           {"provenance", run.provenance},
           {"files", run.files},
           {"notes", notes},
-          {"pictures", pictures}};
+          {"pictures", to_json(run.pictures)},
+          {"stages", to_json(run.stages)},
+          {"studied_body", run.studied_body},
+          {"one_body", to_json(run.one_body)}};
 }
 
 } // namespace

@@ -20,7 +20,10 @@ struct RunPart {
   nlohmann::json headline, facts, electrode, structure, provenance, files;
   Problems notes;
   std::vector<Picture> pictures;
-  nlohmann::json explorer; ///< of the 3-D view; null: no frames
+  std::vector<Picture> stages;   ///< the paper's Figure 3
+  std::vector<Picture> one_body; ///< the paper's Figure 5
+  int studied_body = 0;          ///< which that is
+  nlohmann::json explorer;       ///< of the 3-D view; null: no frames
 };
 
 struct Report {

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "report/fracture_part.h"
 #include "report/structure_part.h"
 #include "spec/csv_table.h"
 
@@ -130,7 +131,8 @@ void read_optional(const fs::path &directory, Run &run) {
   run.bonds = series("bonds.pvd");
   run.platen = series("platen.pvd");
   read_structure(directory, run);
-  for (const char *name : {"breaks.csv", "bodies.csv", "case.toml"})
+  read_fracture(directory, run);
+  for (const char *name : {"breaks.csv", "bodies.csv", "cracks.csv", "thresholds.csv", "case.toml"})
     if (fs::exists(directory / name))
       run.files_read.push_back((directory / name).string());
 }

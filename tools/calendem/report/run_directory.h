@@ -3,6 +3,7 @@
 #ifndef CALENDEM_REPORT_RUN_DIRECTORY_H
 #define CALENDEM_REPORT_RUN_DIRECTORY_H
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,12 @@ struct StructureRow {
   double macro, bonds, broken;
 };
 
+/// Columns of bodies.csv, cracks.csv, thresholds.csv and breaks.csv by their names; empty where the
+/// run has none or one of another version.
+struct FractureTables {
+  std::map<std::string, Column> bodies, cracks, thresholds, breaks;
+};
+
 struct Run {
   std::string name;      ///< of the directory; unique among the runs of a report
   std::string directory; ///< as given
@@ -29,6 +36,7 @@ struct Run {
   nlohmann::json electrode = nlohmann::json::object(); ///< electrode.json if it is there
   nlohmann::json structure; ///< structure.json, null unless `calendem measure` wrote it
   std::vector<StructureRow> profile;
+  FractureTables fracture;
   std::vector<FrameFile> particles, bonds, platen; ///< vtk/*.pvd; may be empty
   std::vector<std::string> files_read;
   std::string unfinished; ///< why the run counts as unfinished; empty = finished

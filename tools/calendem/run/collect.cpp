@@ -197,7 +197,11 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   const auto frames = write_series(folder, dt);
   const UnionVolume filled = union_volumes(folder, e, frames);
   write_file(folder + "/curve.csv", curve(rows, e, filled, settings));
-  const auto [bodies, cracked] = write_bodies(folder, e, settings.text("electrode"), frames);
+  std::vector<MomentOfRun> moments;
+  for (const RawRow &r : rows)
+    moments.push_back({r.time, r.p_top, kStageNames[static_cast<int>(r.stage)]});
+  const auto [bodies, cracked] =
+      write_bodies(folder, e, settings.text("electrode"), frames, moments);
 
   const RawRow top = *std::max_element(
       rows.begin(), rows.end(), [](const RawRow &a, const RawRow &b) { return a.p_top < b.p_top; });

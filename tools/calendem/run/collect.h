@@ -4,6 +4,7 @@
 #ifndef CALENDEM_RUN_COLLECT_H
 #define CALENDEM_RUN_COLLECT_H
 
+#include "run/fracture.h"
 #include "run/run.h"
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -54,10 +55,12 @@ double height_of_tops(const std::string &folder, long step);
 UnionVolume union_volumes(const std::string &folder, const ElectrodeFacts &electrode,
                           const std::vector<std::pair<long, double>> &frames);
 
-/// bodies.csv; returns {bodies, cracked}.
+/// bodies.csv, cracks.csv and thresholds.csv; returns {bodies, cracked}. `moments`: the rows of
+/// curve.csv.
 std::pair<int, int> write_bodies(const std::string &folder, const ElectrodeFacts &electrode,
                                  const std::string &electrode_folder,
-                                 const std::vector<std::pair<long, double>> &frames);
+                                 const std::vector<std::pair<long, double>> &frames,
+                                 const std::vector<MomentOfRun> &moments);
 
 } // namespace calendem
 
