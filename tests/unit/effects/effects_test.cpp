@@ -30,21 +30,33 @@ TEST(Effects, NamesAreUnique) {
 
 TEST(Effects, OffIsTheDefaultOfTheBaseModel) {
   for (const Effect &e : effects())
-    for (const std::string &name : e.amplitude.keys) {
+    for (const std::string &name : e.parameter.keys) {
       const Key *key = key_named(name);
       ASSERT_TRUE(key) << e.name << ": " << name;
-      EXPECT_EQ(key->fallback, e.amplitude.off) << name;
+      EXPECT_EQ(key->fallback, e.parameter.off) << name;
     }
 }
 
 TEST(Effects, RangesAreAllowedByTheCase) {
   for (const Effect &e : effects()) {
-    const EffectParameter &a = e.amplitude;
+    const EffectParameter &a = e.parameter;
     EXPECT_LT(a.low, a.high) << e.name;
-    EXPECT_TRUE(a.prior == Prior::Uniform || a.low > 0.0) << e.name;
+    EXPECT_TRUE(a.spread == Spread::Uniform || a.low > 0.0) << e.name;
     for (const std::string &name : a.keys)
       for (const double v : {a.low, a.high})
         EXPECT_FALSE(wrong_number(*key_named(name), v)) << e.name;
+  }
+}
+
+TEST(Effects, AmplitudesAreZeroWhenOffAndLeadBackToTheValue) {
+  for (const Effect &e : effects()) {
+    const EffectParameter &a = e.parameter;
+    EXPECT_EQ(a.amplitude(std::stod(a.off)), 0.0) << e.name;
+    EXPECT_EQ(a.value(0.0), std::stod(a.off)) << e.name;
+    for (const double v : {a.low, a.high}) {
+      EXPECT_NEAR(a.value(a.amplitude(v)), v, 1e-12 * std::fabs(v)) << e.name;
+      EXPECT_NE(a.amplitude(v), 0.0) << e.name;
+    }
   }
 }
 

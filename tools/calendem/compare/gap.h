@@ -12,7 +12,8 @@
 
 namespace calendem {
 
-/// What one run gives for an experiment, as its press shows it. Lengths um, pressures MPa, porosities and fractions 0-1.
+/// What one run gives for an experiment, as its press shows it. Lengths um, pressures MPa,
+/// porosities and fractions 0-1.
 struct SimulatedRun {
   std::string folder;
   std::string control;

@@ -3,10 +3,33 @@
 #include "spec/key.h"
 #include "spec/messages.h"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace calendem {
+
+double EffectParameter::amplitude(double value) const {
+  switch (scale) {
+  case AmplitudeScale::Reciprocal:
+    return value > 0.0 ? 1.0 / value : 0.0;
+  case AmplitudeScale::Logarithm:
+    return std::log(value);
+  default:
+    return value - std::stod(off);
+  }
+}
+
+double EffectParameter::value(double amplitude) const {
+  switch (scale) {
+  case AmplitudeScale::Reciprocal:
+    return amplitude > 0.0 ? 1.0 / amplitude : 0.0;
+  case AmplitudeScale::Logarithm:
+    return std::exp(amplitude);
+  default:
+    return amplitude + std::stod(off);
+  }
+}
 
 const std::vector<Effect> &effects() {
   static const std::vector<Effect> table = {
@@ -17,8 +40,9 @@ const std::vector<Effect> &effects() {
         "0.001",
         0.05,
         0.6,
-        Prior::Uniform,
-        false},
+        Spread::Uniform,
+        AmplitudeScale::Difference},
+       false,
        "more pressure from 1 to 30 MPa on, more hysteresis, a gradient through the thickness",
        "public calendering decks use 0.001; 0.3-0.6 is usual for dry mineral grains",
        "hertz_contact.h",
@@ -26,7 +50,8 @@ const std::vector<Effect> &effects() {
       {"weibull_strength",
        "bond",
        "strength of bonds scattered by a Weibull law of the same mean",
-       {{"bond.weibull_modulus"}, "0", 1.5, 10, Prior::LogUniform, true},
+       {{"bond.weibull_modulus"}, "0", 1.5, 10, Spread::LogUniform, AmplitudeScale::Reciprocal},
+       false,
        "breaks begin earlier and spread over more of the curve; porosity hardly changes",
        "Weibull 1951; a modulus of 3-8 is an unsourced prior for NMC, widened here",
        "weibull_strength.h",
@@ -34,7 +59,13 @@ const std::vector<Effect> &effects() {
       {"pre_cracks",
        "bond",
        "a fraction of the bonds has no strength from the start",
-       {{"effects.pre_cracks.fraction"}, "0", 0.02, 0.5, Prior::LogUniform, false},
+       {{"effects.pre_cracks.fraction"},
+        "0",
+        0.02,
+        0.5,
+        Spread::LogUniform,
+        AmplitudeScale::Difference},
+       false,
        "weaker bodies from the first load on: lower pressure at a displacement, more cracked "
        "bodies",
        "random bond percolation; intrinsic pores and cracks of NMC in tomograms",
@@ -43,7 +74,13 @@ const std::vector<Effect> &effects() {
       {"machine_compliance",
        "boundary",
        "frame and rolls give way in proportion to the pressure",
-       {{"effects.machine_compliance.um_per_MPa"}, "0", 0.005, 0.2, Prior::LogUniform, false},
+       {{"effects.machine_compliance.um_per_MPa"},
+        "0",
+        0.005,
+        0.2,
+        Spread::LogUniform,
+        AmplitudeScale::Difference},
+       true,
        "displacement shown grows with pressure on both ways; thickness after relaxation does not",
        "Oliver & Pharr 1992, eq. 1",
        "press_instruments.h",
@@ -51,7 +88,13 @@ const std::vector<Effect> &effects() {
       {"pressure_calibration",
        "measurement",
        "the pressure shown is the pressure times a factor",
-       {{"effects.pressure_calibration.factor"}, "1", 0.6, 1.6, Prior::LogUniform, false},
+       {{"effects.pressure_calibration.factor"},
+        "1",
+        0.6,
+        1.6,
+        Spread::LogUniform,
+        AmplitudeScale::Logarithm},
+       false,
        "stretches the pressure axis of every curve, and nothing else",
        "pressures converted from a roll gap: 10-25 % systematic is plausible; unsourced, widened "
        "here",
@@ -60,7 +103,13 @@ const std::vector<Effect> &effects() {
       {"thickness_zero",
        "measurement",
        "the thickness shown is off by a constant",
-       {{"effects.thickness_zero.offset_um"}, "0", -6, 6, Prior::Uniform, false},
+       {{"effects.thickness_zero.offset_um"},
+        "0",
+        -6,
+        6,
+        Spread::Uniform,
+        AmplitudeScale::Difference},
+       true,
        "the same shift of every thickness and its porosity, at any pressure",
        "micrometre zero, foil thickness; table 1 states 0.8 um between samples",
        "press_instruments.h",
@@ -82,7 +131,7 @@ const Effect &find_effect(const std::string &name) {
 }
 
 nlohmann::json to_json(const Effect &e) {
-  const EffectParameter &a = e.amplitude;
+  const EffectParameter &a = e.parameter;
   return {{"name", e.name},
           {"layer", e.layer},
           {"what", e.what},
@@ -90,8 +139,9 @@ nlohmann::json to_json(const Effect &e) {
           {"off", a.off},
           {"low", a.low},
           {"high", a.high},
-          {"prior", a.prior == Prior::Uniform ? "uniform" : "log-uniform"},
-          {"stronger_when", a.falling ? "smaller" : "larger"},
+          {"prior", a.spread == Spread::Uniform ? "uniform" : "log-uniform"},
+          {"stronger_when", a.scale == AmplitudeScale::Reciprocal ? "smaller" : "larger"},
+          {"simulated", !e.instrument},
           {"moves", e.moves},
           {"source", e.source},
           {"law", "src_plugin/physics/" + e.law},

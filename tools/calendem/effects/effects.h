@@ -12,21 +12,33 @@
 namespace calendem {
 
 /// How an effect's strength is spread before anything is measured, between `low` and `high`.
-enum class Prior { Uniform, LogUniform };
+enum class Spread { Uniform, LogUniform };
+
+/// The amplitude of an effect as a function of its key's value v; 0 when the effect is off.
+enum class AmplitudeScale {
+  Difference, ///< v - off
+  Reciprocal, ///< 1/v, off: key 0
+  Logarithm   ///< ln v, off: key 1
+};
 
 /// A setting of the case that an effect moves.
 struct EffectParameter {
   std::vector<std::string> keys; ///< of case.toml; all get the same value
   std::string off;               ///< the value without the effect: the key's default
   double low = 0.0, high = 0.0;  ///< in the key's unit
-  Prior prior = Prior::Uniform;
-  bool falling = false; ///< the effect grows as the value falls from high to low
+  Spread spread = Spread::Uniform;
+  AmplitudeScale scale = AmplitudeScale::Difference;
+
+  double amplitude(double value) const;
+  double value(double amplitude) const;
 };
 
 struct Effect {
   std::string name, layer; ///< contact, bond, boundary, measurement
   std::string what;        ///< one sentence
-  EffectParameter amplitude;
+  EffectParameter parameter;
+  /// Only what the press shows changes: no run of its own is needed to know what it does.
+  bool instrument = false;
   std::string moves; ///< the observables it should move, and how
   std::string source;
   std::string law;          ///< file in src_plugin/physics

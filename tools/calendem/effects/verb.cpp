@@ -25,14 +25,14 @@ void print_list() {
 }
 
 void print_one(const Effect &e) {
-  const EffectParameter &a = e.amplitude;
+  const EffectParameter &a = e.parameter;
   const std::string unit = unit_of(a);
   fmt::print("{} ({}): {}\n", e.name, e.layer, e.what);
   fmt::print("  key in case.toml  {}\n", fmt::join(a.keys, " and "));
   fmt::print("  off               {}{}\n", a.off, unit);
   fmt::print("  range, prior      {:g} to {:g}{}, {}{}\n", a.low, a.high, unit,
-             a.prior == Prior::Uniform ? "uniform" : "log-uniform",
-             a.falling ? "; the smaller, the stronger" : "");
+             a.spread == Spread::Uniform ? "uniform" : "log-uniform",
+             a.scale == AmplitudeScale::Reciprocal ? "; the smaller, the stronger" : "");
   fmt::print("  moves             {}\n  source            {}\n", e.moves, e.source);
   fmt::print("  law               src_plugin/physics/{}\n  verified by       tests/{}\n", e.law,
              e.verification.find('/') == std::string::npos ? "verification/" + e.verification

@@ -218,6 +218,8 @@ StudyRun make_run(const Study &study, const Recipe &recipe, const Settings &sett
   Settings changed = recipe.settings;
   for (std::size_t k = 0; k < values.size(); ++k) {
     const std::string &name = study.columns[k], bare = name.substr(name.find('.') + 1);
+    if (const auto wrong = wrong_cell(*find_key(name), values[k]))
+      mistakes.add(0, *wrong);
     (name[0] == 'r' ? changed : run.settings).set(bare, values[k]);
   }
   run.recipe = recipe_of(changed);
@@ -228,13 +230,11 @@ StudyRun make_run(const Study &study, const Recipe &recipe, const Settings &sett
   return run;
 }
 
-void make_runs(const std::vector<Group> &groups, Study &out, Mistakes &mistakes) {
-  Recipe recipe = read_recipe(out.recipe_file);
-  make_paths_absolute(recipe.settings, out.recipe_file);
-  const Settings settings = read_case(out.case_file);
+/// Every combination of the groups' rows.
+std::vector<std::vector<std::string>> combinations(const std::vector<Group> &groups,
+                                                   Mistakes &mistakes) {
   std::vector<std::vector<std::string>> rows(1);
   for (const Group &group : groups) {
-    out.columns.insert(out.columns.end(), group.keys.begin(), group.keys.end());
     std::vector<std::vector<std::string>> next;
     for (const auto &head : rows)
       for (const auto &tail : group.rows) {
@@ -242,16 +242,12 @@ void make_runs(const std::vector<Group> &groups, Study &out, Mistakes &mistakes)
         next.back().insert(next.back().end(), tail.begin(), tail.end());
       }
     rows = next;
-    if (rows.size() > kMostRuns)
-      return mistakes.add(0, fmt::format("the study has more than {} runs.", kMostRuns));
+    if (rows.size() > kMostRuns) {
+      mistakes.add(0, fmt::format("the study has more than {} runs.", kMostRuns));
+      return {};
+    }
   }
-  for (const auto &row : rows) {
-    Mistakes of_run(fmt::format("{}, run {}", out.file, out.runs.size() + 1));
-    out.runs.push_back(make_run(out, recipe, settings, row, of_run));
-    out.runs.back().number = static_cast<int>(out.runs.size());
-    if (!of_run.empty())
-      mistakes.add(0, of_run.text());
-  }
+  return rows;
 }
 
 void stop_at_twice(const std::vector<Group> &groups, Mistakes &mistakes) {
@@ -265,6 +261,24 @@ void stop_at_twice(const std::vector<Group> &groups, Mistakes &mistakes) {
 }
 
 } // namespace
+
+void check_column(const std::string &name, Mistakes &mistakes) {
+  if (!find_key(name))
+    mistakes.add(0, unknown_key(name));
+}
+
+void add_runs(Study &out, const std::vector<std::vector<std::string>> &rows, Mistakes &mistakes) {
+  Recipe recipe = read_recipe(out.recipe_file);
+  make_paths_absolute(recipe.settings, out.recipe_file);
+  const Settings settings = read_case(out.case_file);
+  for (const auto &row : rows) {
+    Mistakes of_run(fmt::format("{}, run {}", out.file, out.runs.size() + 1));
+    out.runs.push_back(make_run(out, recipe, settings, row, of_run));
+    out.runs.back().number = static_cast<int>(out.runs.size());
+    if (!of_run.empty())
+      mistakes.add(0, of_run.text());
+  }
+}
 
 Study read_study(const std::string &file) {
   Mistakes mistakes(file, 20);
@@ -288,7 +302,9 @@ Study read_study(const std::string &file) {
     mistakes.add(0, "has no table [study].");
   stop_at_twice(groups, mistakes);
   mistakes.stop_if_any();
-  make_runs(groups, out, mistakes);
+  for (const Group &group : groups)
+    out.columns.insert(out.columns.end(), group.keys.begin(), group.keys.end());
+  add_runs(out, combinations(groups, mistakes), mistakes);
   mistakes.stop_if_any();
   return out;
 }

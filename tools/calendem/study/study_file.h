@@ -36,6 +36,13 @@ struct Study {
   std::vector<StudyRun> runs;
 };
 
+/// A column must be the name of a key that can be varied.
+void check_column(const std::string &name, Mistakes &mistakes);
+
+/// Gives a study with name, files and columns its runs, one for each row of values of the columns.
+/// Values that no key may hold, and what they contradict, go to `mistakes`.
+void add_runs(Study &study, const std::vector<std::vector<std::string>> &rows, Mistakes &mistakes);
+
 /// Throws Failure(2) with every mistake of the file, its recipe, its case and its runs.
 Study read_study(const std::string &file);
 

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "bank/bank_design.h"
+#include "diagnose/sobol_points.h"
+#include "spec/messages.h"
+#include <cmath>
+#include <fmt/format.h>
+
+namespace calendem {
+namespace {
+
+/// `share` (0-1) of the way from low to high; four digits, so that tables and files agree.
+double between(double low, double high, Spread spread, double share) {
+  const double v =
+      spread == Spread::LogUniform ? low * std::pow(high / low, share) : low + share * (high - low);
+  return std::stod(fmt::format("{:.4g}", v));
+}
+
+std::vector<std::string> columns_of(const BankSpec &spec) {
+  std::vector<std::string> columns = {"recipe.seed"};
+  for (const BankParameter &p : spec.parameters)
+    columns.insert(columns.end(), p.keys.begin(), p.keys.end());
+  for (const std::string &name : spec.effects)
+    if (const Effect &e = find_effect(name); !e.instrument)
+      for (const std::string &key : e.parameter.keys)
+        columns.push_back("case." + key);
+  columns.push_back("case.platen.max_pressure_MPa");
+  return columns;
+}
+
+std::vector<std::string> row_of(const BankSpec &spec, const BankPoint &point, double pressure) {
+  std::vector<std::string> row = {fmt::format("{}", point.packing)};
+  for (std::size_t k = 0; k < spec.parameters.size(); ++k)
+    row.insert(row.end(), spec.parameters[k].keys.size(), fmt::format("{}", point.base[k]));
+  for (const std::string &name : spec.effects)
+    if (const Effect &e = find_effect(name); !e.instrument)
+      row.insert(row.end(), e.parameter.keys.size(),
+                 name == point.effect ? fmt::format("{}", point.value) : e.parameter.off);
+  row.push_back(fmt::format("{}", pressure));
+  return row;
+}
+
+} // namespace
+
+std::vector<BankPoint> bank_points(const BankSpec &spec) {
+  std::vector<BankPoint> out;
+  const auto shares =
+      diagnose::sobol_points(int(spec.parameters.size()), spec.base_points, spec.seed);
+  for (int k = 0; k < spec.base_points; ++k) {
+    BankPoint p;
+    p.base_point = k;
+    p.packing = 1 + k % spec.packings;
+    for (std::size_t d = 0; d < spec.parameters.size(); ++d)
+      p.base.push_back(between(spec.parameters[d].low, spec.parameters[d].high,
+                               spec.parameters[d].spread, shares(int(d), k)));
+    out.push_back(p);
+  }
+  for (std::size_t e = 0; e < spec.effects.size(); ++e) {
+    const Effect &effect = find_effect(spec.effects[e]);
+    const auto amplitudes = diagnose::sobol_points(1, spec.effect_points, spec.seed + 1 + e);
+    for (int k = 0; k < spec.effect_points && !effect.instrument; ++k) {
+      BankPoint p = out[std::size_t(k) * spec.base_points / spec.effect_points];
+      p.effect = effect.name;
+      p.value = between(effect.parameter.low, effect.parameter.high, effect.parameter.spread,
+                        amplitudes(0, k));
+      out.push_back(p);
+    }
+  }
+  return out;
+}
+
+Study bank_study(const BankSpec &spec, const std::vector<BankPoint> &points) {
+  Study study;
+  study.file = spec.file;
+  study.name = spec.name;
+  study.recipe_file = spec.recipe_file;
+  study.case_file = spec.case_file;
+  study.keep_all = false;
+  study.columns = columns_of(spec);
+  Mistakes mistakes(spec.file, 20);
+  for (const std::string &name : study.columns)
+    check_column(name, mistakes);
+  mistakes.stop_if_any();
+  std::vector<std::vector<std::string>> rows;
+  for (const BankPoint &p : points)
+    for (const double pressure : spec.pressures)
+      rows.push_back(row_of(spec, p, pressure));
+  add_runs(study, rows, mistakes);
+  mistakes.stop_if_any();
+  return study;
+}
+
+} // namespace calendem

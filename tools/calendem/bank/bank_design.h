@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The points of a bank: where the base model is run, and beside which of them each effect.
+#ifndef CALENDEM_BANK_BANK_DESIGN_H
+#define CALENDEM_BANK_BANK_DESIGN_H
+
+#include "bank/bank_spec.h"
+#include "study/study_file.h"
+
+namespace calendem {
+
+/// One set of parameters on one packing, run to every pressure of the bank.
+struct BankPoint {
+  std::string effect;       ///< empty: base model
+  int base_point = 0;       ///< number of the base point that has the same packing and parameters
+  int packing = 1;          ///< seed
+  std::vector<double> base; ///< values of the base parameters, in their units
+  double value = 0.0;       ///< of the effect's key
+};
+
+/// Base points first: a Sobol sequence over the priors, packings in turn. Then the points of each
+/// effect that needs runs of its own, spread over its prior, beside evenly spaced base points.
+std::vector<BankPoint> bank_points(const BankSpec &spec);
+
+/// The runs of all points: for each point one per pressure, in their order. Throws Failure(2) where
+/// values are no values of their keys or contradict each other.
+Study bank_study(const BankSpec &spec, const std::vector<BankPoint> &points);
+
+} // namespace calendem
+
+#endif

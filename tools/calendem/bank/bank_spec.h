@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a bank of simulations is made of (bank.toml):
+//   [bank]
+//   name = "small cells"
+//   recipe = "electrode.toml"        # paths are relative to this file
+//   case = "case.toml"
+//   pressures_MPa = [80, 150]        # a run for each at every point
+//   packings = 12                    # seeds 1, 2, ... of the recipe
+//   base_points = 48                 # of the base parameters, without effects
+//   effect_points = 24               # of every effect, each beside a base point of the same
+//   packing effects = ["friction"]           # default: all seed = 1                         # of
+//   the design
+//   [[parameter]]                    # of the base model, recalibrated by the diagnosis
+//   name = "E_am"
+//   keys = ["case.material.am.youngs_modulus_GPa"]
+//   low = 100
+//   high = 300
+//   prior = "log-uniform"            # or "uniform"
+#ifndef CALENDEM_BANK_BANK_SPEC_H
+#define CALENDEM_BANK_BANK_SPEC_H
+
+#include "effects/effects.h"
+
+namespace calendem {
+
+struct BankParameter {
+  std::string name;
+  std::vector<std::string> keys; ///< "case.…" or "recipe.…"; all get the same value
+  double low = 0.0, high = 0.0;  ///< in the keys' unit
+  Spread spread = Spread::Uniform;
+};
+
+struct BankSpec {
+  std::string file, name, recipe_file, case_file;
+  std::vector<double> pressures; ///< MPa, increasing
+  int packings = 12, base_points = 48, effect_points = 24;
+  unsigned long seed = 1;
+  std::vector<BankParameter> parameters;
+  std::vector<std::string> effects;
+};
+
+/// Throws Failure(2) with every mistake of the file. Recipe and case are read when runs are made.
+BankSpec read_bank_spec(const std::string &file);
+
+} // namespace calendem
+
+#endif

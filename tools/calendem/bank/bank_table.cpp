@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "bank/bank_table.h"
+#include "physics/press_instruments.h"
+#include "spec/csv_table.h"
+#include "spec/messages.h"
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+
+namespace calendem {
+namespace {
+
+constexpr double kGrid[] = {1, 2, 4, 6, 8, 12, 16, 20, 30, 40, 50, 60, 75, 90, 110, 130, 150, 180};
+
+struct Number {
+  const char *column;
+  double SimulatedRun::*field;
+};
+constexpr Number kNumbers[] = {{"target_MPa", &SimulatedRun::target},
+                               {"max_pressure_MPa", &SimulatedRun::max_pressure},
+                               {"thickness_at_max_um", &SimulatedRun::thickness_at_max},
+                               {"thickness_after_um", &SimulatedRun::thickness_after},
+                               {"porosity_initial", &SimulatedRun::porosity_initial},
+                               {"porosity_at_max", &SimulatedRun::porosity_at_max},
+                               {"porosity_after", &SimulatedRun::porosity_after},
+                               {"solid_column_um", &SimulatedRun::solid_column},
+                               {"cracked_fraction", &SimulatedRun::cracked_fraction},
+                               {"porosity_slope_per_MPa", &SimulatedRun::porosity_slope}};
+
+std::string cell(double v) { return std::isfinite(v) ? fmt::format("{:.8g}", v) : ""; }
+std::string grid_column(double pressure) {
+  return fmt::format("displacement_um_at_{:g}_MPa", pressure);
+}
+
+BankRow row_at(const BankSpec &spec, const CsvTable &t, std::size_t k,
+               const std::vector<std::string> &effect) {
+  BankRow row;
+  const auto number = [&](const std::string &column) { return t.numbers(column)[k]; };
+  row.point.effect = effect[k];
+  row.point.base_point = int(number("base_point"));
+  row.point.packing = int(number("packing"));
+  for (const BankParameter &p : spec.parameters)
+    row.point.base.push_back(number(p.name));
+  row.point.value = effect[k].empty() ? 0.0 : number("value");
+  row.run.control = "pressure";
+  for (const Number &n : kNumbers)
+    row.run.*(n.field) = number(n.column);
+  for (const double p : kGrid)
+    if (const double d = number(grid_column(p)); std::isfinite(d)) {
+      row.run.pressure.push_back(p);
+      row.run.displacement.push_back(d);
+    }
+  return row;
+}
+
+} // namespace
+
+std::string write_bank_table(const BankTable &table) {
+  std::string out = "effect,base_point,packing";
+  for (const BankParameter &p : table.spec.parameters)
+    out += "," + p.name;
+  out += ",value";
+  for (const Number &n : kNumbers)
+    out += std::string(",") + n.column;
+  for (const double p : kGrid)
+    out += "," + grid_column(p);
+  out += "\n";
+  for (const BankRow &row : table.rows) {
+    out += fmt::format("{},{},{}", row.point.effect, row.point.base_point, row.point.packing);
+    for (const double v : row.point.base)
+      out += "," + cell(v);
+    out += "," + (row.point.effect.empty() ? "" : cell(row.point.value));
+    for (const Number &n : kNumbers)
+      out += "," + cell(row.run.*(n.field));
+    for (const double p : kGrid)
+      out += "," + cell(displacement_at(row.run.pressure, row.run.displacement, p));
+    out += "\n";
+  }
+  return out;
+}
+
+BankTable read_bank_table(const BankSpec &spec, const std::string &file) {
+  Mistakes mistakes(file, 10);
+  std::ifstream in(file, std::ios::binary);
+  if (!in)
+    mistakes.add(0, "no such file. Make the bank with calendem bank.");
+  const CsvTable t =
+      CsvTable::parse({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+  std::vector<std::string> wanted = {"effect", "base_point", "packing", "value"};
+  for (const BankParameter &p : spec.parameters)
+    wanted.push_back(p.name);
+  for (const Number &n : kNumbers)
+    wanted.push_back(n.column);
+  for (const double p : kGrid)
+    wanted.push_back(grid_column(p));
+  for (const std::string &column : wanted)
+    if (in && !t.has(column))
+      mistakes.add(
+          0, fmt::format("column '{}' is missing. Is this the table of {}?", column, spec.file));
+  for (const int line : t.bad_lines())
+    mistakes.add(line, "the row has another number of cells than the header.");
+  mistakes.stop_if_any();
+  BankTable out = {spec, {}};
+  const std::vector<std::string> effect = t.texts("effect");
+  for (std::size_t k = 0; k < t.rows(); ++k) {
+    if (!effect[k].empty())
+      find_effect(effect[k]);
+    out.rows.push_back(row_at(spec, t, k, effect));
+    for (const Number &n : kNumbers)
+      if (!std::isfinite(out.rows.back().run.*(n.field)))
+        mistakes.add(int(k) + 2, fmt::format("'{}' is no number.", n.column));
+  }
+  mistakes.stop_if_any();
+  return out;
+}
+
+SimulatedRun shown_with(const Effect &effect, double value, const SimulatedRun &run) {
+  PressInstruments press; // MPa, um
+  if (effect.name == "machine_compliance")
+    press.compliance = value;
+  else if (effect.name == "thickness_zero")
+    press.thickness_zero = value;
+  SimulatedRun out = run;
+  out.thickness_at_max = press.thickness_shown(run.thickness_at_max);
+  out.thickness_after = press.thickness_shown(run.thickness_after);
+  out.porosity_after = 1.0 - run.solid_column / out.thickness_after;
+  for (std::size_t k = 0; k < run.pressure.size(); ++k)
+    out.displacement[k] = press.displacement_shown(run.displacement[k], run.pressure[k]);
+  return out;
+}
+
+SimulatedRun between_runs(const SimulatedRun &lower, const SimulatedRun &upper, double pressure) {
+  const double share = (pressure - lower.target) / (upper.target - lower.target);
+  SimulatedRun out = upper;
+  for (const Number &n : kNumbers)
+    out.*(n.field) = lower.*(n.field) + share * (upper.*(n.field) - lower.*(n.field));
+  return out;
+}
+
+} // namespace calendem
