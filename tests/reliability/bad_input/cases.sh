@@ -179,6 +179,20 @@ every_mistake_at_once() { # of two files, each line with a mistake is named
   says recipe.toml:1: recipe.toml:3: recipe.toml:4: recipe.toml:6: recipe.toml:8: recipe.toml:9: \
     case.toml:2: 'The closest is "pressure"' case.toml:3: case.toml:5: "key 'electrode' is missing"
 }
+film_mistakes() { # of a slurry: a fraction, spheres that jam, an unknown end, another table
+  printf '%s\n' '[slurry]' 'solid_content_percent = 0.69' 'sphere_fraction = 0.7' '[drying]' 'stop = "dry"' | file film.toml
+  refused film.toml film.toml:2: film.toml:3: film.toml:5: 'thickness'
+  printf '%s\n' '[slurry]' 'sphere_fraction = 0.3' | file film.toml
+  refused film.toml 'dry spheres fill 0.376' 'Give a value between'
+  printf '%s\n' '[slurry]' 'solid_content_percent = 69' '[drying]' 'stop = "pressure"' '[structure]' 'file = "x"' | file film.toml
+  refused film.toml film.toml:5: structure
+}
+film_cell_too_small() { # spheres would touch two images of another; no folder is made for nothing
+  printf '%s\n' '[cell]' 'x_um = 10' 'y_um = 10' '[slurry]' 'solid_content_percent = 69' | file film.toml
+  expect 2 calendem dry "$work/film.toml" -o "$work/film"
+  says 'the largest sphere of the slurry is' 'at most 4.70 um' 'particles.max_um'
+  [ ! -e "$work/film" ] || fail "a folder was made"
+}
 kinds_of_file() {
   expect 0 calendem validate "$scripts"/cases/{demo,paper}/*.toml "$scripts"/cases/image/tomogram.toml
   says "demo/electrode.toml: a valid recipe" "demo/case.toml: a valid case" \
