@@ -26,7 +26,7 @@ TEST(Prior, ScoresAndValuesAreInverse) {
 }
 
 TEST(BankTable, ReadsWhatItWrote) {
-  const Bank bank = synthetic_bank(6, 0.1);
+  const Bank bank = synthetic_bank(8, 0.1);
   const std::string text = write_table(bank);
   Bank read = bank;
   read.runs.clear();

@@ -2,8 +2,9 @@
 // The whole way on a bank from formulas: learn, recalibrate, weigh, say.
 #include "diagnose/diagnosis.h"
 #include "synthetic_bank.h"
-#include <chrono>
+#include <algorithm>
 #include <gtest/gtest.h>
+#include <memory>
 
 namespace calendem::diagnose {
 namespace {
@@ -13,7 +14,7 @@ constexpr double kScatter = 0.04, kNoise = 0.04;
 Settings quick() {
   Settings s;
   s.which.evidence.samples = 256;
-  s.where.simulations = 4000;
+  s.where.simulations = 2000;
   return s;
 }
 
@@ -27,10 +28,12 @@ Candidate second_scale() { // another measurement of what is known already
           Matrix::Constant(1, 1, kNoise * kNoise)};
 }
 
-/// The bank, with one effect left out of the candidates where `without` names it.
+/// What is learnt once for all experiments with these observables, without some of the effects.
 struct Laboratory {
   Bank bank = synthetic_bank(40, kScatter);
-  explicit Laboratory(const std::vector<std::string> &without) {
+  std::unique_ptr<Model> model;
+  explicit Laboratory(const std::vector<std::string> &without,
+                      const std::vector<Candidate> &candidates = {}) {
     for (const std::string &name : without) {
       bank.runs.erase(std::remove_if(bank.runs.begin(), bank.runs.end(),
                                      [&](const Run &r) { return r.effect == name; }),
@@ -39,67 +42,89 @@ struct Laboratory {
                                         [&](const Effect &e) { return e.name == name; }),
                          bank.effects.end());
     }
+    model = std::make_unique<Model>(bank, experiment("", 0.0, 1), quick().model, candidates);
   }
-  Diagnosis diagnose(const ObservableVector &e,
-                     const std::vector<Candidate> &candidates = {}) const {
-    const Model model(bank, e, quick().model, candidates);
-    return diagnose::diagnose(model, bank, e.values, quick());
+  static ObservableVector experiment(const std::string &effect, double a, std::uint64_t seed) {
+    return synthetic_experiment(effect, a, seed, kScatter, kNoise);
+  }
+  Diagnosis diagnose(const std::string &effect, double a, std::uint64_t seed) const {
+    return diagnose::diagnose(*model, bank, experiment(effect, a, seed).values, quick());
   }
 };
 
-TEST(Diagnosis, NoGapIsNone) {
+// 15 experiments without a gap: false claims within three binomial standard deviations of the gate
+// of 3 %. A weak effect cannot be excluded in all of them, so some stay undecided.
+TEST(Diagnosis, NoGapIsNoneOrUndecided) {
   const Laboratory lab({"viscous"});
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const auto t0 = std::chrono::steady_clock::now();
-    const Diagnosis d = lab.diagnose(synthetic_experiment("", 0.0, seed, kScatter, kNoise));
-    printf("%g s %s\n",
-           std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count(),
-           to_json(d).c_str());
-    EXPECT_EQ(d.which.claim, "none") << d.which.why;
-    EXPECT_FALSE(d.where.rows[0].significant);
-    EXPECT_GT(d.emulators[0].q2, 0.9);
+  int none = 0, wrong = 0;
+  for (std::uint64_t seed = 1; seed <= 15; ++seed) {
+    const Diagnosis d = lab.diagnose("", 0.0, seed);
+    none += d.which.claim == "none";
+    wrong += d.which.claim != "none" && d.which.claim != "undecided";
+    EXPECT_EQ(d.which.judged.front().hypothesis.name, "none") << seed;
   }
+  EXPECT_GE(none, 8);
+  EXPECT_LE(wrong, 15 * 0.03 + 3.0 * std::sqrt(15 * 0.03 * 0.97));
 }
 
-TEST(Diagnosis, AnEffectIsNamed) {
+TEST(Diagnosis, AnEffectIsNamedWithItsPlaceAndParameters) {
   const Laboratory lab({"viscous"});
   for (const char *effect : {"plasticity", "friction"}) {
-    const Diagnosis d = lab.diagnose(synthetic_experiment(effect, 0.7, 5, kScatter, kNoise));
-    EXPECT_EQ(d.which.claim, effect) << d.which.why << to_json(d);
+    const Diagnosis d = lab.diagnose(effect, 0.7, 5);
+    EXPECT_EQ(d.which.claim, effect) << d.which.why;
     EXPECT_GT(d.which.adequacy_p, 0.01);
+    EXPECT_TRUE(d.where.rows[0].significant);
+    const Judged &best = d.which.of(effect);
+    const double amplitude = lab.bank.effects[0].parameters[0].prior.value(best.evidence.mode[2]);
+    EXPECT_NEAR(amplitude, 0.7, 0.15) << effect;
+    EXPECT_LT(d.parameters[0].low90, d.parameters[0].high90);
   }
 }
 
 TEST(Diagnosis, WhatNoCandidateExplainsIsUnknown) {
   const Laboratory without({"viscous", "friction"});
-  EXPECT_EQ(
-      without.diagnose(synthetic_experiment("friction", 0.9, 5, kScatter, kNoise)).which.claim,
-      "unknown");
-  // Outside the span of all runs: only the truncation residual can show it.
+  EXPECT_EQ(without.diagnose("friction", 0.9, 5).which.claim, "unknown");
+  // Outside the span of all runs: the truncation residual shows it.
   const Laboratory lab({});
-  EXPECT_EQ(lab.diagnose(synthetic_experiment("oscillation", 0.9, 6, kScatter, kNoise)).which.claim,
-            "unknown");
+  const Diagnosis d = lab.diagnose("oscillation", 0.9, 6);
+  EXPECT_EQ(d.which.claim, "unknown");
+  EXPECT_EQ(d.blocks[d.where.rows[0].block].name, "ln pressure");
+  EXPECT_TRUE(d.where.rows[0].significant);
 }
 
 TEST(Diagnosis, TwinsAreNotToldApartAndTheMeasurementThatDoesIsNamed) {
-  const Laboratory lab({});
-  const Diagnosis d = lab.diagnose(synthetic_experiment("plasticity", 0.8, 7, kScatter, kNoise),
-                                   {second_scale(), dwell()});
+  const Laboratory lab({}, {second_scale(), dwell()});
+  const Diagnosis d = lab.diagnose("plasticity", 0.8, 7);
   EXPECT_EQ(d.which.claim, "undecided");
   ASSERT_EQ(d.confounding.indistinguishable.size(), 1u);
-  auto twins = d.confounding.indistinguishable[0];
-  std::sort(twins.begin(), twins.end());
-  EXPECT_EQ(twins, (std::vector<std::string>{"plasticity", "viscous"}));
+  const auto &twins = d.confounding.indistinguishable[0];
+  for (const char *name : {"plasticity", "viscous"})
+    EXPECT_EQ(std::count(twins.begin(), twins.end(), name), 1) << name;
+  EXPECT_GT(d.confounding.cosine(0, 2), 0.99);
+  EXPECT_LT(d.confounding.log_odds(0, 2), 3.0);
   ASSERT_EQ(d.next.size(), 2u);
   EXPECT_EQ(d.next[0].what, "dwell");
-  EXPECT_GT(d.next[0].expected_probability, 0.9);
-  EXPECT_LT(d.next[1].expected_probability, d.next[1].now + 0.1);
+  EXPECT_GT(d.next[0].expected_probability, d.next[0].now + 0.3);
+  EXPECT_NEAR(d.next[1].expected_probability, d.next[1].now, 0.1);
+}
+
+// Effects that no run can teach: the packings' scatter drowns them, and so little is known that no
+// claim may rest on it.
+TEST(Diagnosis, EmulatorsThatArePoorAreSaidToBe) {
+  Bank bank = synthetic_bank(12, kScatter);
+  Random random(1, 1);
+  for (auto &r : bank.runs)
+    if (r.effect == "friction")
+      for (double &v : r.values)
+        v += 2.0 * random.normal();
+  const ObservableVector e = Laboratory::experiment("", 0.0, 1);
+  const Model model(bank, e, {});
+  EXPECT_EQ(model.poor_effects(), std::vector<std::string>{"friction"});
 }
 
 TEST(Diagnosis, SameBytesTwice) {
-  const ObservableVector e = synthetic_experiment("plasticity", 0.5, 8, kScatter, kNoise);
-  const std::string once = to_json(Laboratory({}).diagnose(e, {dwell()}));
-  EXPECT_EQ(once, to_json(Laboratory({}).diagnose(e, {dwell()})));
+  const std::string once = to_json(Laboratory({}, {dwell()}).diagnose("plasticity", 0.5, 8));
+  EXPECT_EQ(once, to_json(Laboratory({}, {dwell()}).diagnose("plasticity", 0.5, 8)));
 }
 
 } // namespace

@@ -64,7 +64,6 @@ TEST(GaussianProcess, SaysHowWrongItIs) {
   }
   EXPECT_GT(sum, 0.5);
   EXPECT_LT(sum, 2.0);
-  printf("ratio %g\n", sum);
 }
 
 TEST(GaussianProcess, AConstantIsPredictedAsSuch) {

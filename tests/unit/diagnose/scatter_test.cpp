@@ -91,8 +91,6 @@ TEST(ToyStudy, TwelveSeeds) {
   RecordProperty("shrunk",
                  std::to_string(shrunk.accuracy) + " " + std::to_string(shrunk.confidence));
   RecordProperty("exact", std::to_string(exact.accuracy) + " " + std::to_string(exact.confidence));
-  printf("plugged %g %g shrunk %g %g exact %g %g\n", plugged.accuracy, plugged.confidence,
-         shrunk.accuracy, shrunk.confidence, exact.accuracy, exact.confidence);
   const double sd = std::sqrt(0.25 / 300.0); // of an accuracy, at most
   EXPECT_LT(plugged.accuracy, exact.accuracy - 0.2);
   EXPECT_GT(plugged.confidence, plugged.accuracy + 0.2);

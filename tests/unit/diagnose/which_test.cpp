@@ -60,7 +60,7 @@ Calibration calibrate(int worlds) {
 // is uniform. All within three standard deviations of binomial counts (intervals of one world are
 // correlated: at most as if they were equal).
 TEST(Which, IsCalibratedInLinearWorlds) {
-  const Calibration c = calibrate(150);
+  const Calibration c = calibrate(300);
   EXPECT_NEAR(c.right, c.expected_right, 3.0 * std::sqrt(c.variance));
   EXPECT_NEAR(c.covered / double(c.intervals), 0.9, 3.0 * std::sqrt(0.09 / c.worlds));
   EXPECT_NEAR(c.inadequate / double(c.worlds), 0.1, 3.0 * std::sqrt(0.09 / c.worlds));
@@ -68,13 +68,11 @@ TEST(Which, IsCalibratedInLinearWorlds) {
   EXPECT_LE(c.wrong, 0.2 * c.claims + 3.0 * std::sqrt(0.16 * c.claims)); // a claim is 80 % sure
   RecordProperty("claims", c.claims);
   RecordProperty("wrong", c.wrong);
-  printf("claims %d wrong %d right %d expected %g covered %g inad %d\n", c.claims, c.wrong, c.right,
-         c.expected_right, c.covered / double(c.intervals), c.inadequate);
 }
 
 TEST(Which, NullsAreRarelyCalledAnEffect) {
   WhichSettings settings = quick();
-  const int kWorlds = 100;
+  const int kWorlds = 300;
   int effects = 0, none = 0, unknown = 0;
   for (int w = 0; w < kWorlds; ++w) {
     const LinearWorld world(8, 2, 4, std::uint64_t(900 + w));
@@ -85,7 +83,6 @@ TEST(Which, NullsAreRarelyCalledAnEffect) {
     unknown += found.claim == "unknown";
     effects += found.claim.rfind("effect", 0) == 0;
   }
-  printf("none %d unknown %d effects %d\n", none, unknown, effects);
   EXPECT_LE(effects, 0.03 * kWorlds + 3.0 * std::sqrt(0.03 * 0.97 * kWorlds)); // gate: 3 %
   EXPECT_LE(unknown, 0.03 * kWorlds + 3.0 * std::sqrt(0.03 * 0.97 * kWorlds));
   EXPECT_GE(none, 0.5 * kWorlds);
@@ -151,8 +148,8 @@ TEST(Decide, ClaimRuleAndPriors) {
   s.noise = false;
   const Which a = decided(6.0, 0.5, 0.5, s);
   EXPECT_EQ(a.claim, "a");
-  // a: 0.5 * 0.8 / 2 = 0.2 times e^6; none: 0.4.
-  EXPECT_NEAR(a.judged[0].probability, 0.2 * std::exp(6.0) / (0.2 * std::exp(6.0) + 0.4), 1e-8);
+  // a: 0.5 * 0.9 / 2 = 0.225 times e^6; none: 0.4.
+  EXPECT_NEAR(a.judged[0].probability, 0.225 * std::exp(6.0) / (0.225 * std::exp(6.0) + 0.4), 1e-8);
   EXPECT_EQ(decided(0.5, 0.5, 0.5, s).claim, "undecided");
   EXPECT_EQ(decided(6.0, 0.005, 0.5, s).claim, "undecided");
   EXPECT_EQ(decided(6.0, 0.005, 0.005, s).claim, "unknown");

@@ -8,6 +8,8 @@ namespace calendem::diagnose {
 namespace {
 
 constexpr double kCredible = 0.95;
+constexpr double kCounts = 0.01; // probability of a hypothesis that bears on the claim
+constexpr double kFewest = 30.0; // effective samples of its evidence
 
 double weight_of(const Priors &priors, const std::string &name) {
   const auto at = priors.weight.find(name);
@@ -58,6 +60,14 @@ bool rests_on_poor(const std::string &name, const std::vector<std::string> &poor
   return std::any_of(poor.begin(), poor.end(), [&](const std::string &p) {
     return p == "none" || padded.find(" + " + p + " + ") != std::string::npos;
   });
+}
+
+/// A hypothesis that counts and whose integral few samples carry.
+const Judged *unsettled(const std::vector<Judged> &judged) {
+  for (const Judged &j : judged)
+    if (j.probability > kCounts && j.evidence.samples > 1 && j.evidence.effective_samples < kFewest)
+      return &j;
+  return nullptr;
 }
 
 /// Claim and its reason; hypotheses are sorted.

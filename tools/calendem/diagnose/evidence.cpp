@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kStarts = 32;    // points of the prior among which the search for modes begins
 constexpr int kModes = 3;      // at most
+constexpr int kAgain = 3;      // passes with a better proposal
 constexpr double kApart = 1.0; // distance of modes in their own covariance, below which one is kept
 constexpr double kStep = 0.01; // of second derivatives, in standard deviations of the prior
 
@@ -28,6 +29,12 @@ Matrix laplace_covariance(const Matrix &second) {
   return eigen.eigenvectors() * bent.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
 }
 
+Peak peak_near(const Density &density, const Vector &start) {
+  const auto falling = [&](const Vector &x) { return -density(x); };
+  const Minimum found = minimise(with_differences(falling), start);
+  return {found.at, laplace_covariance(hessian(falling, found.at, kStep)), -found.value};
+}
+
 std::vector<Peak> modes_of(const Density &density, int dimension) {
   const auto falling = [&](const Vector &x) { return -density(x); };
   Matrix starts = Matrix::Zero(dimension, kStarts + 1);
@@ -38,13 +45,12 @@ std::vector<Peak> modes_of(const Density &density, int dimension) {
   std::stable_sort(order.begin(), order.end());
   std::vector<Peak> peaks;
   for (int k = 0; k < kModes; ++k) {
-    const Minimum found = minimise(with_differences(falling), starts.col(order[k].second));
+    const Peak found = peak_near(density, starts.col(order[k].second));
     bool known = false;
     for (const Peak &p : peaks)
       known |= Cholesky(p.covariance).matrixL().solve(found.at - p.at).norm() < kApart;
     if (!known)
-      peaks.push_back(
-          {found.at, laplace_covariance(hessian(falling, found.at, kStep)), -found.value});
+      peaks.push_back(found);
   }
   std::stable_sort(peaks.begin(), peaks.end(),
                    [](const Peak &a, const Peak &b) { return a.log_density > b.log_density; });
@@ -95,6 +101,18 @@ void summarise(const std::vector<Weighted> &passes, Evidence &e) {
   e.mean /= sum;
   e.covariance = second / sum - e.mean * e.mean.transpose();
   e.effective_samples = sum * sum / squares;
+}
+
+/// The sample that weighs most: where the proposal lacks a component, if too few count.
+Vector heaviest(const std::vector<Weighted> &passes) {
+  const Weighted *best = nullptr;
+  Eigen::Index at = 0, here = 0;
+  for (const Weighted &pass : passes)
+    if (pass.log_weights.maxCoeff(&here); !best || pass.log_weights[here] > best->log_weights[at]) {
+      best = &pass;
+      at = here;
+    }
+  return best->points.col(at);
 }
 
 /// Systematic resampling: every draw stands for the same share of the weight.
@@ -148,12 +166,19 @@ Evidence evidence(int dimension, const Density &log_likelihood, const EvidenceSe
   const std::vector<Peak> peaks = modes_of(density, dimension);
   e.mode = peaks.front().at;
   e.laplace = laplace_evidence(peaks.front());
+  double log_density_of_mode = peaks.front().log_density;
   Proposal proposal(peaks);
   auto passes = sample(density, proposal, settings);
   summarise(passes, e);
-  if (e.effective_samples < settings.least_share * e.samples &&
-      e.effective_samples > dimension + 2) {
-    proposal.add({e.mean, laplace_covariance(e.covariance.inverse()), e.log_evidence});
+  for (int again = 0; again < kAgain && e.effective_samples < settings.least_share * e.samples;
+       ++again) {
+    const Peak higher = peak_near(density, heaviest(passes));
+    proposal.add(higher);
+    if (higher.log_density > log_density_of_mode) {
+      log_density_of_mode = higher.log_density;
+      e.mode = higher.at;
+      e.laplace = laplace_evidence(higher);
+    }
     passes = sample(density, proposal, settings);
     summarise(passes, e);
   }

@@ -9,10 +9,10 @@
 namespace calendem::diagnose {
 
 struct EvidenceSettings {
-  int samples = 1024;       ///< of each of `shifts` shifted Sobol sequences
-  int shifts = 2;           ///< their spread gives `error`
-  double least_share = 0.1; ///< of effective samples; below, one more pass with a better proposal
-  int draws = 200;          ///< equally weighted draws of the posterior that are kept
+  int samples = 1024;          ///< of each of `shifts` shifted Sobol sequences
+  int shifts = 2;              ///< their spread gives `error`
+  double least_share = 0.1;    ///< of effective samples; below, up to three more passes
+  int draws = 200;             ///< equally weighted draws of the posterior that are kept
   unsigned long long seed = 1; ///< of the shifts
 };
 
@@ -31,8 +31,9 @@ struct Evidence {
 /// ln of the integral of exp(log_likelihood) over `dimension` standard normal scores by importance
 /// sampling: proposal is a mixture of the prior (15 %) and of t distributions (6 degrees of
 /// freedom) at up to three modes with the covariance of Laplace's approximation, balanced (Veach
-/// and Guibas 1995); Sobol points (Owen and Zhou, J. Am. Stat. Assoc. 95 (2000) 135).
-/// Exact for linear-Gaussian likelihoods up to `error`; Laplace's is exact there.
+/// and Guibas 1995), one more where a sample weighs too much; Sobol points (Owen and Zhou, J. Am.
+/// Stat. Assoc. 95 (2000) 135). Exact for linear-Gaussian likelihoods up to `error`; Laplace's is
+/// exact there.
 Evidence evidence(int dimension, const std::function<double(const Vector &)> &log_likelihood,
                   const EvidenceSettings &settings);
 

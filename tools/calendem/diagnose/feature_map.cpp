@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/feature_map.h"
+#include <algorithm>
 #include <cmath>
 
 namespace calendem::diagnose {
@@ -105,7 +106,7 @@ Matrix FeatureMap::discrepancy(const Matrix &of_observables) const {
     const Matrix here = left.across * of_observables(members, members) * left.across.transpose();
     const int k = int(here.rows());
     const double grown = normal_score(k + left.covariance.solve(here).trace(), k);
-    all(emulated() + t, emulated() + t) = grown * grown;
+    all(emulated() + t, emulated() + t) = std::max(1.0, grown * grown);
   }
   return all;
 }

@@ -39,7 +39,7 @@ public:
   /// Covariance of all features from that of the observables; 1 for a truncation residual.
   Matrix covariance(const Matrix &of_observables) const;
   /// The same for a discrepancy of the model: a truncation residual gets the square of what it is
-  /// expected to grow to.
+  /// expected to grow to, or 1: an unknown effect need not be smooth.
   Matrix discrepancy(const Matrix &of_observables) const;
   /// Observables that have these emulated features.
   Vector observables_of(const Vector &emulated) const;

@@ -26,6 +26,70 @@ Judged judge(const Problem &problem, const Hypothesis &hypothesis, const Matrix 
   return j;
 }
 
+/// A place where the unknown may sit, and its covariance there.
+struct Place {
+  std::string name;
+  double share = 1.0;
+  Matrix unknown;
+};
+
+std::vector<Place> places_of(const Problem &problem, const Linearised &base) {
+  std::vector<Place> places{{"everywhere", 1.0, beyond_recalibration(base, problem.discrepancy)}};
+  const auto add = [&](const std::string &name, const auto &contains) {
+    Vector mask(problem.observed.size());
+    for (Eigen::Index f = 0; f < mask.size(); ++f)
+      mask[f] = contains(problem.blocks[problem.features[f].block]) ? 1.0 : 0.0;
+    const bool everywhere = mask.minCoeff() > 0.0;
+    bool known = everywhere;
+    for (const Place &p : places)
+      known |= p.name == name;
+    if (!known)
+      places.push_back({name, 1.0,
+                        beyond_recalibration(base, mask.asDiagonal() * problem.discrepancy *
+                                                       mask.asDiagonal())});
+  };
+  for (const Block &b : problem.blocks)
+    add(b.stage, [&](const Block &o) { return o.stage == b.stage; });
+  for (const Block &b : problem.blocks)
+    add(b.name + ", " + b.stage + ", " + b.condition, [&](const Block &o) { return &o == &b; });
+  for (Eigen::Index f = 0; f < problem.observed.size(); ++f)
+    if (!problem.features[f].emulated) {
+      const Block &b = problem.blocks[problem.features[f].block];
+      places.push_back({b.name + ", " + b.stage + ", " + b.condition + ", unlike any run", 1.0,
+                        Matrix::Zero(problem.observed.size(), problem.observed.size())});
+      places.back().unknown(f, f) = 1.0;
+    }
+  const double others = double(places.size()) - 1.0;
+  for (std::size_t k = 0; k < places.size() && others > 0.0; ++k)
+    places[k].share = k == 0 ? 0.5 : 0.5 / others;
+  return places;
+}
+
+/// The unknown with its evidence averaged over places; parameters are those of the best place.
+Judged judge_unknown(const Problem &problem, const WhichSettings &settings, Which &w) {
+  Judged best;
+  double sum = 0.0, top = -INFINITY;
+  std::vector<std::pair<double, double>> terms; // share, log evidence
+  for (const Place &place : places_of(problem, w.base)) {
+    Judged here =
+        judge(problem, {Hypothesis::unknown, {}, "unknown", 0.0}, place.unknown, settings);
+    here.place = place.name;
+    terms.emplace_back(place.share, here.evidence.log_evidence);
+    const double mass = std::log(place.share) + here.evidence.log_evidence;
+    if (!(mass > top))
+      continue;
+    top = mass;
+    best = std::move(here);
+    w.unknown = place.unknown;
+  }
+  for (const auto &[share, log_evidence] : terms)
+    sum += std::exp(std::log(share) + log_evidence - top);
+  const double shift = top + std::log(sum) - best.evidence.log_evidence;
+  best.evidence.log_evidence += shift;
+  best.evidence.laplace += shift;
+  return best;
+}
+
 std::string joined(const Problem &problem, const std::vector<int> &on) {
   std::string name = problem.effects[on[0]].name;
   for (std::size_t k = 1; k < on.size(); ++k)
@@ -66,9 +130,7 @@ Which which(const Problem &problem, const WhichSettings &settings) {
   const Matrix nothing;
   w.judged.push_back(judge(problem, {Hypothesis::none, {}, "none", 0.0}, nothing, settings));
   w.base = linearise(problem, w.judged[0].evidence.mode);
-  w.unknown = beyond_recalibration(w.base, problem.discrepancy);
-  w.judged.push_back(
-      judge(problem, {Hypothesis::unknown, {}, "unknown", 0.0}, w.unknown, settings));
+  w.judged.push_back(judge_unknown(problem, settings, w));
   if (settings.noise)
     w.judged.push_back(judge(problem, {Hypothesis::noise, {}, "noise", 0.0}, nothing, settings));
   for (int e = 0; e < int(problem.effects.size()); ++e)

@@ -12,7 +12,7 @@ namespace calendem::diagnose {
 /// Prior probabilities. What none and unknown leave is shared: pairs get `pair_share` of it in
 /// equal parts for all pairs there are, computed or not; single ones the rest by weight.
 struct Priors {
-  double none = 0.4, unknown = 0.1, pair_share = 0.2;
+  double none = 0.4, unknown = 0.1, pair_share = 0.1;
   std::map<std::string, double> weight; ///< of single effects and noise; 1 where not named
 };
 
@@ -31,6 +31,7 @@ struct Judged {
   Evidence evidence;
   double adequacy_p = 1.0; ///< of its best fit; 1 for unknown and noise, which fit anything
   double probability = 0.0;
+  std::string place; ///< of unknown: the most probable of its places
 };
 
 /// The claim, had the priors been others.
@@ -48,7 +49,8 @@ struct Which {
   std::map<std::string, double> inclusion; ///< of each effect: alone or in a pair
   std::vector<Sensitivity> sensitivity;
   Linearised base; ///< about the recalibrated base model
-  Matrix unknown;  ///< covariance of the discrepancy of one standard deviation, off sensitivities
+  /// Covariance of the discrepancy of one standard deviation at its most probable place.
+  Matrix unknown;
 
   const Judged &of(const std::string &name) const;
 };
@@ -57,6 +59,8 @@ struct Which {
 /// chi-squared with as many degrees of freedom as features in the linear-Gaussian case, n F(n, nu)
 /// with an estimated covariance; p is the chance of more. Nothing is lost to recalibration because
 /// the priors count as data. Claim: see `why`; if no prediction is adequate the claim is unknown.
+/// The unknown may sit everywhere (half its prior), or in one stage, one block or one truncation
+/// residual (the other half in equal parts); its evidence is the mean over these places.
 Which which(const Problem &problem, const WhichSettings &settings);
 
 /// The rule alone, on hypotheses that have evidence and adequacy: sets probabilities and sorts.
