@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/emulators.h"
 #include "diagnose/feature_map.h"
+#include "diagnose/scatter.h"
 #include "synthetic_bank.h"
 #include <gtest/gtest.h>
 
@@ -72,6 +73,50 @@ TEST(GaussianProcess, AConstantIsPredictedAsSuch) {
   const Mean m = GaussianProcess(t).at(Vector::Zero(3), Vector());
   EXPECT_NEAR(m.mean, 7.0, 1e-6);
   EXPECT_LT(m.variance, 1e-9);
+}
+
+/// Three features of curved responses whose packings scatter together: correlation 0.8 of the first
+/// two, none with the third; 0.3, 0.3 and 0.1 in size. `each`: runs of one packing.
+std::vector<GaussianProcess> correlated(int runs, int each, std::vector<int> &packing) {
+  std::vector<GaussianProcess> all;
+  Training t = sample(runs, runs / each, 0.0, 0.0, 5);
+  packing = t.packing;
+  Random random(7, 7);
+  Matrix of_packing(3, runs / each);
+  for (int p = 0; p < of_packing.cols(); ++p) {
+    const Eigen::Vector3d normal{random.normal(), random.normal(), random.normal()};
+    of_packing.col(p) << 0.3 * normal[0], 0.3 * (0.8 * normal[0] + 0.6 * normal[1]),
+        0.1 * normal[2];
+  }
+  const Vector response = t.values;
+  for (int f = 0; f < 3; ++f) {
+    for (int i = 0; i < runs; ++i)
+      t.values[i] = (1.0 - 0.3 * f) * response[i] + of_packing(f, packing[i]);
+    all.emplace_back(t);
+  }
+  return all;
+}
+
+// A variance from n packings is known within sqrt(2/n), a correlation r within (1 - r^2)/sqrt(n);
+// three of these, and for the correlation the shrinkage.
+TEST(PooledScatter, IsTheCovarianceOfThePackings) {
+  for (const int each : {1, 3}) {
+    std::vector<int> packing;
+    const Scatter s = pooled_scatter(correlated(90, each, packing), packing);
+    const double n = each == 1 ? s.degrees_of_freedom : 29.0;
+    const Vector sd = s.covariance.diagonal().cwiseSqrt();
+    for (int f = 0; f < 3; ++f)
+      EXPECT_NEAR(std::pow(sd[f] / (f < 2 ? 0.3 : 0.1), 2), 1.0, 3.0 * std::sqrt(2.0 / n));
+    EXPECT_NEAR(s.covariance(0, 1) / (sd[0] * sd[1]), 0.8 * (1.0 - s.shrinkage),
+                3.0 * 0.36 / std::sqrt(n));
+    EXPECT_NEAR(s.covariance(0, 2) / (sd[0] * sd[2]), 0.0, 3.0 / std::sqrt(n));
+    if (each == 1) { // 90 runs, a response of 10 coefficients, some of them barely used
+      EXPECT_GT(s.degrees_of_freedom, 60.0);
+      EXPECT_LT(s.degrees_of_freedom, 86.0);
+    } else {
+      EXPECT_NEAR(s.degrees_of_freedom, 29.0, 1.0);
+    }
+  }
 }
 
 TEST(Emulators, AnEffectIsNothingAtAmplitudeZero) {

@@ -9,7 +9,7 @@
 namespace calendem::diagnose {
 
 struct EvidenceSettings {
-  int samples = 1024;          ///< of each of `shifts` shifted Sobol sequences
+  int samples = 512;           ///< of each of `shifts` shifted Sobol sequences
   int shifts = 2;              ///< their spread gives `error`
   double least_share = 0.1;    ///< of effective samples; below, up to three more passes
   int draws = 200;             ///< equally weighted draws of the posterior that are kept
