@@ -40,11 +40,15 @@ public:
     set_loads({});
   }
 
+  /// True while the contact's overlap is counted from its creation.
+  bool has_reference() const { return state() == kIntact || state() == kBrokenTouching; }
+  /// Memory of `model hertz_effects`, whose history value follows; NULL for a contact that the
+  /// effects leave alone.
+  const double *effect_memory() const { return has_reference() ? nullptr : h_ + kSize; }
+
   /// Overlap [um] at creation, subtracted from the contact's overlap while the reference lives.
   double reference_overlap(double radius_sum) const {
-    const int s = state();
-    const bool alive = s == kIntact || s == kBrokenTouching;
-    return alive && h_[1] < radius_sum ? radius_sum - h_[1] : 0.0;
+    return has_reference() && h_[1] < radius_sum ? radius_sum - h_[1] : 0.0;
   }
 
 private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_bond_bpm.h"
 #include "comm.h"
+#include "contact_effects.h"
 #include "domain.h"
 #include "error.h"
 #include "fix_contact_history.h"
@@ -73,14 +74,17 @@ FixBondBpm *FixBondBpm::find(LAMMPS *lmp, const char *caller) {
 int FixBondBpm::friction_history_offset(int bond_offset) {
   history_offset_ = bond_offset;
   PairGran *pair = static_cast<PairGran *>(force->pair_match("gran", 1));
-  const int rest = pair->dnum_pair() - bond_offset - BondHistory::kSize;
+  const int first = bond_offset + BondHistory::kSize +
+                    (ContactEffects::in_use(lmp) ? ContactEffects::kMemory : 0);
+  const int rest = pair->dnum_pair() - first;
   if (rest == 0)
     return -1;
   if (rest != 3)
-    error->fix_error(FLERR, this,
-                     "works with 'model hertz tangential history|no_history|off' without rolling "
-                     "friction history; the pair style stores other values too");
-  return bond_offset + BondHistory::kSize;
+    error->fix_error(
+        FLERR, this,
+        "works with 'model hertz|hertz_effects tangential history|no_history|off' without rolling "
+        "friction history; the pair style stores other values too");
+  return first;
 }
 
 void FixBondBpm::init() {

@@ -99,6 +99,8 @@ public:
   template <class Visit> void for_each_copy(Visit visit);
   /// Calls visit(i, j, r, history) for every pair whose spheres overlap, each once over all ranks.
   template <class Visit> void for_each_touching(Visit visit);
+  /// The same for every copy on this rank.
+  template <class Visit> void for_each_touching_copy(Visit visit);
   /// True on the rank (and copy) that counts the pair and decides its fate.
   bool decides(int i, int j) const;
 

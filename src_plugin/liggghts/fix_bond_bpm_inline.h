@@ -50,10 +50,17 @@ template <class Visit> void FixBondBpm::for_each_copy(Visit visit) {
   });
 }
 
-template <class Visit> void FixBondBpm::for_each_touching(Visit visit) {
+template <class Visit> void FixBondBpm::for_each_touching_copy(Visit visit) {
   for_each_neighbor([&](int i, int j, const BondHistory &bond) {
     const double r = norm(calendem::load(atom->x[i]) - calendem::load(atom->x[j]));
-    if (r < atom->radius[i] + atom->radius[j] && decides(i, j))
+    if (r < atom->radius[i] + atom->radius[j])
+      visit(i, j, r, bond);
+  });
+}
+
+template <class Visit> void FixBondBpm::for_each_touching(Visit visit) {
+  for_each_touching_copy([&](int i, int j, double r, const BondHistory &bond) {
+    if (decides(i, j))
       visit(i, j, r, bond);
   });
 }

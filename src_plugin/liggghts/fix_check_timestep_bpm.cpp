@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_check_timestep_bpm.h"
 #include "comm.h"
+#include "contact_effects.h"
 #include "error.h"
 #include "fix_bond_bpm.h"
 #include "fix_property_global.h"
+#include "force.h"
 #include "modify.h"
+#include "physics/hertz_contact.h"
 #include "physics/time_step_bound.h"
 #include "update.h"
 #include <algorithm>
@@ -14,23 +17,39 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
+namespace {
+const char *const kUsage =
+    "expects 'check/timestep/bpm N FRACTION [error yes|no] [pressure P]', P > 0";
+}
+
 FixCheckTimestepBpm::FixCheckTimestepBpm(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), fraction_(0.0), bound_(0.0), rayleigh_(0.0), stop_(false) {
-  const bool has_switch =
-      narg == 7 && !strcmp(arg[5], "error") && (!strcmp(arg[6], "yes") || !strcmp(arg[6], "no"));
-  if (narg != 5 && !has_switch)
-    error->fix_error(FLERR, this, "expects 'check/timestep/bpm N FRACTION [error yes|no]'");
+    : Fix(lmp, narg, arg), fraction_(0.0), bound_(0.0), rayleigh_(0.0), pressure_(0.0),
+      warned_(HUGE_VAL), stop_(false) {
+  if (narg < 5 || narg > 9)
+    error->fix_error(FLERR, this, kUsage);
   nevery = atoi(arg[3]);
   fraction_ = atof(arg[4]);
   if (nevery < 1 || !(fraction_ > 0.0) || fraction_ > 1.0)
     error->fix_error(FLERR, this, "N must be >= 1 and FRACTION in (0, 1]");
-  stop_ = narg == 7 && !strcmp(arg[6], "yes");
+  for (int i = 5; i < narg; i += 2) {
+    const std::string key = arg[i], value = i + 1 < narg ? arg[i + 1] : "";
+    pressure_ = key == "pressure" ? atof(value.c_str()) : pressure_;
+    stop_ = key == "error" ? value == "yes" : stop_;
+    if (!(key == "error" && (value == "yes" || value == "no")) &&
+        !(key == "pressure" && pressure_ > 0.0))
+      error->fix_error(FLERR, this, kUsage);
+  }
   vector_flag = 1;
   size_vector = 4;
   global_freq = 1;
 }
 
 int FixCheckTimestepBpm::setmask() { return END_OF_STEP; }
+
+void FixCheckTimestepBpm::init() {
+  if (ContactEffects::in_use(lmp))
+    effects_.connect(force->registry, "fix check/timestep/bpm");
+}
 
 void FixCheckTimestepBpm::setup(int) { end_of_step(); }
 
@@ -54,8 +73,55 @@ double FixCheckTimestepBpm::bond_bound() const {
       }
   });
   double least = HUGE_VAL;
+  if (ContactEffects::in_use(lmp))
+    add_contacts(stiffness, damping);
+  if (ContactEffects::in_use(lmp) && pressure_ > 0.0)
+    least = contact_bound();
   for (int i = 0; i < nlocal; ++i)
     least = std::min(least, calendem::stable_step(stiffness[i], damping[i], m[i], R[i]));
+  return least;
+}
+
+void FixCheckTimestepBpm::add_contacts(std::vector<calendem::BondRowSum> &stiffness,
+                                       std::vector<calendem::BondRowSum> &damping) const {
+  const int nlocal = atom->nlocal;
+  const double *R = atom->radius, *m = atom->rmass;
+  FixBondBpm *bonds = FixBondBpm::find(lmp, "fix check/timestep/bpm");
+  bonds->for_each_touching_copy([&](int i, int j, double r, const BondHistory &bond) {
+    const int ti = atom->type[i], tj = atom->type[j];
+    if (!bond.effect_memory() || !effects_.act(ti, tj))
+      return;
+    const double a = effects_.largest_radius(
+        {ti, tj, calendem::effective_radius(R[i], R[j]), R[i] + R[j] - r}, *bond.effect_memory());
+    const calendem::BondCoefficients k =
+        calendem::contact_stiffness(effects_.modulus(ti, tj), effects_.shear_modulus(ti, tj), a);
+    const calendem::BondCoefficients c =
+        calendem::contact_damping(k, effects_.damping(ti, tj), m[i] * m[j] / (m[i] + m[j]));
+    const calendem::Vec3 n = (1.0 / r) * (calendem::load(atom->x[i]) - calendem::load(atom->x[j]));
+    for (int b : {i, j})
+      if (b < nlocal) {
+        stiffness[b].add(k, n, 2.0 * R[b]);
+        damping[b].add(c, n, 2.0 * R[b]);
+      }
+  });
+}
+
+// A free sphere with the contacts that `pressure` will make.
+double FixCheckTimestepBpm::contact_bound() const {
+  double least = HUGE_VAL;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const int t = atom->type[i];
+    if (!effects_.act(t, t))
+      continue;
+    const double R = atom->radius[i], m = atom->rmass[i];
+    const double a =
+        effects_.radius_under(calendem::mean_contact_force(pressure_, R), t, t, 0.5 * R);
+    const calendem::BondCoefficients k =
+        calendem::contact_stiffness(effects_.modulus(t, t), effects_.shear_modulus(t, t), a);
+    const calendem::BondCoefficients c =
+        calendem::contact_damping(k, effects_.damping(t, t), 0.5 * m);
+    least = std::min(least, calendem::stable_step_of_contacts(k, c, m, R));
+  }
   return least;
 }
 
@@ -83,14 +149,16 @@ void FixCheckTimestepBpm::end_of_step() {
   if (update->dt <= limit)
     return;
   char message[256];
-  snprintf(message, sizeof message,
-           "time step %g us exceeds %g of the smaller of the bonds' bound (%g us) and the Rayleigh "
-           "time (%g us); use at most %g us",
-           update->dt, fraction_, bound_, rayleigh_, limit);
+  snprintf(
+      message, sizeof message,
+      "time step %g us exceeds %g of the smaller of the bound of bonds and effects (%g us) and "
+      "the Rayleigh time (%g us); use at most %g us",
+      update->dt, fraction_, bound_, rayleigh_, limit);
   if (stop_)
     error->fix_error(FLERR, this, message);
-  if (comm->me == 0)
+  if (comm->me == 0 && limit < 0.9 * warned_)
     error->warning(FLERR, message);
+  warned_ = limit < 0.9 * warned_ ? limit : warned_;
 }
 
 double FixCheckTimestepBpm::compute_vector(int n) {

@@ -19,12 +19,12 @@ using namespace FixConst;
 using calendem::Vec3;
 
 FixEnergyBpm::FixEnergyBpm(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), bonds_(NULL), effective_modulus_(NULL), cohesion_energy_density_(NULL),
-      sums_() {
+    : Fix(lmp, narg, arg), bonds_(NULL), pairs_have_effects_(false), effective_modulus_(NULL),
+      cohesion_energy_density_(NULL), sums_() {
   if (narg != 3)
     error->fix_error(FLERR, this, "takes no arguments: 'fix ID all energy/bpm'");
   vector_flag = 1;
-  size_vector = 5;
+  size_vector = 6;
   global_freq = 1;
   restart_global = 1;
   grow_arrays(atom->nmax);
@@ -48,6 +48,17 @@ void FixEnergyBpm::init() {
   force->registry.registerProperty("cohEnergyDens", &MODEL_PARAMS::createCohesionEnergyDensity);
   force->registry.connect("cohEnergyDens", cohesion_energy_density_, "fix energy/bpm");
   find_walls();
+  pairs_have_effects_ = ContactEffects::in_use(lmp);
+  bool any = pairs_have_effects_;
+  for (const Wall &wall : walls_)
+    any = any || wall.fix->has_effects();
+  if (any)
+    effects_.connect(force->registry, "fix energy/bpm");
+}
+
+void FixEnergyBpm::add_plastic(int i, int j, double work) {
+  if (bonds_->decides(i, j))
+    add_plastic(work);
 }
 
 void FixEnergyBpm::find_walls() {
@@ -124,8 +135,9 @@ void FixEnergyBpm::collect(Wall &wall, int i, const double *force) {
   const double height = atom->x[i][2] - wall.fix->position();
   const double overlap = atom->radius[i] - std::fabs(height);
   const double side = height > 0.0 ? 1.0 : -1.0;
-  const double E = effective_modulus_[atom->type[i]][wall.fix->atom_type_wall()];
-  const double damping = force[2] - side * calendem::hertz_force(E, atom->radius[i], overlap);
+  const EffectContact contact = {atom->type[i], wall.fix->atom_type_wall(), atom->radius[i],
+                                 overlap};
+  const double damping = force[2] - side * contact_force(contact, wall.fix->effect_memory(i));
   wall.damping += damping;
   add_damping(i, {{0.0, 0.0, damping}, {}});
   const Vec3 friction = {force[0], force[1], 0.0};
@@ -160,15 +172,30 @@ void FixEnergyBpm::bond_breaks(int i, int j, const BondHistory &bond) {
     sums_[kBreaks] -= cohesion(i, j, beyond);
 }
 
+double FixEnergyBpm::contact_force(const EffectContact &c, const double *memory) const {
+  return memory && effects_.act(c.itype, c.jtype)
+             ? effects_.force(c, *memory)
+             : calendem::hertz_force(effective_modulus_[c.itype][c.jtype], c.effective_radius,
+                                     c.overlap);
+}
+
+double FixEnergyBpm::contact_energy(const EffectContact &c, const double *memory) const {
+  return memory && effects_.act(c.itype, c.jtype)
+             ? effects_.elastic_energy(c, *memory)
+             : calendem::hertz_energy(effective_modulus_[c.itype][c.jtype], c.effective_radius,
+                                      c.overlap);
+}
+
 double FixEnergyBpm::pair_energy(bool of_cohesion) const {
   double sum = 0.0;
   bonds_->for_each_touching([&](int i, int j, double r, const BondHistory &bond) {
     const double *radius = atom->radius;
     const double beyond = r + bond.reference_overlap(radius[i] + radius[j]);
     if (!of_cohesion)
-      sum += calendem::hertz_energy(effective_modulus_[atom->type[i]][atom->type[j]],
-                                    calendem::effective_radius(radius[i], radius[j]),
-                                    radius[i] + radius[j] - beyond);
+      sum += contact_energy({atom->type[i], atom->type[j],
+                             calendem::effective_radius(radius[i], radius[j]),
+                             radius[i] + radius[j] - beyond},
+                            pairs_have_effects_ ? bond.effect_memory() : NULL);
     else if (bond.state() != kIntact)
       sum += cohesion(i, j, beyond);
   });
@@ -179,9 +206,9 @@ double FixEnergyBpm::wall_energy() const {
   double sum = 0.0;
   for (const Wall &wall : walls_)
     for (int i = 0; i < atom->nlocal; ++i)
-      sum += calendem::hertz_energy(
-          effective_modulus_[atom->type[i]][wall.fix->atom_type_wall()], atom->radius[i],
-          atom->radius[i] - std::fabs(atom->x[i][2] - wall.fix->position()));
+      sum += contact_energy({atom->type[i], wall.fix->atom_type_wall(), atom->radius[i],
+                             atom->radius[i] - std::fabs(atom->x[i][2] - wall.fix->position())},
+                            wall.fix->effect_memory(i));
   return sum;
 }
 

@@ -11,9 +11,9 @@
 //   (<= 0), 3 dissipated by normal damping of contacts and by damping of bonds, 4 work against the
 //   tangential contact forces: slip, their damping, and what their springs hold at the moment,
 //   5 lost in breaks beyond the bonds' strain energy: the potential of the cohesion that begins to
-//   act, and the last half step of the bond's force.
-// Needs `pair_style gran model hertz ... cohesion bpm surface bpm`; stands behind all fixes
-// wall/gran/platen, the walls it knows. Sums restart under the same fix ID.
+//   act, and the last half step of the bond's force, 6 taken by plastic flow in contacts.
+// Needs `pair_style gran model hertz|hertz_effects ... cohesion bpm surface bpm`; stands behind all
+// fixes wall/gran/platen, the walls it knows. Sums restart under the same fix ID.
 #ifdef FIX_CLASS
 
 FixStyle(energy/bpm, FixEnergyBpm)
@@ -24,6 +24,7 @@ FixStyle(energy/bpm, FixEnergyBpm)
 
 #include "atom.h"
 #include "bond_bpm_history.h"
+#include "contact_effects.h"
 #include "fix.h"
 #include "physics/parallel_bond.h"
 #include <vector>
@@ -75,6 +76,9 @@ public:
     if (i < atom->nlocal)
       loads_[i].friction = loads_[i].friction + a;
   }
+  void add_plastic(double work) { sums_[kPlastic] += work; }
+  /// Of a pair: each of its copies calls, one counts.
+  void add_plastic(int i, int j, double work);
   /// For fix bond/bpm, once per copy of the pair, while the history still holds the bond's loads.
   void bond_breaks(int i, int j, const BondHistory &bond);
 
@@ -90,9 +94,11 @@ private:
     class FixWallGranPlaten *fix;
     double damping; ///< sum of the damping forces along z on this rank's atoms [nN]
   };
-  enum Sum { kDamped, kFriction, kBreaks, kSums };
+  enum Sum { kDamped, kFriction, kBreaks, kPlastic, kSums };
 
   class FixBondBpm *bonds_;
+  ContactEffects effects_;
+  bool pairs_have_effects_;
   double **effective_modulus_, **cohesion_energy_density_; // by type pair, from the host
   std::vector<Wall> walls_;
   std::vector<AtomLoads> loads_;       // of the latest force computation
@@ -105,6 +111,8 @@ private:
   void add_half_step();
   double work_in_half_step(const ForceAndTorque &a, int i) const;
   double cohesion(int i, int j, double r) const;
+  double contact_force(const EffectContact &c, const double *memory) const;
+  double contact_energy(const EffectContact &c, const double *memory) const;
   double pair_energy(bool of_cohesion) const;
   double wall_energy() const;
 };

@@ -36,7 +36,7 @@ PlatenArguments::PlatenArguments(int narg, char **arg) {
 
 FixWallGranPlaten::FixWallGranPlaten(LAMMPS *lmp, int narg, char **arg)
     : PlatenArguments(narg, arg), FixWallGran(lmp, static_cast<int>(host_.size()), host_.data()),
-      sign_(-1.0), window_(0.25), may_release_(true), moved_(false) {
+      sign_(-1.0), window_(0.25), may_release_(true), moved_(false), memory_offset_(-1) {
   const char *z = NULL;
   for (size_t i = 0; i + 1 < host_.size(); ++i)
     if (!strcmp(host_[i], "zplane"))
@@ -145,6 +145,7 @@ int FixWallGranPlaten::setmask() { return FixWallGran::setmask() | INITIAL_INTEG
 void FixWallGranPlaten::init() {
   FixWallGran::init();
   record_.average.set_window(window_ / update->dt);
+  memory_offset_ = get_history_offset("contact_effects");
   shear_ = 1;
   shearDim_ = 2;
   shearAxis_ = -1;
@@ -175,6 +176,10 @@ void FixWallGranPlaten::pre_force(int vflag) {
   rebuildPrimitiveNeighlist_ = rebuildPrimitiveNeighlist_ || moved_;
   moved_ = false;
   FixWallGran::pre_force(vflag);
+}
+
+const double *FixWallGranPlaten::effect_memory(int i) const {
+  return memory_offset_ < 0 ? NULL : fix_history_primitive_->array_atom[i] + memory_offset_;
 }
 
 double FixWallGranPlaten::area() const { return domain->xprd * domain->yprd; }

@@ -56,6 +56,9 @@ public:
   double velocity() const { return -record_.state.speed; } ///< along z [um/us]
   double pressure() const { return record_.average.value(); }
   bool is_top() const { return sign_ < 0.0; }
+  bool has_effects() const { return memory_offset_ >= 0; } ///< model hertz_effects
+  /// Memory of atom i's contact under `model hertz_effects`, NULL under another model.
+  const double *effect_memory(int i) const;
 
 private:
   /// All that restarts, doubles only.
@@ -72,6 +75,7 @@ private:
   double window_;
   bool may_release_;
   bool moved_;
+  int memory_offset_; // -1: another model
 
   void parse();
   void set_keyword(const std::string &key, const std::string &value);

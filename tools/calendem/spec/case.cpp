@@ -39,6 +39,10 @@ const std::vector<Key> &case_keys() {
       {"bond.damping", "bond_damping", "0.02", 0, 1, "", "fraction of critical damping"},
       {"bond.weibull_modulus", "weibull_m", "0", 0, 100, "", "scatter of strength; 0: none"},
       {"bond.seed", "bond_seed", "1", 0, 4e9, "", "of the scatter", "", false, true},
+      {"effects.nmc_plasticity.yield_pressure_GPa", "nmc_yield_GPa", "0", 0, 1000, "GPa",
+       "limit of the contact pressure between bodies and at the platen; 0: elastic"},
+      {"effects.collector_indentation.yield_pressure_GPa", "collector_yield_GPa", "0", 0, 1000,
+       "GPa", "limit of the contact pressure of bodies on the collector; 0: elastic"},
       {"platen.control", "control", "pressure", 0, 0, "", "what the platen goes down to",
        "pressure|thickness|displacement"},
       {"platen.max_pressure_MPa", "p_max_MPa", "150", 0.1, 2000, "MPa", "with control = pressure"},
@@ -108,6 +112,20 @@ void check_collapse(const Settings &s, const std::string &a, const std::string &
                                  s.text(at_b + "youngs_modulus_GPa")));
 }
 
+// A contact that yields below 2 CED cannot carry its own cohesion (physics/plastic_contact.h).
+void check_yield(const Settings &s, Mistakes &mistakes) {
+  const std::string key = "effects.nmc_plasticity.yield_pressure_GPa";
+  if (!s.sound({key, "material.am.ced_J_m3"}))
+    return;
+  const double least = 2.5e-9 * s.number("material.am.ced_J_m3");
+  if (s.number(key) > 0.0 && s.number(key) < least)
+    mistakes.add(s.line(key),
+                 fmt::format("{} is {} GPa, below 2.5 times material.am.ced_J_m3 = {}: such "
+                             "contacts cannot carry their own cohesion and the packing collapses. "
+                             "Give 0 (elastic) or at least {:.3g} GPa; NMC's is 1 to 12 GPa.",
+                             key, s.text(key), s.text("material.am.ced_J_m3"), least));
+}
+
 void check_target(const Settings &s, Mistakes &mistakes) {
   const std::string control = s.text("platen.control");
   if (control == "pressure" || !s.sound({"platen.control", "platen." + control + "_um"}))
@@ -125,6 +143,7 @@ void check_case(const Settings &s, Mistakes &mistakes) {
   check_collapse(s, "am", "am", 0.1, mistakes);
   check_collapse(s, "cbd", "cbd", 0.1, mistakes);
   check_collapse(s, "am", "cbd", 0.2, mistakes);
+  check_yield(s, mistakes);
   check_target(s, mistakes);
 }
 

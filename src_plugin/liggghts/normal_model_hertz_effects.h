@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Normal model `hertz_effects`: the host's `hertz`, except between atom types for which an effect
+// of contact_effects.h is set. Properties as of `hertz`, and those of contact_effects.h. Setting:
+// tangential_damping on|off. Works in pair_style gran and in all fixes wall/gran.
+//   F_n = law(overlap, memory) - gamma v_n,  gamma and k_t the host's with the law's contact radius
+//   a: S_n = 2 E* a, S_t = k_t = 8 G* a. A contact that the law has opened (a = 0) takes no
+//   friction.
+// A pair whose overlap is counted from its creation (bonded, or broken and not yet separated) stays
+// Hertz: effects are for surfaces that meet, not for the inside of a body. Memory ends when the
+// spheres have separated. What effects take is booked in fix energy/bpm.
+#ifdef NORMAL_MODEL
+NORMAL_MODEL(HERTZ_EFFECTS, hertz_effects, 30)
+#else
+#ifndef NORMAL_MODEL_HERTZ_EFFECTS_H_
+#define NORMAL_MODEL_HERTZ_EFFECTS_H_
+
+#include "bond_bpm_history.h"
+#include "contact_effects.h"
+#include "contact_models.h"
+#include "fix_energy_bpm.h"
+#include "normal_model_base.h"
+#include <cmath>
+
+namespace LIGGGHTS {
+namespace ContactModels {
+
+template <> class NormalModel<HERTZ_EFFECTS> : public NormalModelBase {
+public:
+  NormalModel(LAMMPS *lmp, IContactHistorySetup *hsetup, class ContactModelBase *cmb)
+      : NormalModelBase(lmp, hsetup, cmb), energy_(NULL), tangential_damping_(true),
+        memory_(hsetup->add_history_value("contact_memory", "0")), bond_(-1) {
+    cmb->add_history_offset("contact_effects", memory_);
+  }
+
+  void registerSettings(Settings &settings) {
+    settings.registerOnOff("tangential_damping", tangential_damping_, true);
+  }
+
+  void postSettings(IContactHistorySetup *, ContactModelBase *cmb) {
+    bond_ = cmb->get_history_offset("bond_bpm");
+  }
+
+  void connectToProperties(PropertyRegistry &registry) {
+    effects_.connect(registry, "model hertz_effects");
+    energy_ = FixEnergyBpm::find(lmp);
+  }
+
+  double stressStrainExponent() { return 1.5; }
+
+  void surfacesIntersect(SurfacesIntersectData &s, ForceData &i_forces, ForceData &j_forces) {
+    if (s.contact_flags)
+      *s.contact_flags |= CONTACT_NORMAL_MODEL;
+    const double R = s.is_wall ? s.radi : calendem::effective_radius(s.radi, s.radj);
+    const LAMMPS_NS::EffectContact contact = {s.itype, s.jtype, R, s.deltan};
+    double radius = std::sqrt(R * s.deltan);
+    double force = 4.0 / 3.0 * effects_.modulus(s.itype, s.jtype) * radius * s.deltan;
+    if (effects_.act(s.itype, s.jtype) && meets(s)) {
+      double &memory = s.contact_history[memory_];
+      if (s.computeflag && s.shearupdate)
+        advance(s, contact, memory);
+      radius = effects_.contact_radius(contact, memory);
+      force = effects_.force(contact, memory);
+    }
+    set(s, radius, force);
+    apply(s, i_forces, j_forces);
+  }
+
+  void surfacesClose(SurfacesCloseData &s, ForceData &, ForceData &) {
+    if (s.contact_flags)
+      *s.contact_flags |= CONTACT_NORMAL_MODEL;
+    if (s.contact_history)
+      s.contact_history[memory_] = 0.0;
+  }
+
+  void beginPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
+  void endPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
+
+private:
+  LAMMPS_NS::ContactEffects effects_;
+  FixEnergyBpm *energy_; // NULL when no ledger is kept
+  bool tangential_damping_;
+  int memory_, bond_; // offsets in the history; bond_ is -1 without bonds
+
+  bool meets(const SurfacesIntersectData &s) const {
+    return bond_ < 0 || !LAMMPS_NS::BondHistory(s.contact_history + bond_).has_reference();
+  }
+
+  void advance(const SurfacesIntersectData &s, const LAMMPS_NS::EffectContact &contact,
+               double &memory) {
+    const double taken = effects_.advance(contact, memory);
+    if (!energy_ || taken == 0.0)
+      return;
+    if (s.is_wall)
+      energy_->add_plastic(taken);
+    else
+      energy_->add_plastic(s.i, s.j, taken);
+  }
+
+  void set(SurfacesIntersectData &s, double radius, double force) const {
+    const double normal = 2.0 * effects_.modulus(s.itype, s.jtype) * radius;
+    const double tangential = 8.0 * effects_.shear_modulus(s.itype, s.jtype) * radius;
+    const double beta = -2.0 * std::sqrt(5.0 / 6.0) * effects_.damping(s.itype, s.jtype);
+    s.kn = s.deltan > 0.0 ? force / s.deltan : 0.0; // F = kn deltan, as the ledger reads it
+    s.kt = tangential;
+    s.gamman = beta * std::sqrt(normal * s.meff);
+    s.gammat = tangential_damping_ ? beta * std::sqrt(tangential * s.meff) : 0.0;
+    s.Fn = force - s.gamman * s.vn;
+    if (radius == 0.0) // open: the friction spring must not wind up meanwhile
+      s.vtr1 = s.vtr2 = s.vtr3 = 0.0;
+  }
+
+  void apply(const SurfacesIntersectData &s, ForceData &i_forces, ForceData &j_forces) const {
+    const double part = s.is_wall ? s.area_ratio : 1.0;
+    for (int k = 0; k < 3; ++k) {
+      i_forces.delta_F[k] += part * s.Fn * s.en[k];
+      if (!s.is_wall)
+        j_forces.delta_F[k] -= s.Fn * s.en[k];
+    }
+  }
+};
+
+} // namespace ContactModels
+} // namespace LIGGGHTS
+
+#endif
+#endif

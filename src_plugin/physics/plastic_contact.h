@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Elastic-plastic normal contact with a limiting contact pressure p_y. With d the overlap, d* the
+// largest one so far, a* = sqrt(R d*) the contact radius there and d_y = R (pi p_y / (2 E))^2:
+//   loading, d = d* <= d_y:  F = 4/3 E sqrt(R) d^(3/2)                             (Hertz)
+//   loading, d = d* > d_y:   F = F_y + pi p_y R (d - d_y),  F_y = 2/3 pi p_y R d_y
+//   below d*:                F = F* x^(3/2),  x = 1 - (d* - d)/e*,  e* = 3 F*/(4 E a*);  0 for x <
+//   0
+// The last is Hertz with the larger radius R_p = a*^2/e* from the residual overlap d_p = d* - e*
+// on. E, R: effective modulus [kPa] and radius [um]; p_y > 0 [kPa]; overlaps in um, forces in nN, >
+// 0 repulsive. p_y -> infinity is Hertz. Force and slope are continuous in loading; the slope at
+// the start of unloading is 2 E a*, that of Hertz at the same overlap: unloading is stiffer than
+// plastic loading, and since overlaps grow larger, stiffer than Hertz at the same force. Range:
+// small strains, d*/R below about 0.2; beyond, the neighbours' plastic zones would meet. Energy:
+// elastic_energy is given back, plastic_work (of d* alone) is not. Below SJKR's 2 CED such a
+// contact cannot carry its own cohesion: F ~ pi p_y R d, F_C ~ 2 pi CED R d. Source: Thornton, J.
+// Appl. Mech. 64 (1997) 383, eqs 8-21. Deviations: none; written in d* alone (a*^2 = R d* follows
+// from his R_p F* = R F_e), so that one number is the contact's memory. Verified by
+// tests/unit/physics/plastic_contact_test.cpp, tests/verification/plastic_contact.
+#ifndef CALENDEM_PHYSICS_PLASTIC_CONTACT_H
+#define CALENDEM_PHYSICS_PLASTIC_CONTACT_H
+
+#include "hertz_contact.h"
+
+namespace calendem {
+
+class PlasticContact {
+public:
+  /// Effective modulus [kPa], effective radius [um], limiting pressure [kPa]; all > 0.
+  PlasticContact(double E_eff, double R_eff, double yield_pressure)
+      : E_(E_eff), R_(R_eff), slope_(kPi_ * yield_pressure * R_eff),
+        yield_overlap_(slope_ * slope_ / (4.0 * E_eff * E_eff * R_eff)) {}
+
+  double yield_overlap() const { return yield_overlap_; }
+
+  /// Force [nN] while the overlap is the largest so far.
+  double loading_force(double overlap) const {
+    return overlap <= yield_overlap_ ? hertz_force(E_, R_, overlap)
+                                     : slope_ * (overlap - yield_overlap_ / 3.0);
+  }
+
+  /// Overlap [um] at which loading reaches a force [nN]: the inverse of loading_force.
+  double overlap_under(double force) const {
+    const double at_yield = 2.0 / 3.0 * slope_ * yield_overlap_;
+    return force <= at_yield ? std::pow(0.75 * force / (E_ * std::sqrt(R_)), 2.0 / 3.0)
+                             : force / slope_ + yield_overlap_ / 3.0;
+  }
+
+  /// Overlap [um] that comes back between the largest one and loss of contact: e*.
+  double elastic_overlap(double largest) const {
+    return largest <= yield_overlap_
+               ? largest
+               : 0.75 * loading_force(largest) / (E_ * std::sqrt(R_ * largest));
+  }
+
+  /// Force [nN] at an overlap with the largest one so far (or the overlap, if that is larger).
+  double force(double overlap, double largest) const {
+    if (overlap >= largest)
+      return loading_force(overlap);
+    const double x = still_elastic(overlap, largest);
+    return loading_force(largest) * x * std::sqrt(x);
+  }
+
+  /// Radius [um] of the contact's area; the tangent stiffness below d* is 2 E times it.
+  double contact_radius(double overlap, double largest) const {
+    if (overlap >= largest)
+      return std::sqrt(R_ * std::fmax(overlap, 0.0));
+    return std::sqrt(R_ * largest * still_elastic(overlap, largest));
+  }
+
+  /// Energy [fJ] that unloading gives back.
+  double elastic_energy(double overlap, double largest) const {
+    const double from = std::fmax(std::fmax(overlap, largest), 0.0);
+    const double x = overlap >= largest ? 1.0 : still_elastic(overlap, largest);
+    return 0.4 * elastic_overlap(from) * loading_force(from) * x * x * std::sqrt(x);
+  }
+
+  /// Work [fJ] that plastic flow has taken up to the largest overlap; >= 0.
+  double plastic_work(double largest) const {
+    const double d = largest - yield_overlap_;
+    if (d <= 0.0)
+      return 0.0;
+    const double done = hertz_energy(E_, R_, yield_overlap_) +
+                        d * (loading_force(yield_overlap_) + 0.5 * slope_ * d);
+    return done - elastic_energy(largest, largest);
+  }
+
+private:
+  static constexpr double kPi_ = 3.14159265358979323846;
+  double E_, R_, slope_, yield_overlap_;
+
+  double still_elastic(double overlap, double largest) const { // x of the head comment
+    return std::fmax(0.0, 1.0 - (largest - overlap) / elastic_overlap(largest));
+  }
+};
+
+} // namespace calendem
+
+#endif

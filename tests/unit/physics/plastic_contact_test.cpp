@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "physics/plastic_contact.h"
+
+#include <gtest/gtest.h>
+
+using namespace calendem;
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double E = 1e8, R = 0.4, p_y = 5e6; // NMC-like; kPa, um
+const PlasticContact contact(E, R, p_y);
+
+} // namespace
+
+// Requirement: yield is where Hertz' largest pressure 2 E a/(pi R) meets the limit. 4 ulp.
+TEST(PlasticContact, YieldsAtTheLimitingPressure) {
+  const double a = std::sqrt(R * contact.yield_overlap());
+  EXPECT_DOUBLE_EQ(2.0 * E * a / (kPi * R), p_y);
+}
+
+// Requirement: below yield nothing but Hertz, loading and unloading.
+TEST(PlasticContact, HertzBelowYield) {
+  const double d = 0.9 * contact.yield_overlap();
+  for (double part : {0.0, 0.3, 1.0}) {
+    EXPECT_DOUBLE_EQ(contact.force(part * d, d), hertz_force(E, R, part * d));
+    EXPECT_DOUBLE_EQ(contact.elastic_energy(part * d, d), hertz_energy(E, R, part * d));
+  }
+  EXPECT_EQ(contact.plastic_work(d), 0.0);
+  EXPECT_EQ(contact.force(-0.1, 0.0), 0.0);
+  EXPECT_EQ(contact.force(-0.1, d), 0.0);
+}
+
+// Requirement: force and slope are continuous at yield; beyond, the slope is pi p_y R. The overlaps
+// differ by 1e-7: the force by 1.5e-7 of itself, Hertz' slope by 0.5e-7.
+TEST(PlasticContact, LoadingIsSmooth) {
+  const double y = contact.yield_overlap(), h = 1e-7 * y;
+  EXPECT_NEAR(contact.loading_force(y + h) / hertz_force(E, R, y), 1.0, 2e-7);
+  EXPECT_NEAR(hertz_stiffness(E, R, y) / (kPi * p_y * R), 1.0, 1e-15);
+  EXPECT_NEAR((contact.loading_force(9 * y) - contact.loading_force(4 * y)) / (5 * y),
+              kPi * p_y * R, 1e-6);
+}
+
+// Requirement: the overlap under a force is that of loading. 4 ulp of the power.
+TEST(PlasticContact, OverlapUnderAForce) {
+  for (double times : {0.1, 0.9, 1.0, 1.1, 40.0}) {
+    const double d = times * contact.yield_overlap();
+    EXPECT_NEAR(contact.overlap_under(contact.loading_force(d)) / d, 1.0, 1e-15);
+  }
+}
+
+// Requirement: unloading is Hertz with Thornton's radius and residual overlap, written as he does:
+// R_p = 4E/(3F*) ((2F* + F_y)/(2 pi p_y))^(3/2), d_p = d* - (3F*/(4E sqrt(R_p)))^(2/3).
+TEST(PlasticContact, UnloadingIsThorntons) {
+  const double y = contact.yield_overlap(), F_y = hertz_force(E, R, y);
+  for (double times : {1.5, 10.0, 60.0}) {
+    const double largest = times * y, F = contact.loading_force(largest);
+    const double R_p = 4 * E / (3 * F) * std::pow((2 * F + F_y) / (2 * kPi * p_y), 1.5);
+    const double residual = largest - std::pow(3 * F / (4 * E * std::sqrt(R_p)), 2.0 / 3.0);
+    EXPECT_GT(R_p, R);
+    EXPECT_GT(residual, 0.0);
+    EXPECT_NEAR((largest - contact.elastic_overlap(largest)) / residual, 1.0, 1e-13);
+    for (double part : {0.1, 0.5, 1.0}) { // of the way from the residual overlap to the largest
+      const double d = residual + part * (largest - residual);
+      const double law = hertz_force(E, R_p, d - residual);
+      EXPECT_NEAR(contact.force(d, largest) / law, 1.0, 1e-13);
+      EXPECT_NEAR(contact.contact_radius(d, largest) / std::sqrt(R_p * (d - residual)), 1.0, 1e-13);
+    }
+    EXPECT_EQ(contact.force(0.99 * residual, largest), 0.0);
+    EXPECT_EQ(contact.contact_radius(0.99 * residual, largest), 0.0);
+  }
+}
+
+// Requirement: unloading starts with the stiffness of Hertz at the same overlap, 2 E a. Difference
+// of step h = 1e-6 e*: error h F''/2 = h F'/(4 e*) and round-off 1e-16/1e-6.
+TEST(PlasticContact, UnloadingIsAsStiffAsHertzAtThatOverlap) {
+  const double largest = 20 * contact.yield_overlap(), h = 1e-6 * contact.elastic_overlap(largest);
+  const double slope = (contact.force(largest, largest) - contact.force(largest - h, largest)) / h;
+  EXPECT_NEAR(slope / hertz_stiffness(E, R, largest), 1.0, 0.25e-6 + 1e-9);
+  EXPECT_GT(slope, 4.0 * kPi * p_y * R); // plastic loading is softer: sqrt(20) times
+}
+
+// Requirement: the work of loading is elastic energy and plastic work; the elastic energy is what
+// unloading gives back. Both integrals by Simpson with 2000 intervals; kink at yield and root at
+// the residual overlap leave h^2 and h^(5/2): 1e-6.
+TEST(PlasticContact, WorkIsStoredOrTaken) {
+  const double y = contact.yield_overlap(), largest = 30 * y;
+  const auto integral = [](double low, double high, auto f) {
+    const int n = 2000;
+    const double h = (high - low) / n;
+    double sum = f(low) + f(high);
+    for (int k = 1; k < n; ++k)
+      sum += f(low + k * h) * (k % 2 ? 4 : 2);
+    return sum * h / 3;
+  };
+  const double in = integral(0.0, largest, [&](double d) { return contact.loading_force(d); });
+  const double out = integral(0.0, largest, [&](double d) { return contact.force(d, largest); });
+  EXPECT_NEAR(contact.elastic_energy(largest, largest) / out, 1.0, 1e-6);
+  EXPECT_NEAR(contact.plastic_work(largest) / (in - out), 1.0, 1e-6);
+  EXPECT_GT(in, 2 * out); // most of it is taken
+}
+
+// Requirement: the force is the slope of the elastic energy on the way back. Central difference of
+// step h = 1e-4 e*: 1e-8/8 at x = 1, (1/0.3)^2 of it at x = 0.3; round-off 1e-16/1e-4.
+TEST(PlasticContact, ForceIsSlopeOfElasticEnergy) {
+  const double largest = 10 * contact.yield_overlap(), e = contact.elastic_overlap(largest);
+  for (double back : {0.1, 0.7}) {
+    const double d = largest - back * e, h = 1e-4 * e;
+    const double slope =
+        (contact.elastic_energy(d + h, largest) - contact.elastic_energy(d - h, largest)) / (2 * h);
+    EXPECT_NEAR(slope / contact.force(d, largest), 1.0, 1.4e-8 + 1e-11);
+  }
+}
+
+// Requirement: plastic work never falls, and a repeated loading to the same overlap takes none.
+TEST(PlasticContact, PlasticWorkGrows) {
+  double before = 0.0;
+  for (double times = 0.0; times < 50.0; times += 0.5) {
+    const double work = contact.plastic_work(times * contact.yield_overlap());
+    EXPECT_GE(work, before);
+    before = work;
+  }
+}
