@@ -57,6 +57,18 @@ void ContactEffects::connect(PropertyRegistry &registry, const char *caller) {
   check(registry);
 }
 
+double ContactEffects::force(const EffectContact &c, const double *memory) const {
+  return memory && act(c.itype, c.jtype)
+             ? plastic(c).force(c.overlap, *memory)
+             : calendem::hertz_force(modulus_[c.itype][c.jtype], c.effective_radius, c.overlap);
+}
+
+double ContactEffects::elastic_energy(const EffectContact &c, const double *memory) const {
+  return memory && act(c.itype, c.jtype)
+             ? plastic(c).elastic_energy(c.overlap, *memory)
+             : calendem::hertz_energy(modulus_[c.itype][c.jtype], c.effective_radius, c.overlap);
+}
+
 void ContactEffects::check(PropertyRegistry &registry) const {
   LAMMPS *lmp = registry.getLAMMPS();
   const int n = registry.max_type();

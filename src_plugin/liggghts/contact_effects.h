@@ -35,14 +35,12 @@ public:
   /// True if contacts of these types follow another law than Hertz.
   bool act(int itype, int jtype) const { return yield_pressure_[itype][jtype] > 0.0; }
 
-  double force(const EffectContact &c, double memory) const {
-    return plastic(c).force(c.overlap, memory);
-  }
+  /// Elastic force [nN] and stored energy [fJ]; Hertz' without effect or memory (NULL).
+  double force(const EffectContact &c, const double *memory) const;
+  double elastic_energy(const EffectContact &c, const double *memory) const;
+
   double contact_radius(const EffectContact &c, double memory) const {
     return plastic(c).contact_radius(c.overlap, memory);
-  }
-  double elastic_energy(const EffectContact &c, double memory) const {
-    return plastic(c).elastic_energy(c.overlap, memory);
   }
   /// Largest radius [um] of the contact's area so far: its stiffness is at most 2 E* times it.
   double largest_radius(const EffectContact &c, double memory) const {

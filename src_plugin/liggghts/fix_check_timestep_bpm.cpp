@@ -151,8 +151,8 @@ void FixCheckTimestepBpm::end_of_step() {
   char message[256];
   snprintf(
       message, sizeof message,
-      "time step %g us exceeds %g of the smaller of the bound of bonds and effects (%g us) and "
-      "the Rayleigh time (%g us); use at most %g us",
+      "time step %g us exceeds %g of the smaller of the bonds' bound (%g us, contacts of effects "
+      "included) and the Rayleigh time (%g us); use at most %g us",
       update->dt, fraction_, bound_, rayleigh_, limit);
   if (stop_)
     error->fix_error(FLERR, this, message);

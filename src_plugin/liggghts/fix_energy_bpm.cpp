@@ -19,12 +19,12 @@ using namespace FixConst;
 using calendem::Vec3;
 
 FixEnergyBpm::FixEnergyBpm(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), bonds_(NULL), pairs_have_effects_(false), effective_modulus_(NULL),
-      cohesion_energy_density_(NULL), sums_() {
+    : Fix(lmp, narg, arg), bonds_(NULL), pairs_have_effects_(false), cohesion_energy_density_(NULL),
+      sums_() {
   if (narg != 3)
     error->fix_error(FLERR, this, "takes no arguments: 'fix ID all energy/bpm'");
   vector_flag = 1;
-  size_vector = 6;
+  size_vector = 7;
   global_freq = 1;
   restart_global = 1;
   grow_arrays(atom->nmax);
@@ -43,17 +43,11 @@ void FixEnergyBpm::init() {
   if (modify->n_fixes_style_strict("energy/bpm") > 1)
     error->fix_error(FLERR, this, "there may be only one");
   bonds_ = FixBondBpm::find(lmp, "fix energy/bpm");
-  force->registry.registerProperty("Yeff", &MODEL_PARAMS::createYeff);
-  force->registry.connect("Yeff", effective_modulus_, "fix energy/bpm");
   force->registry.registerProperty("cohEnergyDens", &MODEL_PARAMS::createCohesionEnergyDensity);
   force->registry.connect("cohEnergyDens", cohesion_energy_density_, "fix energy/bpm");
   find_walls();
   pairs_have_effects_ = ContactEffects::in_use(lmp);
-  bool any = pairs_have_effects_;
-  for (const Wall &wall : walls_)
-    any = any || wall.fix->has_effects();
-  if (any)
-    effects_.connect(force->registry, "fix energy/bpm");
+  effects_.connect(force->registry, "fix energy/bpm");
 }
 
 void FixEnergyBpm::add_plastic(int i, int j, double work) {
@@ -137,7 +131,7 @@ void FixEnergyBpm::collect(Wall &wall, int i, const double *force) {
   const double side = height > 0.0 ? 1.0 : -1.0;
   const EffectContact contact = {atom->type[i], wall.fix->atom_type_wall(), atom->radius[i],
                                  overlap};
-  const double damping = force[2] - side * contact_force(contact, wall.fix->effect_memory(i));
+  const double damping = force[2] - side * effects_.force(contact, wall.fix->effect_memory(i));
   wall.damping += damping;
   add_damping(i, {{0.0, 0.0, damping}, {}});
   const Vec3 friction = {force[0], force[1], 0.0};
@@ -172,30 +166,16 @@ void FixEnergyBpm::bond_breaks(int i, int j, const BondHistory &bond) {
     sums_[kBreaks] -= cohesion(i, j, beyond);
 }
 
-double FixEnergyBpm::contact_force(const EffectContact &c, const double *memory) const {
-  return memory && effects_.act(c.itype, c.jtype)
-             ? effects_.force(c, *memory)
-             : calendem::hertz_force(effective_modulus_[c.itype][c.jtype], c.effective_radius,
-                                     c.overlap);
-}
-
-double FixEnergyBpm::contact_energy(const EffectContact &c, const double *memory) const {
-  return memory && effects_.act(c.itype, c.jtype)
-             ? effects_.elastic_energy(c, *memory)
-             : calendem::hertz_energy(effective_modulus_[c.itype][c.jtype], c.effective_radius,
-                                      c.overlap);
-}
-
 double FixEnergyBpm::pair_energy(bool of_cohesion) const {
   double sum = 0.0;
   bonds_->for_each_touching([&](int i, int j, double r, const BondHistory &bond) {
     const double *radius = atom->radius;
     const double beyond = r + bond.reference_overlap(radius[i] + radius[j]);
     if (!of_cohesion)
-      sum += contact_energy({atom->type[i], atom->type[j],
-                             calendem::effective_radius(radius[i], radius[j]),
-                             radius[i] + radius[j] - beyond},
-                            pairs_have_effects_ ? bond.effect_memory() : NULL);
+      sum += effects_.elastic_energy({atom->type[i], atom->type[j],
+                                      calendem::effective_radius(radius[i], radius[j]),
+                                      radius[i] + radius[j] - beyond},
+                                     pairs_have_effects_ ? bond.effect_memory() : NULL);
     else if (bond.state() != kIntact)
       sum += cohesion(i, j, beyond);
   });
@@ -206,10 +186,15 @@ double FixEnergyBpm::wall_energy() const {
   double sum = 0.0;
   for (const Wall &wall : walls_)
     for (int i = 0; i < atom->nlocal; ++i)
-      sum += contact_energy({atom->type[i], wall.fix->atom_type_wall(), atom->radius[i],
-                             atom->radius[i] - std::fabs(atom->x[i][2] - wall.fix->position())},
-                            wall.fix->effect_memory(i));
+      sum += effects_.elastic_energy(
+          {atom->type[i], wall.fix->atom_type_wall(), atom->radius[i],
+           atom->radius[i] - std::fabs(atom->x[i][2] - wall.fix->position())},
+          wall.fix->effect_memory(i));
   return sum;
+}
+
+double FixEnergyBpm::stored_in_contacts() const {
+  return pair_energy(false) + pair_energy(true) + wall_energy();
 }
 
 double FixEnergyBpm::compute_vector(int n) {

@@ -11,7 +11,8 @@
 //   (<= 0), 3 dissipated by normal damping of contacts and by damping of bonds, 4 work against the
 //   tangential contact forces: slip, their damping, and what their springs hold at the moment,
 //   5 lost in breaks beyond the bonds' strain energy: the potential of the cohesion that begins to
-//   act, and the last half step of the bond's force, 6 taken by plastic flow in contacts.
+//   act, and the last half step of the bond's force, 6 taken by plastic flow in contacts, 7 by
+//   collapsing spheres.
 // Needs `pair_style gran model hertz|hertz_effects ... cohesion bpm surface bpm`; stands behind all
 // fixes wall/gran/platen, the walls it knows. Sums restart under the same fix ID.
 #ifdef FIX_CLASS
@@ -79,6 +80,9 @@ public:
   void add_plastic(double work) { sums_[kPlastic] += work; }
   /// Of a pair: each of its copies calls, one counts.
   void add_plastic(int i, int j, double work);
+  /// Energy [fJ] in this rank's contacts, elastic and cohesive: before and after radii change.
+  double stored_in_contacts() const;
+  void add_collapse(double work) { sums_[kCollapse] += work; }
   /// For fix bond/bpm, once per copy of the pair, while the history still holds the bond's loads.
   void bond_breaks(int i, int j, const BondHistory &bond);
 
@@ -94,12 +98,12 @@ private:
     class FixWallGranPlaten *fix;
     double damping; ///< sum of the damping forces along z on this rank's atoms [nN]
   };
-  enum Sum { kDamped, kFriction, kBreaks, kPlastic, kSums };
+  enum Sum { kDamped, kFriction, kBreaks, kPlastic, kCollapse, kSums };
 
   class FixBondBpm *bonds_;
   ContactEffects effects_;
   bool pairs_have_effects_;
-  double **effective_modulus_, **cohesion_energy_density_; // by type pair, from the host
+  double **cohesion_energy_density_; // by type pair, from the host
   std::vector<Wall> walls_;
   std::vector<AtomLoads> loads_;       // of the latest force computation
   std::vector<LastForce> last_forces_; // of bonds that have just broken
@@ -111,8 +115,6 @@ private:
   void add_half_step();
   double work_in_half_step(const ForceAndTorque &a, int i) const;
   double cohesion(int i, int j, double r) const;
-  double contact_force(const EffectContact &c, const double *memory) const;
-  double contact_energy(const EffectContact &c, const double *memory) const;
   double pair_energy(bool of_cohesion) const;
   double wall_energy() const;
 };

@@ -59,7 +59,7 @@ public:
       if (s.computeflag && s.shearupdate)
         advance(s, contact, memory);
       radius = effects_.contact_radius(contact, memory);
-      force = effects_.force(contact, memory);
+      force = effects_.force(contact, &memory);
     }
     set(s, radius, force);
     apply(s, i_forces, j_forces);

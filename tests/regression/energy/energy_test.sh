@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The energy ledger of one run closes: energy_test.sh friction|frictionless|plastic BIN WORK
+# The energy ledger of one run closes: energy_test.sh friction|frictionless|plastic|collapse BIN WORK
 set -euo pipefail
 case=$1 bin=$2 work=$3
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -21,6 +21,9 @@ case $case in
     sed 's/^max_pressure_MPa = .*/max_pressure_MPa = 30/; s/^timestep_us.*//' "$here/case.toml" >"$work/$case.toml"
     printf '\n[effects.nmc_plasticity]\nyield_pressure_GPa = 3\n\n[effects.collector_indentation]\nyield_pressure_GPa = 0.5\n' \
       >>"$work/$case.toml" ;;
+  collapse)
+    sed 's/^max_pressure_MPa = .*/max_pressure_MPa = 40/' "$here/case.toml" >"$work/$case.toml"
+    printf '\n[effects.cbd_collapse]\nyield_pressure_MPa = 5\nhardening_MPa = 20\n' >>"$work/$case.toml" ;;
 esac
 rm -rf "${work:?}/$case"
 "$bin/calendem" run "$work/$case.toml" -o "$work/$case" --ranks 1
@@ -35,6 +38,13 @@ for term in $terms; do # each is large enough that the ledger would show its abs
   echo "$term: $(awk "BEGIN { print 100 * $x / $W }") % of the work at maximum pressure"
   holds "$x >= 2 * $limit * $W || $x <= -2 * $limit * $W" "$term is too small for this test: $x of $W fJ"
 done
+if [ "$case" = collapse ]; then # frames carry the radii: the nanopores' share of the cell falls
+  nano=$(awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
+    { v = ($at["porosity_total"] - $at["porosity_macro"]) * $at["thickness_um"]; if (NR == 2) first = v }
+    END { print v / first }' "$work/$case/curve.csv")
+  echo "nanopores at the end, of those at the start: $nano"
+  holds "$nano < 0.9" "the nanopores did not collapse"
+fi
 if [ "$case" = frictionless ]; then # the host damps across a contact in the half step of a set-up
   x=$(at at_end friction)
   holds "$x <= $limit * $W && $x >= 0" "friction takes $x fJ though it is switched off"

@@ -43,6 +43,14 @@ const std::vector<Key> &case_keys() {
        "limit of the contact pressure between bodies and at the platen; 0: elastic"},
       {"effects.collector_indentation.yield_pressure_GPa", "collector_yield_GPa", "0", 0, 1000,
        "GPa", "limit of the contact pressure of bodies on the collector; 0: elastic"},
+      {"effects.cbd_collapse.yield_pressure_MPa", "cbd_yield_MPa", "0", 0, 1e5, "MPa",
+       "mean pressure of a CBD sphere at which its nanopores begin to collapse; 0: never"},
+      {"effects.cbd_collapse.hardening_MPa", "cbd_hardening_MPa", "50", 0.1, 1e5, "MPa",
+       "pressure scale of the fall above the yield pressure"},
+      {"effects.cbd_collapse.initial_nanoporosity", "cbd_initial_phi", "0.5", 0, 0.95, "fraction",
+       "the recipe's cbd.nanoporosity_percent"},
+      {"effects.cbd_collapse.floor_nanoporosity", "cbd_floor_phi", "0.27", 0, 0.95, "fraction",
+       "what no pressure goes below"},
       {"platen.control", "control", "pressure", 0, 0, "", "what the platen goes down to",
        "pressure|thickness|displacement"},
       {"platen.max_pressure_MPa", "p_max_MPa", "150", 0.1, 2000, "MPa", "with control = pressure"},
@@ -126,6 +134,15 @@ void check_yield(const Settings &s, Mistakes &mistakes) {
                              key, s.text(key), s.text("material.am.ced_J_m3"), least));
 }
 
+void check_floor(const Settings &s, Mistakes &mistakes) {
+  const std::string at = "effects.cbd_collapse.";
+  const std::string floor = at + "floor_nanoporosity", initial = at + "initial_nanoporosity";
+  if (s.sound({floor, initial}) && s.number(floor) > s.number(initial))
+    mistakes.add(s.line(floor), fmt::format("{} is {}, above {} = {}: pores would open under "
+                                            "pressure. Give a value at or below it.",
+                                            floor, s.text(floor), initial, s.text(initial)));
+}
+
 void check_target(const Settings &s, Mistakes &mistakes) {
   const std::string control = s.text("platen.control");
   if (control == "pressure" || !s.sound({"platen.control", "platen." + control + "_um"}))
@@ -144,6 +161,7 @@ void check_case(const Settings &s, Mistakes &mistakes) {
   check_collapse(s, "cbd", "cbd", 0.1, mistakes);
   check_collapse(s, "am", "cbd", 0.2, mistakes);
   check_yield(s, mistakes);
+  check_floor(s, mistakes);
   check_target(s, mistakes);
 }
 

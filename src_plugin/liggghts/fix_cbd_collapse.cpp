@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fix_cbd_collapse.h"
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "fix_bond_bpm.h"
+#include "fix_energy_bpm.h"
+#include "fix_wall_gran_platen.h"
+#include "force.h"
+#include "global_properties.h"
+#include "memory.h"
+#include "modify.h"
+#include "physics/sjkr_cohesion.h"
+#include "update.h"
+#include <cmath>
+#include <cstdlib>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+namespace {
+const double kFourThirdsPi = 4.18879020478639098462;
+}
+
+FixCbdCollapse::FixCbdCollapse(LAMMPS *lmp, int narg, char **arg)
+    : Fix(lmp, narg, arg), type_(0), nanoporosity_(NULL), initial_radius_(NULL),
+      largest_pressure_(0.0), cohesion_energy_density_(NULL), pairs_have_effects_(false),
+      bonds_(NULL), energy_(NULL) {
+  law_.relaxation = 0.1;
+  law_.yield_pressure = law_.hardening = -1.0;
+  nevery = 20;
+  parse(narg, arg);
+  restart_peratom = create_attribute = 1;
+  vector_flag = 1;
+  size_vector = 4;
+  global_freq = 1;
+  comm_forward = 1;
+  grow_arrays(atom->nmax);
+  atom->add_callback(0);
+  atom->add_callback(1);
+  for (int i = 0; i < atom->nlocal; ++i)
+    set_arrays(i);
+}
+
+FixCbdCollapse::~FixCbdCollapse() {
+  atom->delete_callback(id, 0);
+  atom->delete_callback(id, 1);
+  memory->destroy(nanoporosity_);
+  memory->destroy(initial_radius_);
+}
+
+int FixCbdCollapse::setmask() { return END_OF_STEP; }
+
+double FixCbdCollapse::number(const std::string &key, const char *text, double low, double high) {
+  char *end = NULL;
+  const double value = strtod(text, &end);
+  if (end == text || *end != '\0' || !(value >= low && value <= high)) {
+    char message[256];
+    snprintf(message, sizeof message, "'%s' is '%.40s'; it must be a number between %g and %g",
+             key.c_str(), text, low, high);
+    error->fix_error(FLERR, this, message);
+  }
+  return value;
+}
+
+void FixCbdCollapse::parse(int narg, char **arg) {
+  for (int i = 3; i < narg; i += 2) {
+    const std::string key = arg[i];
+    const char *value = i + 1 < narg ? arg[i + 1] : "";
+    if (key == "type")
+      type_ = static_cast<int>(number(key, value, 1, atom->ntypes));
+    else if (key == "initial")
+      law_.initial = number(key, value, 0.0, 0.95);
+    else if (key == "floor")
+      law_.floor = number(key, value, 0.0, 0.95);
+    else if (key == "yield")
+      law_.yield_pressure = number(key, value, 0.0, 1e9);
+    else if (key == "hardening")
+      law_.hardening = number(key, value, 1e-3, 1e9);
+    else if (key == "relaxation")
+      law_.relaxation = number(key, value, 1e-6, 1e9);
+    else if (key == "every")
+      nevery = static_cast<int>(number(key, value, 1, 1e6));
+    else {
+      const std::string message = "unknown setting '" + key +
+                                  "'; known: type, initial, floor, yield, hardening, relaxation, "
+                                  "every";
+      error->fix_error(FLERR, this, message.c_str());
+    }
+  }
+  if (type_ == 0 || law_.yield_pressure < 0.0 || law_.hardening <= 0.0)
+    error->fix_error(FLERR, this, "needs at least 'type T yield P hardening H'");
+  if (law_.floor > law_.initial)
+    error->fix_error(FLERR, this, "'floor' must not lie above 'initial'");
+}
+
+void FixCbdCollapse::init() {
+  bonds_ = FixBondBpm::find(lmp, "fix cbd/collapse");
+  energy_ = FixEnergyBpm::find(lmp);
+  effects_.connect(force->registry, "fix cbd/collapse");
+  pairs_have_effects_ = ContactEffects::in_use(lmp);
+  force->registry.registerProperty("cohEnergyDens", &MODEL_PARAMS::createCohesionEnergyDensity);
+  force->registry.connect("cohEnergyDens", cohesion_energy_density_, "fix cbd/collapse");
+  walls_.clear();
+  for (int k = 0; k < modify->nfix; ++k)
+    if (FixWallGranPlaten *wall = dynamic_cast<FixWallGranPlaten *>(modify->fix[k]))
+      walls_.push_back(wall);
+}
+
+bool FixCbdCollapse::is_mine(int i) const { return i < atom->nlocal && atom->type[i] == type_; }
+
+// What presses, less what cohesion pulls.
+void FixCbdCollapse::add_pair_forces(std::vector<double> &sum) const {
+  const double *R = atom->radius;
+  bonds_->for_each_touching_copy([&](int i, int j, double r, const BondHistory &bond) {
+    if (!is_mine(i) && !is_mine(j))
+      return;
+    const int ti = atom->type[i], tj = atom->type[j];
+    const double *memory = pairs_have_effects_ ? bond.effect_memory() : NULL;
+    const double net =
+        effects_.force({ti, tj, calendem::effective_radius(R[i], R[j]), R[i] + R[j] - r}, memory) -
+        calendem::sjkr_force(cohesion_energy_density_[ti][tj], r, R[i], R[j]);
+    for (int a : {i, j})
+      if (is_mine(a))
+        sum[a] += net;
+  });
+}
+
+void FixCbdCollapse::add_wall_forces(std::vector<double> &sum) const {
+  for (FixWallGranPlaten *wall : walls_)
+    for (int i = 0; i < atom->nlocal; ++i)
+      if (is_mine(i))
+        sum[i] += effects_.force({type_, wall->atom_type_wall(), atom->radius[i],
+                                  atom->radius[i] - std::fabs(atom->x[i][2] - wall->position())},
+                                 wall->effect_memory(i));
+}
+
+double FixCbdCollapse::rotational_energy() const {
+  double sum = 0.0;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (is_mine(i)) {
+      const calendem::Vec3 w = calendem::load(atom->omega[i]);
+      sum += 0.2 * atom->rmass[i] * atom->radius[i] * atom->radius[i] * dot(w, w);
+    }
+  return sum;
+}
+
+// Returns whether a radius of this rank has changed.
+bool FixCbdCollapse::collapse(const std::vector<double> &sum) {
+  bool changed = false;
+  largest_pressure_ = 0.0;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if (!is_mine(i))
+      continue;
+    const double p = calendem::mean_pressure(sum[i], atom->radius[i]);
+    const double phi = law_.advance(nanoporosity_[i], p, nevery * update->dt);
+    largest_pressure_ = std::fmax(largest_pressure_, p);
+    if (phi >= nanoporosity_[i])
+      continue;
+    changed = true;
+    nanoporosity_[i] = phi;
+    const double r = law_.radius(initial_radius_[i], phi);
+    atom->radius[i] = r;
+    atom->density[i] = atom->rmass[i] / (kFourThirdsPi * r * r * r);
+  }
+  return changed;
+}
+
+void FixCbdCollapse::end_of_step() {
+  std::vector<double> sum(atom->nlocal, 0.0);
+  add_pair_forces(sum);
+  add_wall_forces(sum);
+  const double before = energy_ ? energy_->stored_in_contacts() + rotational_energy() : 0.0;
+  int mine = collapse(sum), any = 0;
+  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
+  if (!any)
+    return;
+  comm->forward_comm_fix(this);
+  if (energy_)
+    energy_->add_collapse(before - energy_->stored_in_contacts() - rotational_energy());
+}
+
+double FixCbdCollapse::compute_vector(int n) {
+  double sums[3] = {0.0, 0.0, 0.0}, ends[2] = {-1.0, largest_pressure_}; // -1: of no sphere
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (is_mine(i)) {
+      const double r = atom->radius[i], r0 = initial_radius_[i];
+      sums[0] += 1.0;
+      sums[1] += nanoporosity_[i];
+      sums[2] += kFourThirdsPi * (r0 * r0 * r0 - r * r * r);
+      ends[0] = std::fmax(ends[0], -nanoporosity_[i]);
+    }
+  double all[3], most[2];
+  MPI_Allreduce(sums, all, 3, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(ends, most, 2, MPI_DOUBLE, MPI_MAX, world);
+  const double values[] = {all[0] > 0.0 ? all[1] / all[0] : 0.0, -most[0], most[1], all[2]};
+  return values[n];
+}
+
+void FixCbdCollapse::grow_arrays(int nmax) {
+  memory->grow(nanoporosity_, nmax, "cbd/collapse:nanoporosity");
+  memory->grow(initial_radius_, nmax, "cbd/collapse:initial_radius");
+}
+
+void FixCbdCollapse::copy_arrays(int i, int j, int) {
+  nanoporosity_[j] = nanoporosity_[i];
+  initial_radius_[j] = initial_radius_[i];
+}
+
+void FixCbdCollapse::set_arrays(int i) {
+  nanoporosity_[i] = law_.initial;
+  initial_radius_[i] = atom->radius[i];
+}
+
+int FixCbdCollapse::pack_exchange(int i, double *buf) {
+  buf[0] = nanoporosity_[i];
+  buf[1] = initial_radius_[i];
+  return 2;
+}
+
+int FixCbdCollapse::unpack_exchange(int nlocal, double *buf) {
+  nanoporosity_[nlocal] = buf[0];
+  initial_radius_[nlocal] = buf[1];
+  return 2;
+}
+
+int FixCbdCollapse::pack_comm(int n, int *list, double *buf, int, int *) {
+  for (int k = 0; k < n; ++k)
+    buf[k] = atom->radius[list[k]];
+  return 1;
+}
+
+void FixCbdCollapse::unpack_comm(int n, int first, double *buf) {
+  for (int k = 0; k < n; ++k)
+    atom->radius[first + k] = buf[k];
+}
+
+int FixCbdCollapse::pack_restart(int i, double *buf) {
+  buf[0] = 3;
+  buf[1] = nanoporosity_[i];
+  buf[2] = initial_radius_[i];
+  return 3;
+}
+
+void FixCbdCollapse::unpack_restart(int nlocal, int nth) {
+  double *values = atom->extra[nlocal];
+  int m = 0;
+  for (int i = 0; i < nth; ++i)
+    m += static_cast<int>(values[m]);
+  nanoporosity_[nlocal] = values[m + 1];
+  initial_radius_[nlocal] = values[m + 2];
+}
+
+double FixCbdCollapse::memory_usage() { return 2.0 * atom->nmax * sizeof(double); }
