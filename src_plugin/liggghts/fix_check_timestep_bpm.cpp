@@ -111,7 +111,7 @@ double FixCheckTimestepBpm::contact_bound() const {
   double least = HUGE_VAL;
   for (int i = 0; i < atom->nlocal; ++i) {
     const int t = atom->type[i];
-    if (!effects_.act(t, t))
+    if (!effects_.yields(t, t))
       continue;
     const double R = atom->radius[i], m = atom->rmass[i];
     const double a =

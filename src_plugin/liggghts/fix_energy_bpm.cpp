@@ -24,7 +24,7 @@ FixEnergyBpm::FixEnergyBpm(LAMMPS *lmp, int narg, char **arg)
   if (narg != 3)
     error->fix_error(FLERR, this, "takes no arguments: 'fix ID all energy/bpm'");
   vector_flag = 1;
-  size_vector = 7;
+  size_vector = 8;
   global_freq = 1;
   restart_global = 1;
   grow_arrays(atom->nmax);
@@ -50,9 +50,9 @@ void FixEnergyBpm::init() {
   effects_.connect(force->registry, "fix energy/bpm");
 }
 
-void FixEnergyBpm::add_plastic(int i, int j, double work) {
+void FixEnergyBpm::add_taken(int i, int j, double work, bool plastic) {
   if (bonds_->decides(i, j))
-    add_plastic(work);
+    add_taken(work, plastic);
 }
 
 void FixEnergyBpm::find_walls() {

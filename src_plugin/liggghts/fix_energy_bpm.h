@@ -12,7 +12,7 @@
 //   tangential contact forces: slip, their damping, and what their springs hold at the moment,
 //   5 lost in breaks beyond the bonds' strain energy: the potential of the cohesion that begins to
 //   act, and the last half step of the bond's force, 6 taken by plastic flow in contacts, 7 by
-//   collapsing spheres.
+//   collapsing spheres, 8 by the dashpots of viscous contacts.
 // Needs `pair_style gran model hertz|hertz_effects ... cohesion bpm surface bpm`; stands behind all
 // fixes wall/gran/platen, the walls it knows. Sums restart under the same fix ID.
 #ifdef FIX_CLASS
@@ -77,9 +77,10 @@ public:
     if (i < atom->nlocal)
       loads_[i].friction = loads_[i].friction + a;
   }
-  void add_plastic(double work) { sums_[kPlastic] += work; }
+  /// What an effect of a contact has taken: plastic flow, or viscous.
+  void add_taken(double work, bool plastic) { sums_[plastic ? kPlastic : kViscous] += work; }
   /// Of a pair: each of its copies calls, one counts.
-  void add_plastic(int i, int j, double work);
+  void add_taken(int i, int j, double work, bool plastic);
   /// Energy [fJ] in this rank's contacts, elastic and cohesive: before and after radii change.
   double stored_in_contacts() const;
   void add_collapse(double work) { sums_[kCollapse] += work; }
@@ -98,7 +99,7 @@ private:
     class FixWallGranPlaten *fix;
     double damping; ///< sum of the damping forces along z on this rank's atoms [nN]
   };
-  enum Sum { kDamped, kFriction, kBreaks, kPlastic, kCollapse, kSums };
+  enum Sum { kDamped, kFriction, kBreaks, kPlastic, kCollapse, kViscous, kSums };
 
   class FixBondBpm *bonds_;
   ContactEffects effects_;

@@ -19,6 +19,7 @@ NORMAL_MODEL(HERTZ_EFFECTS, hertz_effects, 30)
 #include "contact_models.h"
 #include "fix_energy_bpm.h"
 #include "normal_model_base.h"
+#include "update.h"
 #include <cmath>
 
 namespace LIGGGHTS {
@@ -87,13 +88,14 @@ private:
 
   void advance(const SurfacesIntersectData &s, const LAMMPS_NS::EffectContact &contact,
                double &memory) {
-    const double taken = effects_.advance(contact, memory);
+    const double dt = update->dt;
+    const double taken = effects_.advance(contact, s.deltan + s.vn * dt, dt, memory);
     if (!energy_ || taken == 0.0)
       return;
     if (s.is_wall)
-      energy_->add_plastic(taken);
+      energy_->add_taken(taken, effects_.yields(s.itype, s.jtype));
     else
-      energy_->add_plastic(s.i, s.j, taken);
+      energy_->add_taken(s.i, s.j, taken, effects_.yields(s.itype, s.jtype));
   }
 
   void set(SurfacesIntersectData &s, double radius, double force) const {

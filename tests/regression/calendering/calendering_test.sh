@@ -16,6 +16,17 @@ plain() { # SCRIPT DIR: the input scripts without the command line tool, with th
     -var p_max_MPa 40 -var speed_m_s 2 -var touch_speed_m_s 2 -var release_speed_m_s 2 \
     -var restart_every_us 0.5 -var vtk_every_us 2 >"$2/screen.txt" || { tail "$2/screen.txt"; exit 1; }
 }
+kill_and_resume() { # CASE DIR: kill -9 once a restart file and twelve rows are there, then --resume
+  "$bin/calendem" run "$1" -o "$2" --ranks 1 >"$2.log" 2>&1 &
+  run=$!
+  while kill -0 $run 2>/dev/null; do
+    [ -s "$2/running.restart" ] && [ "$(wc -l <"$2/curve_raw.csv")" -gt 12 ] && break
+    sleep 0.05
+  done
+  pkill -9 -P $run || fail "the run ended before it could be killed"
+  wait $run && fail "a killed run must not end with exit status 0"
+  "$bin/calendem" run "$1" -o "$2" --ranks 1 --resume
+}
 
 mkdir -p "$work"
 cp "$here/case.toml" "$work/"
@@ -58,17 +69,22 @@ case $case in
     done ;;
   killed_and_resumed) # kill -9 in mid-run, resume: the uninterrupted run's bytes
     rm -rf "$work/killed"
-    "$bin/calendem" run "$work/case.toml" -o "$work/killed" --ranks 1 >"$work/killed.log" 2>&1 &
-    run=$!
-    while kill -0 $run 2>/dev/null; do
-      [ -s "$work/killed/running.restart" ] && [ "$(wc -l <"$work/killed/curve_raw.csv")" -gt 12 ] && break
-      sleep 0.05
-    done
-    pkill -9 -f "out $work/killed " || fail "the run ended before it could be killed"
-    wait $run && fail "a killed run must not end with exit status 0"
-    "$bin/calendem" run "$work/case.toml" -o "$work/killed" --ranks 1 --resume
+    kill_and_resume "$work/case.toml" "$work/killed"
     cmp "$work/run/breaks.csv" "$work/killed/breaks.csv" || fail "break logs differ after --resume"
     cmp "$work/run/curve.csv" "$work/killed/curve.csv" || fail "curves differ after --resume" ;;
+  effects_resumed) # the same with every effect on: memories of contacts, radii, nanoporosities restart
+    sed 's/^max_pressure_MPa = .*/control = "displacement"\ndisplacement_um = 2.8/; s/= 2$/= 4/' "$here/case.toml" >"$work/effects.toml"
+    printf '\n[effects]\n%s = %s\n%s = %s\n%s = %s\n%s = %s\n%s = %s\n%s = %s\n' \
+      nmc_plasticity.yield_pressure_GPa 2 collector_indentation.yield_pressure_GPa 0.5 \
+      cbd_collapse.yield_pressure_MPa 2 cbd_collapse.hardening_MPa 10 \
+      cbd_viscoelasticity.relaxed_fraction 0.3 cbd_viscoelasticity.time_us 0.5 >>"$work/effects.toml"
+    rm -rf "$work/effects" "$work/effects_killed"
+    "$bin/calendem" run "$work/effects.toml" -o "$work/effects" --ranks 1
+    left=$(number unaccounted_fraction "$work/effects/summary.json")
+    holds "$left < 0.003" "the ledger with all effects leaves $left of the work"
+    kill_and_resume "$work/effects.toml" "$work/effects_killed"
+    cmp "$work/effects/breaks.csv" "$work/effects_killed/breaks.csv" || fail "break logs differ after --resume"
+    cmp "$work/effects/curve.csv" "$work/effects_killed/curve.csv" || fail "curves differ after --resume" ;;
   many_kills) # twenty kill -9 at random moments, every time gone on with: the uninterrupted run's bytes
     [ "${CALENDEM_HEAVY:-0}" = 1 ] || { echo "skipped: calendering.many_kills runs with tools/test --all"; exit 77; }
     RANDOM=4

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The energy ledger of one run closes: energy_test.sh friction|frictionless|plastic|collapse BIN WORK
+# The energy ledger of one run closes: energy_test.sh friction|frictionless|plastic|collapse|viscous BIN WORK
 set -euo pipefail
 case=$1 bin=$2 work=$3
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -24,6 +24,9 @@ case $case in
   collapse)
     sed 's/^max_pressure_MPa = .*/max_pressure_MPa = 40/' "$here/case.toml" >"$work/$case.toml"
     printf '\n[effects.cbd_collapse]\nyield_pressure_MPa = 5\nhardening_MPa = 20\n' >>"$work/$case.toml" ;;
+  viscous)
+    sed 's/^max_pressure_MPa = .*/max_pressure_MPa = 30/' "$here/case.toml" >"$work/$case.toml"
+    printf '\n[effects.cbd_viscoelasticity]\nrelaxed_fraction = 0.5\ntime_us = 1\n' >>"$work/$case.toml" ;;
 esac
 rm -rf "${work:?}/$case"
 "$bin/calendem" run "$work/$case.toml" -o "$work/$case" --ranks 1

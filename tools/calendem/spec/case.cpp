@@ -51,6 +51,10 @@ const std::vector<Key> &case_keys() {
        "the recipe's cbd.nanoporosity_percent"},
       {"effects.cbd_collapse.floor_nanoporosity", "cbd_floor_phi", "0.27", 0, 0.95, "fraction",
        "what no pressure goes below"},
+      {"effects.cbd_viscoelasticity.relaxed_fraction", "cbd_relaxed_fraction", "0", 0, 0.95,
+       "fraction", "of the stiffness of contacts with CBD that relaxes; 0: elastic"},
+      {"effects.cbd_viscoelasticity.time_us", "cbd_relaxation_us", "1", 1e-3, 1e6, "us",
+       "relaxation time; the run's own time counts, see platen.speed_m_s"},
       {"platen.control", "control", "pressure", 0, 0, "", "what the platen goes down to",
        "pressure|thickness|displacement"},
       {"platen.max_pressure_MPa", "p_max_MPa", "150", 0.1, 2000, "MPa", "with control = pressure"},
@@ -134,6 +138,26 @@ void check_yield(const Settings &s, Mistakes &mistakes) {
                              key, s.text(key), s.text("material.am.ced_J_m3"), least));
 }
 
+// What relaxes in a contact leaves cohesion a softer one: the overlap grows by 1/(1 - g)^2.
+void check_relaxed(const Settings &s, Mistakes &mistakes) {
+  const std::string key = "effects.cbd_viscoelasticity.relaxed_fraction";
+  for (const std::string phase : {"am", "cbd"}) {
+    const std::string at = "material." + phase + ".", cbd = "material.cbd.";
+    if (!s.sound({key, at + "ced_J_m3", at + "youngs_modulus_GPa", at + "poisson", cbd + "ced_J_m3",
+                  cbd + "youngs_modulus_GPa", cbd + "poisson"}))
+      continue;
+    const double left = 1.0 - s.number(key);
+    const double overlap = overlap_over_radius(s, phase, "cbd") / (left * left);
+    if (left < 1.0 && overlap > 0.3)
+      mistakes.add(
+          s.line(key),
+          fmt::format("{} is {}: once relaxed, cohesion pulls {} and cbd spheres into each "
+                      "other by {:.3g} of their radius; at most 0.3 is allowed, or the "
+                      "packing collapses. Lower it or the ced_J_m3.",
+                      key, s.text(key), phase, overlap));
+  }
+}
+
 void check_floor(const Settings &s, Mistakes &mistakes) {
   const std::string at = "effects.cbd_collapse.";
   const std::string floor = at + "floor_nanoporosity", initial = at + "initial_nanoporosity";
@@ -162,6 +186,7 @@ void check_case(const Settings &s, Mistakes &mistakes) {
   check_collapse(s, "am", "cbd", 0.2, mistakes);
   check_yield(s, mistakes);
   check_floor(s, mistakes);
+  check_relaxed(s, mistakes);
   check_target(s, mistakes);
 }
 
