@@ -105,10 +105,11 @@ TEST(VerificationPlasticContact, RestitutionIsThorntons) {
   }
 }
 
-// A bonded pair thrown together: its contact counts from the bond's creation and stays Hertz.
+// A bonded pair thrown together, by ten times the yield overlap: its contact counts from the bond's
+// creation and stays Hertz.
 TEST(VerificationPlasticContact, InsideABodyNothingChanges) {
-  const std::vector<BodySphere> pair = {{{0, 0, 0}, R, 1, {5, 0, 0}},
-                                        {{1.28, 0, 0}, R, 1, {-5, 0, 0}}};
+  const std::vector<BodySphere> pair = {{{0, 0, 0}, R, 1, {50, 0, 0}},
+                                        {{1.28, 0, 0}, R, 1, {-50, 0, 0}}};
   std::vector<std::vector<Row>> ends;
   for (const char *contact : {"hertz", "hertz_effects"}) {
     const Files files = files_of(pair, {-20, -20, -20}, {20, 20, 20});
