@@ -28,7 +28,7 @@ FixCbdCollapse::FixCbdCollapse(LAMMPS *lmp, int narg, char **arg)
       bonds_(NULL), energy_(NULL) {
   law_.relaxation = 0.1;
   law_.yield_pressure = law_.hardening = -1.0;
-  nevery = 20;
+  nevery = 50;
   parse(narg, arg);
   restart_peratom = create_attribute = 1;
   vector_flag = 1;
@@ -145,36 +145,43 @@ double FixCbdCollapse::rotational_energy() const {
   return sum;
 }
 
-// Returns whether a radius of this rank has changed.
-bool FixCbdCollapse::collapse(const std::vector<double> &sum) {
-  bool changed = false;
+// The nanoporosities after this update; returns whether one of this rank falls.
+bool FixCbdCollapse::decide(const std::vector<double> &sum, std::vector<double> &next) {
+  bool falls = false;
   largest_pressure_ = 0.0;
+  next.assign(atom->nlocal, 0.0);
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!is_mine(i))
       continue;
     const double p = calendem::mean_pressure(sum[i], atom->radius[i]);
-    const double phi = law_.advance(nanoporosity_[i], p, nevery * update->dt);
+    next[i] = law_.advance(nanoporosity_[i], p, nevery * update->dt);
+    falls = falls || next[i] < nanoporosity_[i];
     largest_pressure_ = std::fmax(largest_pressure_, p);
-    if (phi >= nanoporosity_[i])
+  }
+  return falls;
+}
+
+void FixCbdCollapse::shrink(const std::vector<double> &next) {
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if (!is_mine(i) || !(next[i] < nanoporosity_[i]))
       continue;
-    changed = true;
-    nanoporosity_[i] = phi;
-    const double r = law_.radius(initial_radius_[i], phi);
+    nanoporosity_[i] = next[i];
+    const double r = law_.radius(initial_radius_[i], next[i]);
     atom->radius[i] = r;
     atom->density[i] = atom->rmass[i] / (kFourThirdsPi * r * r * r);
   }
-  return changed;
 }
 
 void FixCbdCollapse::end_of_step() {
-  std::vector<double> sum(atom->nlocal, 0.0);
+  std::vector<double> sum(atom->nlocal, 0.0), next;
   add_pair_forces(sum);
   add_wall_forces(sum);
-  const double before = energy_ ? energy_->stored_in_contacts() + rotational_energy() : 0.0;
-  int mine = collapse(sum), any = 0;
+  int mine = decide(sum, next), any = 0;
   MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
   if (!any)
     return;
+  const double before = energy_ ? energy_->stored_in_contacts() + rotational_energy() : 0.0;
+  shrink(next);
   comm->forward_comm_fix(this);
   if (energy_)
     energy_->add_collapse(before - energy_->stored_in_contacts() - rotational_energy());

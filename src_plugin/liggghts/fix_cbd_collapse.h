@@ -2,7 +2,7 @@
 // fix ID all cbd/collapse type T initial PHI floor PHI yield P hardening H relaxation TIME every N
 //
 // Nanopores of the spheres of atom type T collapse under the mean pressure of their contacts by
-// physics/nanopore_collapse.h: every N steps (default 20), after the step, their radii shrink and
+// physics/nanopore_collapse.h: every N steps (default 50), after the step, their radii shrink and
 // their densities grow at constant mass; ghosts follow at once. Units micro: pressures in kPa,
 // times in us. Contacts with walls are those with fixes wall/gran/platen. Defaults: initial 0.5,
 // floor 0.27, relaxation 0.1. Needs fix bond/bpm (for its lists); books in fix energy/bpm if there
@@ -64,7 +64,8 @@ private:
   bool is_mine(int i) const;
   void add_pair_forces(std::vector<double> &sum) const;
   void add_wall_forces(std::vector<double> &sum) const;
-  bool collapse(const std::vector<double> &sum);
+  bool decide(const std::vector<double> &sum, std::vector<double> &next);
+  void shrink(const std::vector<double> &next);
   double rotational_energy() const;
 };
 

@@ -166,6 +166,21 @@ cell_below_two_cut_offs() {
   printf '%s\n' '[cell]' 'x_um = 6' '[particles]' 'primary_diameter_um = 4' 'lattice_um = 3.2' | file recipe.toml
   refused recipe.toml "recipe.toml:2: a periodic side of 6 um is shorter than two cut-offs (9.30 um)"
 }
+yield_below_cohesion() {
+  printf '%s\n' 'electrode = "e"' '[effects.nmc_plasticity]' 'yield_pressure_GPa = 1' | file case.toml
+  refused case.toml "case.toml:3: effects.nmc_plasticity.yield_pressure_GPa is 1 GPa" \
+    "cannot carry their own cohesion" "at least 1.5 GPa"
+}
+pores_open() {
+  printf '%s\n' 'electrode = "e"' '[effects.cbd_collapse]' 'initial_nanoporosity = 0.4' 'floor_nanoporosity = 0.45' |
+    file case.toml
+  refused case.toml "case.toml:4: effects.cbd_collapse.floor_nanoporosity is 0.45" "pores would open"
+}
+relaxes_into_cohesion() {
+  printf '%s\n' 'electrode = "e"' '[effects.cbd_viscoelasticity]' 'relaxed_fraction = 0.9' | file case.toml
+  refused case.toml "case.toml:3: effects.cbd_viscoelasticity.relaxed_fraction is 0.9" "am and cbd spheres" \
+    "at most 0.3 is allowed"
+}
 cohesion_collapses() {
   printf '%s\n' 'electrode = "e"' '[material.cbd]' 'ced_J_m3 = 7e8' | file case.toml
   refused case.toml "case.toml:3: cohesion would collapse the packing: it pulls cbd spheres" \
@@ -499,6 +514,14 @@ script_modulus_in_pa() {
   says "ERROR: Fix bond/bpm" "youngsModulus of atom type 1 is 2e+17 kPa = 2e+11 GPa" "Is it given in Pa?"
   expect 1 script -var p_max_MPa 150e6
   says "ERROR: Fix wall/gran/platen" "'pressure' is" "Is it given in Pa?"
+}
+script_effects() {
+  expect 1 script -var nmc_yield_GPa 1
+  says "ERROR: model hertz_effects: contactYieldPressure of atom types 1 and 1 is 1e+06" "at least 2.5 times it, 1.5e+06"
+  expect 1 script -var cbd_relaxed_fraction 0.5 -var cbd_relaxation_us 0
+  says "ERROR: model hertz_effects: contactRelaxationTime of atom types 1 and 2 is 0" "must be a finite number > 0"
+  expect 1 script -var cbd_yield_MPa 5 -var cbd_floor_phi 0.6
+  says "ERROR: Fix cbd/collapse" "'floor' must not lie above 'initial'"
 }
 script_collapse() {
   expect 1 script -var ced_cbd_J_m3 7e9

@@ -206,6 +206,31 @@ TEST(TimeStepBound, ThinBonds) {
     }
 }
 
+// Requirement: a sphere with two contacts per axis, without damping: per axis 2 k_n + 4 k_t against
+// the mass, four arms R against the inertia, doubled by neighbours in opposition; dt = 2/sqrt(K).
+// With damping the step is shorter, and near the critical one much.
+TEST(TimeStepBound, SphereWithSixContacts) {
+  const double E = 1e8, G = 2e7, a = 0.1, m = 9.0, R = 0.8;
+  const BondCoefficients k = contact_stiffness(E, G, a), none;
+  EXPECT_DOUBLE_EQ(k.normal, 2e7);
+  EXPECT_DOUBLE_EQ(k.shear, 1.6e7);
+  const double K = std::max(2.0 * (2.0 * k.normal + 4.0 * k.shear) / m,
+                            2.0 * 4.0 * k.shear * R * R / (0.4 * m * R * R));
+  EXPECT_DOUBLE_EQ(stable_step_of_contacts(k, none, m, R), 2.0 / std::sqrt(K));
+  const BondCoefficients c = contact_damping(k, -0.5, 0.5 * m);
+  EXPECT_DOUBLE_EQ(c.normal, std::sqrt(5.0 / 6.0) * std::sqrt(k.normal * 0.5 * m));
+  EXPECT_DOUBLE_EQ(c.shear, std::sqrt(5.0 / 6.0) * std::sqrt(k.shear * 0.5 * m));
+  EXPECT_LT(stable_step_of_contacts(k, c, m, R), 0.6 * stable_step_of_contacts(k, none, m, R));
+}
+
+// Requirement: the mean force gives the pressure back: P = n F 2R/3 with n = Z phi/(2 V) contacts
+// per volume, Z = 6, phi = 0.6.
+TEST(TimeStepBound, MeanContactForce) {
+  const double R = 0.8, P = 1e5, volume = 4.0 / 3.0 * kPi * R * R * R;
+  const double n = 6.0 * 0.6 / (2.0 * volume);
+  EXPECT_DOUBLE_EQ(n * mean_contact_force(P, R) * 2.0 * R / 3.0, P);
+}
+
 // Requirement: Rayleigh time of NMC (2e8 kPa, 0.3, 4.65 g/cm3, 0.795 um), worked out by hand:
 // pi R sqrt(rho/G) / (0.1631 nu + 0.8766) = 2.49757 * 2.45866e-4 / 0.92553.
 TEST(TimeStepBound, RayleighTime) {
