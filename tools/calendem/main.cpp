@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The command line. Exit status: 0 done, 1 usage, 2 bad input, 3 the simulation failed, 4 a check
 // did not hold.
+#include "bank/verb.h"
 #include "compare/verb.h"
 #include "effects/verb.h"
 #include "pack/verb.h"
@@ -28,6 +29,7 @@ int main(int argc, char **argv) {
   calendem::add_report_verb(app);
   calendem::add_compare_verb(app);
   calendem::add_study_verb(app);
+  calendem::add_bank_verb(app);
   calendem::add_effects_verb(app);
   calendem::add_tomogram_verb(app);
   calendem::add_validate_verb(app);

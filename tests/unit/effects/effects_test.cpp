@@ -4,6 +4,7 @@
 #include "spec/case.h"
 #include "spec/messages.h"
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <set>
@@ -25,7 +26,7 @@ TEST(Effects, NamesAreUnique) {
   std::set<std::string> names;
   for (const Effect &e : effects())
     EXPECT_TRUE(names.insert(e.name).second) << e.name;
-  EXPECT_GE(names.size(), 6u);
+  EXPECT_GE(names.size(), 8u);
 }
 
 TEST(Effects, OffIsTheDefaultOfTheBaseModel) {

@@ -114,6 +114,13 @@ public:
     return out;
   }
 
+  std::vector<std::string> folders() const {
+    std::vector<std::string> out;
+    for (const RunState &s : states_)
+      out.push_back(run_folder(s));
+    return out;
+  }
+
   nlohmann::json description() const {
     return {{"name", study_.name},
             {"columns", study_.columns},
@@ -222,6 +229,12 @@ private:
 };
 
 } // namespace
+
+std::vector<std::string> run_folders(const Study &study, const StudyOptions &options) {
+  StudyOptions o = options;
+  o.liggghts = fs::absolute(o.liggghts).lexically_normal().string();
+  return Making(study, o).folders();
+}
 
 void make_study(const Study &study, StudyOptions o) {
   o.folder = fs::absolute(o.folder).lexically_normal().string();

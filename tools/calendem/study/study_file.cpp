@@ -14,6 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMostRuns = 100000;
+constexpr int kMostRunsTold = 5;
 
 /// Keys that change together; each row is one combination of their values.
 struct Group {
@@ -271,13 +272,16 @@ void add_runs(Study &out, const std::vector<std::vector<std::string>> &rows, Mis
   Recipe recipe = read_recipe(out.recipe_file);
   make_paths_absolute(recipe.settings, out.recipe_file);
   const Settings settings = read_case(out.case_file);
+  int wrong = 0;
   for (const auto &row : rows) {
-    Mistakes of_run(fmt::format("{}, run {}", out.file, out.runs.size() + 1));
+    Mistakes of_run(fmt::format("run {}", out.runs.size() + 1));
     out.runs.push_back(make_run(out, recipe, settings, row, of_run));
     out.runs.back().number = static_cast<int>(out.runs.size());
-    if (!of_run.empty())
+    if (!of_run.empty() && ++wrong <= kMostRunsTold)
       mistakes.add(0, of_run.text());
   }
+  if (wrong > kMostRunsTold)
+    mistakes.add(0, fmt::format("{} more runs have mistakes.", wrong - kMostRunsTold));
 }
 
 Study read_study(const std::string &file) {
