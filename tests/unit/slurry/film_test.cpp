@@ -126,5 +126,29 @@ TEST(DriedFilm, PorosityOfKnownSpheresAndItsCheck) {
   EXPECT_THROW(check_film(j, f, "film"), Failure);
 }
 
+// What a script leaves is taken only if every particle is there once and has its size.
+TEST(DriedFilm, StateOfADumpIsChecked) {
+  const FilmRecipe f = film_of(kPaper);
+  const std::string dump = (calendem_test::test_folder() / "a.dump").string();
+  const std::vector<Particle> two = {{1, 1, 4.0, 4.65, {1, 1, 1}, 0},
+                                     {2, 2, 1.316, 0.9, {5, 5, 5}, 0}};
+  const auto read = [&](const std::string &rows) {
+    std::ofstream(dump) << "ITEM: ATOMS id x y z radius\n" << rows;
+    std::vector<Particle> particles = two;
+    read_state(f, dump, particles);
+    return particles;
+  };
+  EXPECT_DOUBLE_EQ(read("2 11 3 4 0.658\n1 -1 2 3 2\n")[0].x.x(),
+                   9.0); // back into the cell of 10 um
+  for (const char *wrong :
+       {"1 1 2 3 2\n", "1 1 2 3 2\n1 1 2 3 2\n2 1 3 4 0.658\n", "1 1 2 3 2\n2 1 3 4 1.0\n"})
+    try {
+      read(wrong);
+      ADD_FAILURE() << wrong;
+    } catch (const Failure &e) {
+      EXPECT_EQ(e.exit_status(), kSimulationFailed);
+    }
+}
+
 } // namespace
 } // namespace calendem

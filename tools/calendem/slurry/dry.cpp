@@ -97,14 +97,12 @@ std::vector<Particle> make_slurry(const FilmRecipe &f, const DryOptions &o, cons
     simulate(o, "slurry");
   }
   std::vector<Particle> particles = start.particles;
-  read_positions(o.folder + "/slurry.dump", particles);
-  for (Particle &p : particles) {
-    p.x = in_cell(f.recipe, p.x);
+  for (Particle &p : particles)
     if (p.type == 2) {
       p.diameter = f.wet_diameter();
       p.density = f.wet_density();
     }
-  }
+  read_state(f, o.folder + "/slurry.dump", particles);
   if (!there)
     write_slurry(f, o, particles, identity);
   return particles;
@@ -112,12 +110,10 @@ std::vector<Particle> make_slurry(const FilmRecipe &f, const DryOptions &o, cons
 
 nlohmann::json hand_over_film(const FilmRecipe &f, const DryOptions &o,
                               const std::vector<Particle> &slurry, std::vector<Particle> dried) {
-  read_positions(o.folder + "/dried.dump", dried);
+  read_state(f, o.folder + "/dried.dump", dried);
   double top = f.recipe.thickness();
-  for (Particle &p : dried) {
-    p.x = in_cell(f.recipe, p.x);
+  for (const Particle &p : dried)
     top = std::max(top, p.x.z() + 0.5 * p.diameter);
-  }
   write_file(o.folder + "/dried.data",
              data_file(f.recipe, dried, top + 1.0, "Dried film made by calendem dry"));
   write_file(o.folder + "/dried.vtp", picture_file(dried));

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "slurry/film_files.h"
+#include "pack/electrode_files.h"
 #include "slurry/spheres.h"
 #include "spec/pi.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace calendem {
 namespace {
@@ -62,6 +65,29 @@ std::string film_variables(const FilmRecipe &f, double height) {
                      "variable cbd_wet_g_cm3 equal {:.10g}\n",
                      height, f.slurry_thickness(), r.thickness(), stop, f.capillary_MPa, r.cell_x,
                      r.cell_y, r.cbd_diameter, f.wet_diameter(), cbd_density(r), f.wet_density());
+}
+
+void read_state(const FilmRecipe &f, const std::string &dump, std::vector<Particle> &particles) {
+  read_positions(dump, particles);
+  std::ifstream in(dump);
+  std::string line;
+  while (std::getline(in, line) && line.rfind("ITEM: ATOMS", 0) != 0)
+    ;
+  while (std::getline(in, line)) {
+    std::istringstream row(line);
+    int tag = 0;
+    double x = 0, y = 0, z = 0, radius = 0;
+    if (!(row >> tag >> x >> y >> z >> radius))
+      continue;
+    const Particle &p = particles.at(tag - 1);
+    if (!(std::fabs(2.0 * radius - p.diameter) <= 1e-6 * p.diameter))
+      throw Failure(kSimulationFailed,
+                    fmt::format("'{}': particle {} is {:.6g} um wide instead of {:.6g}: the input "
+                                "script did not give it its size",
+                                dump, tag, 2.0 * radius, p.diameter));
+  }
+  for (Particle &p : particles)
+    p.x = in_cell(f.recipe, p.x);
 }
 
 nlohmann::json describe_slurry(const FilmRecipe &f, const std::vector<Particle> &particles,

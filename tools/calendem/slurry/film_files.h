@@ -14,6 +14,10 @@ namespace calendem {
 /// Variables that in.slurry and in.drying include; the cell starts `height` [um] high.
 std::string film_variables(const FilmRecipe &film, double height);
 
+/// Takes positions from a dump with columns id x y z radius. Throws Failure(3) if a particle is
+/// missing, there twice, or has not its diameter: the script did not swell or shrink it.
+void read_state(const FilmRecipe &film, const std::string &dump, std::vector<Particle> &particles);
+
 /// `particles` where the stirring left them, CBD swollen; `end`: of slurry.csv.
 nlohmann::json describe_slurry(const FilmRecipe &film, const std::vector<Particle> &particles,
                                const LastRow &end);
