@@ -47,6 +47,8 @@ TEST(GaussianProcess, TellsPackingsFromNoise) {
   EXPECT_NEAR(g.run_variance() / 0.04, 1.0, 3.0 * std::sqrt(2.0 / 36.0));
   // What a new packing is off by: both variances, and the emulator's.
   EXPECT_NEAR(std::pow(g.left_out().error, 2) / 0.29, 1.0, 0.6);
+  // With the scatter taken off, the emulator's own part is small beside it.
+  EXPECT_LT(g.left_out().own, 0.7 * g.left_out().error);
   EXPECT_GT(g.parameters_used(), 4.0);
   EXPECT_LT(g.parameters_used(), 30.0);
 }

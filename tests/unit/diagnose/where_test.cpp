@@ -60,18 +60,18 @@ TEST(Where, WhatCannotBeMetTogether) {
   world.centre.setZero();
   world.sensitivity << 1.0, 1.0, 0.0, 0.0;
   Vector data = Vector::Zero(4);
-  data.head(2) << 1.0, -1.0;
+  data.head(2) << 1.2, -0.8;
   const Problem problem = world.problem(data);
   const Where w = where(problem, recalibrated(world, problem), {});
   ASSERT_EQ(w.conflicts.size(), 1u);
   EXPECT_EQ(w.conflicts[0].one, 0);
   EXPECT_EQ(w.conflicts[0].other, 1);
   // Closed form: the difference has variance 0.02, the sum 2 * (2 + 0.01).
-  EXPECT_NEAR(w.conflict(0, 1), chance_beyond(4.0 / 0.02, 2, kNormal), 1e-12);
+  EXPECT_NEAR(w.conflict(0, 1), chance_beyond(4.0 / 0.02 + 0.16 / 4.02, 2, kNormal), 1e-12);
   // Observables 0 and 2 are of the compression, 1 and 3 of the relaxation: the parameter drifts.
   ASSERT_EQ(w.stages.size(), 2u);
-  EXPECT_NEAR(w.stages[0].scores[0], 1.0 / 1.01, 1e-9);
-  EXPECT_NEAR(w.stages[1].scores[0], -1.0 / 1.01, 1e-9);
+  EXPECT_NEAR(w.stages[0].scores[0], 1.2 / 1.01, 1e-9);
+  EXPECT_NEAR(w.stages[1].scores[0], -0.8 / 1.01, 1e-9);
   EXPECT_NEAR(w.stages[0].sd[0], std::sqrt(0.01 / 1.01), 1e-9);
 }
 
