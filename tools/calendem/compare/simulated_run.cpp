@@ -86,6 +86,8 @@ void read_summary(const std::string &folder, SimulatedRun &run, Mistakes &mistak
 
 double displacement_at(const std::vector<double> &pressures,
                        const std::vector<double> &displacements, double pressure) {
+  if (!pressures.empty() && pressures.front() == pressure)
+    return displacements.front();
   for (std::size_t k = 1; k < pressures.size(); ++k)
     if (pressures[k] >= pressure && pressures[k - 1] < pressure)
       return displacements[k - 1] + (displacements[k] - displacements[k - 1]) *

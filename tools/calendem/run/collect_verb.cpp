@@ -47,6 +47,10 @@ Settings read_settings(const std::string &file, const std::string &electrode) {
   Mistakes mistakes(file);
   Settings s;
   for (const Key &key : case_keys()) {
+    if (key.variable.empty()) { // nothing that the scripts know of
+      s.set(key.name, key.fallback);
+      continue;
+    }
     const auto found = values.find(key.variable);
     if (found == values.end())
       mistakes.add(

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "validate/verb.h"
+#include "bank/bank_design.h"
 #include "pack/given_recipe.h"
 #include "slurry/film_recipe.h"
 #include "spec/case.h"
@@ -14,7 +15,7 @@
 namespace calendem {
 namespace {
 
-enum class Kind { Recipe, Case, Tomogram, Film, Experiment, Study };
+enum class Kind { Recipe, Case, Tomogram, Film, Experiment, Study, Bank };
 
 int keys_known(const toml::table &table, const std::string &prefix, const std::vector<Key> &keys) {
   int known = 0;
@@ -38,6 +39,8 @@ Kind kind_of(const std::string &file) {
     return Kind::Experiment;
   if (root.contains("study") || root.contains("vary"))
     return Kind::Study;
+  if (root.contains("bank"))
+    return Kind::Bank;
   Kind best = Kind::Recipe;
   int most = keys_known(root, "", recipe_keys());
   const auto consider = [&](Kind kind, const std::vector<Key> &keys) {
@@ -58,6 +61,10 @@ std::string name_after_check(const std::string &file) {
     return fmt::format("experiment of {} conditions", read_experiment(file).conditions.size());
   case Kind::Study:
     return fmt::format("study of {} runs", read_study(file).runs.size());
+  case Kind::Bank: {
+    const BankSpec spec = read_bank_spec(file);
+    return fmt::format("bank of {} runs", bank_study(spec, bank_points(spec)).runs.size());
+  }
   case Kind::Case:
     read_case(file);
     return "case";

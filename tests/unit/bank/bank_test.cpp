@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "bank/bank_table.h"
+#include "spec/messages.h"
+#include "support/test_folder.h"
+#include <cmath>
+#include <fstream>
+#include <set>
+
+namespace {
+
+using namespace calendem;
+using calendem_test::test_folder;
+
+const std::string kBank =
+    "[bank]\nrecipe = \"electrode.toml\"\ncase = \"case.toml\"\npressures_MPa = "
+    "[150, 80]\npackings = 3\nbase_points = 8\neffect_points = 4\n";
+const std::string kParameters =
+    "[[parameter]]\nname = \"E\"\nkeys = [\"case.material.am.youngs_modulus_GPa\"]\nlow = "
+    "100\nhigh "
+    "= 300\nprior = \"log-uniform\"\n[[parameter]]\nname = \"s\"\nkeys = "
+    "[\"case.bond.tensile_strength_MPa\", \"case.bond.shear_strength_MPa\"]\nlow = 300\nhigh = "
+    "900\n";
+
+std::string write_bank(const std::string &text) {
+  const auto folder = test_folder();
+  std::ofstream(folder / "electrode.toml") << "[cell]\nx_um = 12\ny_um = 12\n";
+  std::ofstream(folder / "case.toml") << "electrode = \"any\"\n";
+  std::ofstream(folder / "bank.toml") << text;
+  return (folder / "bank.toml").string();
+}
+
+BankSpec spec_of(const std::string &text) { return read_bank_spec(write_bank(text)); }
+
+TEST(Bank, PointsOfAnEffectStandBesideABasePoint) {
+  const BankSpec spec =
+      spec_of(kBank + "effects = [\"friction\", \"thickness_zero\"]\n" + kParameters);
+  const std::vector<BankPoint> points = bank_points(spec);
+  ASSERT_EQ(points.size(), 8u + 4u); // what instruments show needs no runs
+  std::set<int> packings, beside;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const BankPoint &p = points[k], &base = points[p.base_point];
+    packings.insert(p.packing);
+    EXPECT_EQ(p.base, base.base);
+    EXPECT_EQ(p.packing, base.packing);
+    EXPECT_TRUE(p.base[0] >= 100 && p.base[0] <= 300 && p.base[1] >= 300 && p.base[1] <= 900);
+    EXPECT_EQ(p.effect, k < 8 ? "" : "friction");
+    if (k >= 8) {
+      EXPECT_TRUE(beside.insert(p.base_point).second);
+      EXPECT_TRUE(p.value >= 0.05 && p.value <= 0.6) << p.value;
+    }
+  }
+  EXPECT_EQ(packings, (std::set<int>{1, 2, 3}));
+}
+
+TEST(Bank, EveryPointIsRunToEveryPressureWithTheEffectOnOrOff) {
+  const BankSpec spec = spec_of(kBank + "effects = [\"pre_cracks\"]\n" + kParameters);
+  const std::vector<BankPoint> points = bank_points(spec);
+  const Study study = bank_study(spec, points);
+  ASSERT_EQ(study.runs.size(), 2 * points.size());
+  for (std::size_t k = 0; k < study.runs.size(); ++k) {
+    const BankPoint &p = points[k / 2];
+    const Settings &s = study.runs[k].settings;
+    EXPECT_EQ(s.number("platen.max_pressure_MPa"), k % 2 ? 150.0 : 80.0);
+    EXPECT_EQ(s.number("bond.shear_strength_MPa"), p.base[1]);
+    EXPECT_EQ(s.number("effects.pre_cracks.fraction"), p.effect.empty() ? 0.0 : p.value);
+    EXPECT_EQ(study.runs[k].recipe.seed, static_cast<unsigned long>(p.packing));
+  }
+}
+
+TEST(Bank, MistakesAreTold) {
+  try {
+    spec_of("[bank]\nrecipe = \"electrode.toml\"\npressure_MPa = [80]\npackings = 1\nbase_points = "
+            "4\neffect_points = 9\neffects = [\"frction\"]\n[[parameter]]\nname = \"E\"\nlow = "
+            "3\nhigh = 1\n");
+    FAIL();
+  } catch (const Failure &e) {
+    const std::string message = e.what();
+    for (const char *part : {"'case' is missing", "Did you mean 'pressures_MPa'", "packings is 1",
+                             "effect_points is 9, base_points 4", "Did you mean 'friction'",
+                             "goes from 3 to 1", "needs a list 'keys'"})
+      EXPECT_NE(message.find(part), std::string::npos) << part << "\nis not in\n" << message;
+  }
+}
+
+SimulatedRun some_run(double target, double factor) {
+  SimulatedRun r;
+  r.control = "pressure";
+  r.target = target;
+  r.max_pressure = target;
+  r.solid_column = 40.0;
+  r.thickness_at_max = 50.0 * factor;
+  r.thickness_after = 56.0 * factor;
+  r.porosity_initial = 0.48;
+  r.porosity_at_max = 1.0 - 40.0 / r.thickness_at_max;
+  r.porosity_after = 1.0 - 40.0 / r.thickness_after;
+  for (double p = 0.0; p <= target; p += 1.0) {
+    r.pressure.push_back(p);
+    r.displacement.push_back(10.0 + 0.1 * p);
+  }
+  return r;
+}
+
+TEST(Bank, TheTableReadsBackAsWritten) {
+  const BankSpec spec = spec_of(kBank + kParameters);
+  const BankTable table = {spec,
+                           {{{"", 3, 1, {200, 500}, 0.0}, some_run(80, 1)},
+                            {{"friction", 3, 1, {200, 500}, 0.3}, some_run(150, 0.9)}}};
+  const std::string text = write_bank_table(table), file = (test_folder() / "bank.csv").string();
+  std::ofstream(file) << text;
+  const BankTable back = read_bank_table(spec, file);
+  EXPECT_EQ(write_bank_table(back), text);
+  ASSERT_EQ(back.rows.size(), 2u);
+  EXPECT_EQ(back.rows[1].point.effect, "friction");
+  EXPECT_EQ(back.rows[1].point.value, 0.3);
+  EXPECT_EQ(back.rows[0].run.pressure.back(), 75.0); // the grid's last below 80
+  EXPECT_NEAR(displacement_at(back.rows[1].run.pressure, back.rows[1].run.displacement, 100.0),
+              20.0, 1e-6);
+  std::ofstream(file) << text.substr(0, text.size() - 40);
+  EXPECT_THROW(read_bank_table(spec, file), Failure);
+}
+
+TEST(Bank, BetweenTwoPressuresRunsAreLinear) {
+  const SimulatedRun r = between_runs(some_run(80, 1), some_run(150, 0.9), 115.0);
+  EXPECT_NEAR(r.thickness_at_max, 47.5, 1e-12);
+  EXPECT_EQ(r.target, 115.0);
+  EXPECT_EQ(r.pressure.back(), 150.0);
+}
+
+TEST(Bank, InstrumentsChangeWhatIsShownOnly) {
+  const SimulatedRun run = some_run(80, 1);
+  const SimulatedRun zero = shown_with(find_effect("thickness_zero"), 2.0, run);
+  EXPECT_EQ(zero.thickness_after, 58.0);
+  EXPECT_NEAR(zero.porosity_after, 1.0 - 40.0 / 58.0, 1e-12);
+  EXPECT_EQ(zero.displacement, run.displacement);
+  const SimulatedRun soft = shown_with(find_effect("machine_compliance"), 0.05, run);
+  EXPECT_EQ(soft.thickness_after, run.thickness_after);
+  EXPECT_NEAR(soft.displacement.back(), run.displacement.back() + 4.0, 1e-12);
+}
+
+} // namespace
