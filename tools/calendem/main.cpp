@@ -3,6 +3,7 @@
 // did not hold.
 #include "bank/verb.h"
 #include "compare/verb.h"
+#include "diagnose/verb.h"
 #include "effects/verb.h"
 #include "pack/verb.h"
 #include "report/verb.h"
@@ -30,6 +31,7 @@ int main(int argc, char **argv) {
   calendem::add_compare_verb(app);
   calendem::add_study_verb(app);
   calendem::add_bank_verb(app);
+  calendem::add_diagnose_verb(app);
   calendem::add_effects_verb(app);
   calendem::add_tomogram_verb(app);
   calendem::add_validate_verb(app);

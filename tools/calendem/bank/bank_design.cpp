@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "bank/bank_design.h"
-#include "diagnose/sobol_points.h"
+#include "inference/sobol_points.h"
 #include "spec/messages.h"
 #include <cmath>
 #include <fmt/format.h>
@@ -44,7 +44,7 @@ std::vector<std::string> row_of(const BankSpec &spec, const BankPoint &point, do
 std::vector<BankPoint> bank_points(const BankSpec &spec) {
   std::vector<BankPoint> out;
   const auto shares =
-      diagnose::sobol_points(int(spec.parameters.size()), spec.base_points, spec.seed);
+      inference::sobol_points(int(spec.parameters.size()), spec.base_points, spec.seed);
   for (int k = 0; k < spec.base_points; ++k) {
     BankPoint p;
     p.base_point = k;
@@ -56,7 +56,7 @@ std::vector<BankPoint> bank_points(const BankSpec &spec) {
   }
   for (std::size_t e = 0; e < spec.effects.size(); ++e) {
     const Effect &effect = find_effect(spec.effects[e]);
-    const auto amplitudes = diagnose::sobol_points(1, spec.effect_points, spec.seed + 1 + e);
+    const auto amplitudes = inference::sobol_points(1, spec.effect_points, spec.seed + 1 + e);
     for (int k = 0; k < spec.effect_points && !effect.instrument; ++k) {
       BankPoint p = out[std::size_t(k) * spec.base_points / spec.effect_points];
       p.effect = effect.name;

@@ -134,8 +134,9 @@ void along_curve(const Experiment &e, const Condition &c, std::vector<Observable
       return displacement_at(r.pressure, r.displacement, p) / (over_solid ? r.solid_column : 1.0);
     };
     Observable o;
-    o.name =
-        fmt::format("displacement{} at {:.0f} MPa", loading ? " over solid thickness" : "", at);
+    o.curve = loading ? "displacement over solid thickness" : "displacement";
+    o.coordinate = share;
+    o.name = fmt::format("{} at {:.0f} MPa", o.curve, at);
     o.stage = "compression";
     o.unit = loading ? "" : "um";
     o.measured = displacement_at(pressure, displacement, at) / solid;

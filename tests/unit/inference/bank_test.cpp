@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "spec/messages.h"
+#include "synthetic_bank.h"
+#include <gtest/gtest.h>
+
+namespace calendem::inference {
+namespace {
+
+std::string message_of(const std::function<void()> &action) {
+  try {
+    action();
+  } catch (const Failure &f) {
+    EXPECT_EQ(f.exit_status(), kBadInput);
+    return f.what();
+  }
+  return "no failure";
+}
+
+TEST(Prior, ScoresAndValuesAreInverse) {
+  for (const Prior &p : {Prior{Prior::normal, 3.0, 0.5}, Prior{Prior::uniform, -1.0, 4.0},
+                         Prior{Prior::log_uniform, 0.1, 10.0}})
+    for (const double score : {-2.0, -0.3, 0.0, 1.7})
+      EXPECT_NEAR(p.score(p.value(score)), score, 1e-9);
+  EXPECT_NEAR((Prior{Prior::log_uniform, 0.1, 10.0}).value(0.0), 1.0, 1e-12);
+  EXPECT_NEAR((Prior{Prior::normal, 3.0, 0.5}).scaled(4.0), 1.0, 1e-12);
+}
+
+TEST(BankTable, ReadsWhatItWrote) {
+  const Bank bank = synthetic_bank(8, 0.1);
+  const std::string text = write_table(bank);
+  Bank read = bank;
+  read.runs.clear();
+  read_table(read, text, "bank.csv");
+  ASSERT_EQ(read.runs.size(), bank.runs.size());
+  for (std::size_t i = 0; i < bank.runs.size(); ++i)
+    EXPECT_EQ(read.runs[i].values, bank.runs[i].values);
+  EXPECT_EQ(write_table(read), text);
+  EXPECT_NO_THROW(check(read));
+}
+
+TEST(BankTable, EveryMistakeIsTold) {
+  Bank bank = synthetic_bank(6, 0.1);
+  std::string text = write_table(bank);
+  text.replace(text.find("strength"), 8, "strenght");
+  text.replace(text.find("broken"), 6, "brocken");
+  text += "plasticity,p9\n";
+  const std::string told = message_of([&] { read_table(bank, text, "bank.csv"); });
+  EXPECT_NE(told.find("'strength' is missing"), std::string::npos) << told;
+  EXPECT_NE(told.find("'broken|compression|p150|0' is missing"), std::string::npos) << told;
+  EXPECT_NE(told.find("26"), std::string::npos) << told; // the line
+}
+
+TEST(Bank, RunsThatCannotServeAreTold) {
+  Bank bank = synthetic_bank(8, 0.1);
+  bank.runs[1].packing = "another";
+  EXPECT_NE(message_of([&] { check(bank); }).find("'plasticity': 1 of its 8 runs"),
+            std::string::npos);
+  bank = synthetic_bank(8, 0.1);
+  bank.runs[0].values[3] = NAN;
+  EXPECT_NE(
+      message_of([&] { check(bank); }).find("run 1: ln pressure|compression|p150|0.272727 is not"),
+      std::string::npos);
+  bank = synthetic_bank(5, 0.1);
+  EXPECT_NE(message_of([&] { check(bank); }).find("5 runs of the base model; at least 7"),
+            std::string::npos);
+}
+
+TEST(Bank, AMeasurementFaultIsAnEffectWithoutSimulation) {
+  Bank bank = synthetic_bank(10, 0.1);
+  const Effect zero{"thickness zero", {{"offset", {Prior::uniform, 0.0, 2.0}, true}}};
+  add_measurement_fault(bank, zero, [](const auto &, const Vector &v, const Vector &a) {
+    Vector shown = v;
+    shown[kCurve] += a[0];
+    return shown;
+  });
+  EXPECT_NO_THROW(check(bank));
+  const auto pairs = pairs_of(bank, "thickness zero");
+  ASSERT_EQ(pairs.size(), 10u);
+  for (const auto &[off, on] : pairs) {
+    const Vector difference = bank.runs[on].values - bank.runs[off].values;
+    EXPECT_NEAR(difference[kCurve], bank.runs[on].amplitudes[0], 1e-12);
+    EXPECT_EQ(difference.head(kCurve).norm(), 0.0);
+  }
+}
+
+TEST(Observables, WhatTheExperimentMustBe) {
+  ObservableVector e = synthetic_experiment("", 0.0, 1, 0.1, 0.1);
+  e.covariance(0, 1) = e.covariance(1, 0) = 0.011;
+  EXPECT_NE(message_of([&] { check(e); }).find("not symmetric and positive definite"),
+            std::string::npos);
+  e = synthetic_experiment("", 0.0, 1, 0.1, 0.1);
+  e.covariance(2, 2) = 0.0;
+  EXPECT_NE(message_of([&] { check(e); }).find("variance 0; a number and a variance above 0"),
+            std::string::npos);
+  EXPECT_NE(message_of([&] {
+              places_in(e.of, {{"mass", "rest", "p80", 0.0}});
+            }).find("mass|rest|p80|0"),
+            std::string::npos);
+}
+
+} // namespace
+} // namespace calendem::inference

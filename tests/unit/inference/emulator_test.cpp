@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "inference/emulators.h"
+#include "inference/feature_map.h"
+#include "inference/scatter.h"
+#include "synthetic_bank.h"
+#include <gtest/gtest.h>
+
+namespace calendem::inference {
+namespace {
+
+double curved(const Vector &x) { return 1.0 + 2.0 * x[0] - x[1] + 1.5 * x[0] * x[1] + x[2] * x[2]; }
+
+Training sample(int runs, int packings, double scatter, double noise, std::uint64_t seed) {
+  Training t;
+  t.inputs = (2.0 * sobol_points(3, runs, seed).array() - 1.0).matrix();
+  t.amplitudes.resize(0, runs);
+  t.values.resize(runs);
+  Random random(seed, 4);
+  Vector of_packing(packings);
+  for (double &v : of_packing)
+    v = scatter * random.normal();
+  for (int i = 0; i < runs; ++i) {
+    t.packing.push_back(i % packings);
+    t.values[i] = curved(t.inputs.col(i)) + of_packing[i % packings] + noise * random.normal();
+  }
+  return t;
+}
+
+TEST(GaussianProcess, LearnsACurvedResponseFromFortyRuns) {
+  const GaussianProcess g(sample(40, 40, 0.0, 0.0, 1));
+  const Matrix points = (2.0 * sobol_points(3, 200, 9).array() - 1.0).matrix();
+  Vector predicted(200), actual(200);
+  for (int i = 0; i < 200; ++i) {
+    predicted[i] = g.mean_at(points.col(i), Vector());
+    EXPECT_NEAR(predicted[i], g.at(points.col(i), Vector()).mean, 1e-9);
+    actual[i] = curved(points.col(i));
+  }
+  EXPECT_GT(q2_of(predicted, actual), 0.999);
+  EXPECT_GT(g.left_out().q2, 0.99);
+}
+
+// 60 runs, 15 packings: variances within three of their standard errors (15 - 1 packings: relative
+// error sqrt(2/14); noise: 60 - 15 - about 9 of the response).
+TEST(GaussianProcess, TellsPackingsFromNoise) {
+  const GaussianProcess g(sample(60, 15, 0.5, 0.2, 2));
+  EXPECT_NEAR(g.packing_variance() / 0.25, 1.0, 3.0 * std::sqrt(2.0 / 14.0));
+  EXPECT_NEAR(g.run_variance() / 0.04, 1.0, 3.0 * std::sqrt(2.0 / 36.0));
+  // What a new packing is off by: both variances, and the emulator's.
+  EXPECT_NEAR(std::pow(g.left_out().error, 2) / 0.29, 1.0, 0.6);
+  // With the scatter taken off, the emulator's own part is small beside it.
+  EXPECT_LT(g.left_out().own, 0.7 * g.left_out().error);
+  EXPECT_GT(g.parameters_used(), 4.0);
+  EXPECT_LT(g.parameters_used(), 30.0);
+}
+
+// The stated variance is that of the errors: the mean of (error)^2 / variance over points and over
+// 20 banks is about 1 (hyperparameters taken as known make it larger).
+TEST(GaussianProcess, SaysHowWrongItIs) {
+  double sum = 0.0;
+  const Matrix points = (2.0 * sobol_points(3, 20, 9).array() - 1.0).matrix();
+  for (int bank = 0; bank < 20; ++bank) {
+    const GaussianProcess g(sample(30, 30, 0.0, 0.4, std::uint64_t(bank + 10)));
+    for (int i = 0; i < 20; ++i) {
+      const Mean m = g.at(points.col(i), Vector());
+      sum += std::pow(m.mean - curved(points.col(i)), 2) / m.variance / 400.0;
+    }
+  }
+  EXPECT_GT(sum, 0.5);
+  EXPECT_LT(sum, 2.0);
+}
+
+TEST(GaussianProcess, AConstantIsPredictedAsSuch) {
+  Training t = sample(20, 20, 0.0, 0.0, 3);
+  t.values.setConstant(7.0);
+  const Mean m = GaussianProcess(t).at(Vector::Zero(3), Vector());
+  EXPECT_NEAR(m.mean, 7.0, 1e-6);
+  EXPECT_LT(m.variance, 1e-9);
+}
+
+/// Three features of curved responses whose packings scatter together: correlation 0.8 of the first
+/// two, none with the third; 0.3, 0.3 and 0.1 in size. `each`: runs of one packing.
+std::vector<GaussianProcess> correlated(int runs, int each, std::vector<int> &packing) {
+  std::vector<GaussianProcess> all;
+  Training t = sample(runs, runs / each, 0.0, 0.0, 5);
+  packing = t.packing;
+  Random random(7, 7);
+  Matrix of_packing(3, runs / each);
+  for (int p = 0; p < of_packing.cols(); ++p) {
+    const Eigen::Vector3d normal{random.normal(), random.normal(), random.normal()};
+    of_packing.col(p) << 0.3 * normal[0], 0.3 * (0.8 * normal[0] + 0.6 * normal[1]),
+        0.1 * normal[2];
+  }
+  const Vector response = t.values;
+  for (int f = 0; f < 3; ++f) {
+    for (int i = 0; i < runs; ++i)
+      t.values[i] = (1.0 - 0.3 * f) * response[i] + of_packing(f, packing[i]);
+    all.emplace_back(t);
+  }
+  return all;
+}
+
+// A variance from n packings is known within sqrt(2/n), a correlation r within (1 - r^2)/sqrt(n);
+// three of these, and for the correlation the shrinkage.
+TEST(PooledScatter, IsTheCovarianceOfThePackings) {
+  for (const int each : {1, 3}) {
+    std::vector<int> packing;
+    const Scatter s = pooled_scatter(correlated(90, each, packing), packing);
+    const double n = each == 1 ? s.degrees_of_freedom : 29.0;
+    const Vector sd = s.covariance.diagonal().cwiseSqrt();
+    for (int f = 0; f < 3; ++f)
+      EXPECT_NEAR(std::pow(sd[f] / (f < 2 ? 0.3 : 0.1), 2), 1.0, 3.0 * std::sqrt(2.0 / n));
+    EXPECT_NEAR(s.covariance(0, 1) / (sd[0] * sd[1]), 0.8 * (1.0 - s.shrinkage),
+                3.0 * 0.36 / std::sqrt(n));
+    EXPECT_NEAR(s.covariance(0, 2) / (sd[0] * sd[2]), 0.0, 3.0 / std::sqrt(n));
+    if (each == 1) { // 90 runs, a response of 10 coefficients, some of them barely used
+      EXPECT_GT(s.degrees_of_freedom, 60.0);
+      EXPECT_LT(s.degrees_of_freedom, 86.0);
+    } else {
+      EXPECT_NEAR(s.degrees_of_freedom, 29.0, 1.0);
+    }
+  }
+}
+
+TEST(Emulators, AnEffectIsNothingAtAmplitudeZero) {
+  const Bank bank = synthetic_bank(30, 0.05);
+  Matrix values(16, Eigen::Index(bank.runs.size()));
+  for (int i = 0; i < values.cols(); ++i)
+    values.col(i) = bank.runs[i].values;
+  const Emulators learnt(bank, values);
+  const auto at = [&](double amplitude, bool on) {
+    Prediction p{Vector::Zero(16), Vector::Zero(16)};
+    std::vector<Applied> applied;
+    if (on)
+      applied.push_back(
+          {0, Vector::Constant(1, bank.effects[0].parameters[0].prior.score(amplitude))});
+    learnt.predict(Vector::Zero(2), applied, 1.0, 0, p);
+    return p;
+  };
+  EXPECT_NEAR((at(0.0, true).mean - at(0.0, false).mean).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((at(0.0, true).variance - at(0.0, false).variance).norm(), 0.0, 1e-9);
+  // In the middle: -(0.5 a + 0.2 a^2) of the porosity. Paired runs share their packing: no scatter.
+  EXPECT_NEAR(at(0.5, true).mean[kCurve] - at(0.5, false).mean[kCurve], -0.3, 2e-3);
+  EXPECT_GT(learnt.effect(0)[kCurve].left_out().q2, 0.99);
+}
+
+std::vector<Observable> curve_of(int points) {
+  std::vector<Observable> all;
+  for (int k = 0; k < points; ++k)
+    all.push_back({"curve", "compression", "c", k / (points - 1.0)});
+  return all;
+}
+
+/// Two-dimensional families of curves over 20 points, 50 runs.
+Matrix smooth_runs() {
+  Random random(3, 3);
+  Matrix runs(20, 50);
+  for (int i = 0; i < 50; ++i) {
+    const double a = random.normal(), b = random.normal();
+    for (int k = 0; k < 20; ++k)
+      runs(k, i) = a * k / 19.0 + b * std::pow(k / 19.0, 2);
+  }
+  return runs;
+}
+
+// Noise alone: the truncation residual is standard normal. A bump outside the runs' span shows.
+TEST(FeatureMap, KeepsWhatIsOutsideTheSpan) {
+  const double noise = 0.1;
+  const Matrix measurement = noise * noise * Matrix::Identity(20, 20);
+  const FeatureMap map(curve_of(20), smooth_runs(), Vector::Constant(20, noise), measurement);
+  EXPECT_EQ(map.emulated(), 2);
+  ASSERT_EQ(map.size(), 3);
+  Random random(6, 6);
+  double sum = 0.0, square = 0.0;
+  const int kDraws = 4000;
+  Vector curve(20);
+  for (int n = 0; n < kDraws; ++n) {
+    for (int k = 0; k < 20; ++k)
+      curve[k] = 0.7 * k / 19.0 + noise * random.normal();
+    const double z = map.features_of(curve)[2];
+    sum += z / kDraws;
+    square += z * z / kDraws;
+  }
+  EXPECT_NEAR(sum, 0.0, 3.0 / std::sqrt(kDraws));
+  EXPECT_NEAR(square, 1.0, 3.0 * std::sqrt(2.0 / kDraws));
+  for (int k = 0; k < 20; ++k)
+    curve[k] = 0.5 * std::sin(k);
+  EXPECT_GT(map.features_of(curve)[2], 8.0);
+  EXPECT_GT(map.discrepancy(25.0 * measurement)(2, 2), 9.0);
+}
+
+TEST(FeatureMap, GivesSmoothCurvesBackAndScalarsUnchanged) {
+  auto observables = curve_of(20);
+  observables.push_back({"scalar", "relaxation", "c"});
+  Matrix runs(21, 50);
+  runs.topRows(20) = smooth_runs();
+  for (int i = 0; i < 50; ++i)
+    runs(20, i) = i;
+  const FeatureMap map(observables, runs, Vector::Constant(21, 0.1),
+                       0.01 * Matrix::Identity(21, 21));
+  EXPECT_LT((map.observables_of(map.emulated_of(runs.col(7)).col(0)) - runs.col(7)).norm(), 1e-9);
+  EXPECT_NEAR(map.covariance(0.01 * Matrix::Identity(21, 21))(0, 0), 1.0, 1e-12);
+  EXPECT_EQ(map.features()[2].block, 1);
+}
+
+} // namespace
+} // namespace calendem::inference

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "inference/scores.h"
+#include "pack/random.h"
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace calendem::inference {
+namespace {
+
+TEST(Scores, ByHand) {
+  const std::vector<std::vector<double>> p{{0.8, 0.2}, {0.4, 0.6}};
+  EXPECT_NEAR(log_score(p, {0, 0}), -0.5 * (std::log(0.8) + std::log(0.4)), 1e-15);
+  EXPECT_NEAR(log_score({{1.0, 0.0}}, {1}, 1e-3), std::log(1e3), 1e-12);
+  EXPECT_NEAR(brier_score(p, {0, 1}), 0.5 * (2 * 0.04 + 2 * 0.16), 1e-15);
+  EXPECT_NEAR(brier_skill(p, {0, 1}, {0.5, 0.5}), 1.0 - 0.2 / 0.5, 1e-15);
+  EXPECT_NEAR(auroc({0.9, 0.5, 0.5, 0.1}, {true, true, false, false}), 3.5 / 4.0, 1e-15);
+  EXPECT_TRUE(std::isnan(auroc({0.1}, {true})));
+}
+
+// Values of the exact interval in closed form: for 0 of n the upper end is 1 - tail^(1/n).
+TEST(ClopperPearson, ClosedForms) {
+  const auto none = clopper_pearson(0, 20, 0.9);
+  EXPECT_EQ(none.first, 0.0);
+  EXPECT_NEAR(none.second, 1.0 - std::pow(0.05, 1.0 / 20.0), 1e-12);
+  const auto all = clopper_pearson(20, 20, 0.9);
+  EXPECT_NEAR(all.first, std::pow(0.05, 1.0 / 20.0), 1e-12);
+  EXPECT_EQ(all.second, 1.0);
+}
+
+// Cases of one cluster are equal: the interval is that of the clusters' mean, not of four times as
+// many independent cases. Normal approximation of 50 clusters; its ends wander by a tenth of its
+// width.
+TEST(ClusteredBootstrap, WidthIsThatOfTheClusters) {
+  Random random(1, 1);
+  std::vector<int> cluster;
+  std::vector<double> value;
+  double square = 0.0;
+  for (int c = 0; c < 50; ++c) {
+    const double v = random.normal();
+    square += v * v;
+    for (int k = 0; k < 4; ++k) {
+      cluster.push_back(c);
+      value.push_back(v);
+    }
+  }
+  const auto mean = [&](const std::vector<int> &cases) {
+    double sum = 0.0;
+    for (const int i : cases)
+      sum += value[i];
+    return sum / double(cases.size());
+  };
+  const auto [low, high] = clustered_bootstrap(cluster, mean, 0.9);
+  EXPECT_NEAR(high - low, 2.0 * 1.645 * std::sqrt(square / 50.0 / 50.0), 0.1 * (high - low));
+  EXPECT_EQ(clustered_bootstrap(cluster, mean, 0.9), std::make_pair(low, high));
+}
+
+} // namespace
+} // namespace calendem::inference

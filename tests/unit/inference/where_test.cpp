@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "inference/chances.h"
+#include "inference/where.h"
+#include "inference/which.h"
+#include "linear_world.h"
+#include <gtest/gtest.h>
+
+namespace calendem::inference {
+namespace {
+
+/// The recalibrated base model of a linear world, in closed form.
+Linearised recalibrated(const LinearWorld &world, const Problem &problem) {
+  const Matrix &j = world.sensitivity;
+  const Vector scores =
+      j.transpose() * Cholesky(world.covariance_of(-1)).solve(problem.observed - world.centre);
+  return linearise(problem, scores);
+}
+
+TEST(Where, FalseAlarmsOfATableWithoutGap) {
+  const LinearWorld world(8, 3, 0, 2);
+  Random random(5, 5);
+  WhereSettings settings;
+  settings.simulations = 20000;
+  const double threshold =
+      where(world.problem(world.centre), recalibrated(world, world.problem(world.centre)), settings)
+          .threshold;
+  settings.simulations = 1; // the threshold does not depend on the data
+  const int kTables = 2000;
+  int alarms = 0;
+  for (int k = 0; k < kTables; ++k) {
+    const Problem problem =
+        world.problem(world.draw(world.centre, world.covariance_of(-1), random));
+    const Where w = where(problem, recalibrated(world, problem), settings);
+    alarms += std::fabs(w.rows[0].z) > threshold;
+  }
+  // Binomial spread of the tables, and of the 20000 that gave the threshold.
+  EXPECT_NEAR(alarms / double(kTables), 0.05,
+              3.0 * std::sqrt(0.05 * 0.95 * (1.0 / kTables + 1.0 / 20000)));
+}
+
+TEST(Where, AShiftedObservableIsFoundWithItsSign) {
+  const LinearWorld world(8, 2, 0, 3);
+  Vector data = world.centre;
+  data[5] -= 8.0;
+  const Problem problem = world.problem(data);
+  const Where w = where(problem, recalibrated(world, problem), {});
+  EXPECT_EQ(w.rows[0].block, 5);
+  EXPECT_TRUE(w.rows[0].significant);
+  EXPECT_GT(w.rows[0].z, w.threshold); // predicted - observed
+  double share = 0.0;
+  for (const WhereRow &r : w.rows)
+    share += r.share;
+  EXPECT_NEAR(share, 1.0, 1e-12);
+}
+
+// Two observables that one parameter moves alike, measured apart: each alone can be met.
+TEST(Where, WhatCannotBeMetTogether) {
+  LinearWorld world(4, 1, 0, 4);
+  world.covariance = 0.01 * Matrix::Identity(4, 4);
+  world.centre.setZero();
+  world.sensitivity << 1.0, 1.0, 0.0, 0.0;
+  Vector data = Vector::Zero(4);
+  data.head(2) << 1.2, -0.8;
+  const Problem problem = world.problem(data);
+  const Where w = where(problem, recalibrated(world, problem), {});
+  ASSERT_EQ(w.conflicts.size(), 1u);
+  EXPECT_EQ(w.conflicts[0].one, 0);
+  EXPECT_EQ(w.conflicts[0].other, 1);
+  // Closed form: the difference has variance 0.02, the sum 2 * (2 + 0.01).
+  EXPECT_NEAR(w.conflict(0, 1), chance_beyond(4.0 / 0.02 + 0.16 / 4.02, 2, kNormal), 1e-12);
+  // Observables 0 and 2 are of the compression, 1 and 3 of the relaxation: the parameter drifts.
+  ASSERT_EQ(w.stages.size(), 2u);
+  EXPECT_NEAR(w.stages[0].scores[0], 1.2 / 1.01, 1e-9);
+  EXPECT_NEAR(w.stages[1].scores[0], -0.8 / 1.01, 1e-9);
+  EXPECT_NEAR(w.stages[0].sd[0], std::sqrt(0.01 / 1.01), 1e-9);
+}
+
+TEST(Chances, EquivalentZ) {
+  EXPECT_NEAR(equivalent_z(9.0, 1), 3.0, 1e-12);
+  EXPECT_NEAR(equivalent_z(-2.0 * std::log(0.05), 2), 1.959964, 1e-5); // two dimensions: exp(-q/2)
+  EXPECT_NEAR(equivalent_z(4000.0, 3), std::sqrt(4000.0), 1.0);
+  EXPECT_NEAR(chance_beyond(6.61, 1, 5.0), 0.05, 1e-3); // F(1, 5) of any table
+}
+
+} // namespace
+} // namespace calendem::inference

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "inference/confounding.h"
+#include "inference/which.h"
+#include "linear_world.h"
+#include <gtest/gtest.h>
+
+namespace calendem::inference {
+namespace {
+
+WhichSettings quick() {
+  WhichSettings s;
+  s.noise = false;
+  s.evidence.samples = 128;
+  s.priors.pair_share = 0.0;
+  s.pair_seeds = 0;
+  return s;
+}
+
+/// Probabilities of none and three effects, by importance sampling, in worlds drawn from the prior.
+struct Calibration {
+  int worlds = 0, claims = 0, wrong = 0, covered = 0, intervals = 0, inadequate = 0;
+  double expected_right = 0.0, variance = 0.0;
+  int right = 0;
+};
+
+Calibration calibrate(int worlds) {
+  Calibration c;
+  WhichSettings settings = quick();
+  settings.priors.unknown = 0.0;
+  settings.priors.none = 0.25;
+  for (int w = 0; w < worlds; ++w) {
+    LinearWorld world(6, 2, 3, std::uint64_t(500 + w));
+    world.amplitude = 2.5;
+    Random random(std::uint64_t(w), 8);
+    const int truth = int(random.uniform() * 4) - 1;
+    Vector scores(3);
+    for (double &s : scores)
+      s = random.normal();
+    Vector mean = world.centre + world.sensitivity * scores.head(2);
+    if (truth >= 0)
+      mean += (world.amplitude + world.spread * scores[2]) * world.signatures.col(truth);
+    const Which found = which(world.problem(world.draw(mean, world.covariance, random)), settings);
+    const std::string name = truth < 0 ? "none" : "effect " + std::to_string(truth);
+    const Judged &best = found.judged.front(), &own = found.of(name);
+    c.right += best.hypothesis.name == name;
+    c.expected_right += best.probability;
+    c.variance += best.probability * (1.0 - best.probability);
+    c.claims += found.claim != "undecided" && found.claim != "unknown";
+    c.wrong += found.claim != "undecided" && found.claim != "unknown" && found.claim != name;
+    c.inadequate += own.adequacy_p < 0.1;
+    for (int j = 0; j < own.evidence.mean.size(); ++j, ++c.intervals)
+      c.covered += std::fabs(scores[j] - own.evidence.mean[j]) <
+                   1.6448536 * std::sqrt(own.evidence.covariance(j, j));
+  }
+  c.worlds = worlds;
+  return c;
+}
+
+// Truths drawn from the prior: probabilities are frequencies, 90 % intervals cover 90 %, adequacy
+// is uniform. All within three standard deviations of binomial counts (intervals of one world are
+// correlated: at most as if they were equal).
+TEST(Which, IsCalibratedInLinearWorlds) {
+  const Calibration c = calibrate(300);
+  EXPECT_NEAR(c.right, c.expected_right, 3.0 * std::sqrt(c.variance));
+  EXPECT_NEAR(c.covered / double(c.intervals), 0.9, 3.0 * std::sqrt(0.09 / c.worlds));
+  EXPECT_NEAR(c.inadequate / double(c.worlds), 0.1, 3.0 * std::sqrt(0.09 / c.worlds));
+  EXPECT_GT(c.claims, 10);
+  EXPECT_LE(c.wrong, 0.2 * c.claims + 3.0 * std::sqrt(0.16 * c.claims)); // a claim is 80 % sure
+  RecordProperty("claims", c.claims);
+  RecordProperty("wrong", c.wrong);
+}
+
+TEST(Which, NullsAreRarelyCalledAnEffect) {
+  WhichSettings settings = quick();
+  const int kWorlds = 300;
+  int effects = 0, none = 0, unknown = 0;
+  for (int w = 0; w < kWorlds; ++w) {
+    const LinearWorld world(8, 2, 4, std::uint64_t(900 + w));
+    Random random(std::uint64_t(w), 9);
+    const Which found =
+        which(world.problem(world.draw(world.centre, world.covariance_of(-1), random)), settings);
+    none += found.claim == "none";
+    unknown += found.claim == "unknown";
+    effects += found.claim.rfind("effect", 0) == 0;
+  }
+  EXPECT_LE(effects, 0.03 * kWorlds + 3.0 * std::sqrt(0.03 * 0.97 * kWorlds)); // gate: 3 %
+  EXPECT_LE(unknown, 0.03 * kWorlds + 3.0 * std::sqrt(0.03 * 0.97 * kWorlds));
+  EXPECT_GE(none, 0.5 * kWorlds);
+}
+
+TEST(Which, AStrongEffectIsNamedAndWithoutItsHypothesisItIsUnknown) {
+  LinearWorld world(10, 2, 3, 11);
+  world.amplitude = 10.0;
+  const Vector data = world.mean_of(1);
+  const Which found = which(world.problem(data), quick());
+  EXPECT_EQ(found.claim, "effect 1");
+  EXPECT_EQ(found.set95, std::vector<std::string>{"effect 1"});
+  EXPECT_GT(found.inclusion.at("effect 1"), 0.99);
+  for (const Sensitivity &s : found.sensitivity)
+    EXPECT_EQ(s.claim, "effect 1") << s.change;
+  Problem without = world.problem(data);
+  without.effects.resize(1);
+  EXPECT_EQ(which(without, quick()).claim, "unknown");
+}
+
+TEST(Which, TwoEffectsAtOnceAreAPair) {
+  LinearWorld world(12, 2, 4, 12);
+  world.amplitude = 9.0;
+  const Vector data = world.mean_of(0) + world.mean_of(2) - world.centre;
+  WhichSettings settings = quick();
+  settings.pair_seeds = 2;
+  settings.priors.pair_share = 0.2;
+  const Which found = which(world.problem(data), settings);
+  EXPECT_EQ(found.claim, "effect 0 + effect 2");
+  EXPECT_GT(found.inclusion.at("effect 2"), 0.99);
+}
+
+TEST(Which, UnderstatedNoise) {
+  const LinearWorld world(20, 1, 2, 13);
+  Random random(2, 2);
+  const Vector data = world.draw(world.centre, 12.0 * world.covariance, random);
+  WhichSettings settings = quick();
+  settings.noise = true;
+  settings.priors.unknown = 0.0;
+  EXPECT_EQ(which(world.problem(data), settings).claim, "noise");
+}
+
+// The rule on given evidence.
+TEST(Decide, ClaimRuleAndPriors) {
+  const auto judged = [](Hypothesis::Kind kind, std::vector<int> on, const char *name,
+                         double log_evidence, double p) {
+    Judged j;
+    j.hypothesis = {kind, std::move(on), name, 0.0};
+    j.evidence.log_evidence = log_evidence;
+    j.adequacy_p = p;
+    return j;
+  };
+  const auto decided = [&](double log_a, double p_a, double p_none, WhichSettings settings) {
+    Which w;
+    w.judged = {judged(Hypothesis::none, {}, "none", 0.0, p_none),
+                judged(Hypothesis::unknown, {}, "unknown", -20.0, 1.0),
+                judged(Hypothesis::effects, {0}, "a", log_a, p_a),
+                judged(Hypothesis::effects, {1}, "b", -20.0, p_a)};
+    decide(w, settings, 2);
+    return w;
+  };
+  WhichSettings s;
+  s.noise = false;
+  const Which a = decided(6.0, 0.5, 0.5, s);
+  EXPECT_EQ(a.claim, "a");
+  // a: 0.5 * 0.9 / 2 = 0.225 times e^6; none: 0.4.
+  EXPECT_NEAR(a.judged[0].probability, 0.225 * std::exp(6.0) / (0.225 * std::exp(6.0) + 0.4), 1e-8);
+  EXPECT_EQ(decided(0.5, 0.5, 0.5, s).claim, "undecided");
+  EXPECT_EQ(decided(6.0, 0.005, 0.5, s).claim, "undecided");
+  EXPECT_EQ(decided(6.0, 0.005, 0.005, s).claim, "unknown");
+  s.poor = {"a"};
+  EXPECT_EQ(decided(6.0, 0.5, 0.5, s).claim, "undecided");
+  s.poor = {"b"};
+  EXPECT_EQ(decided(6.0, 0.5, 0.5, s).claim, "a");
+  s.priors.weight["a"] = 0.0;
+  EXPECT_EQ(decided(6.0, 0.5, 0.5, s).claim, "none");
+}
+
+// Signatures with a known angle in white noise, without base parameters.
+TEST(Confounding, CosinesOddsAndLimitsInClosedForm) {
+  LinearWorld world(3, 0, 2, 1);
+  world.centre.setZero();
+  world.covariance.setIdentity();
+  world.signatures << 1.0, 0.6, 0.0, 0.8, 0.0, 0.0;
+  Problem problem = world.problem(Vector::Zero(3));
+  for (Effect &e : problem.effects)
+    e.parameters[0].prior = {Prior::uniform, 0.0, 10.0};
+  problem.predict = [&](const Vector &, const std::vector<Applied> &on) {
+    Prediction out{Vector::Zero(3), Vector::Zero(3)};
+    for (const Applied &a : on)
+      out.mean += problem.effects[a.effect].parameters[0].prior.value(a.scores[0]) *
+                  world.signatures.col(a.effect);
+    return out;
+  };
+  Which w;
+  w.base = linearise(problem, Vector());
+  ConfoundingSettings settings;
+  settings.amplitudes = 100;
+  const Confounding c = confounding(problem, w, settings);
+  EXPECT_NEAR(c.cosine(0, 1), 0.6, 1e-9);
+  EXPECT_NEAR(c.log_odds(0, 2), 0.5 * 25.0, 1e-6);
+  EXPECT_NEAR(c.log_odds(0, 1), 0.5 * 25.0 * 0.64, 1e-6); // rival at 3: on the grid
+  // sin^2 a^2 / 2 = 3; the rival's grid of 0.1 costs less than 0.05^2 / 2.
+  EXPECT_NEAR(c.limits[0].amplitude, std::sqrt(6.0 / 0.64), 0.02);
+  EXPECT_EQ(c.limits[0].rival, "effect 1");
+}
+
+// A base parameter that moves the features as the effect does takes it up, as far as its prior lets
+// it.
+TEST(Confounding, RecalibrationAbsorbs) {
+  LinearWorld world(2, 1, 1, 1);
+  world.centre.setZero();
+  world.covariance.setIdentity();
+  world.sensitivity << 2.0, 0.0;
+  world.signatures << 1.0, 0.0;
+  const Problem problem = world.problem(Vector::Zero(2));
+  Which w;
+  w.base = linearise(problem, Vector::Zero(1));
+  // Of the squared length 1/(1 + 4) is left.
+  EXPECT_NEAR(confounding(problem, w, {}).absorbed[0], 0.8, 1e-9);
+  EXPECT_NEAR(beyond_recalibration(w.base, Matrix::Identity(2, 2))(0, 0), 0.0, 1e-8);
+  EXPECT_NEAR(beyond_recalibration(w.base, Matrix::Identity(2, 2))(1, 1), 1.0, 1e-8);
+}
+
+} // namespace
+} // namespace calendem::inference

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// An experiment file and a bank's table as what the inference works on.
+#ifndef CALENDEM_DIAGNOSE_EXPERIMENT_DATA_H
+#define CALENDEM_DIAGNOSE_EXPERIMENT_DATA_H
+
+#include "bank/bank_table.h"
+#include "inference/bank.h"
+
+namespace calendem {
+
+struct ExperimentData {
+  inference::Bank bank; ///< what each run of the table would show of the experiment
+  inference::ObservableVector experiment;
+  std::vector<std::string> not_said; ///< what is left out or assumed, and why
+};
+
+/// The observables of the conditions named in `conditions` (all if it is empty). A run to a
+/// pressure between two of the bank's is interpolated; the pressure's uncertainty is common to all
+/// conditions of one press. Throws Failure(2) if nothing is left to compare.
+ExperimentData data_of(const Experiment &experiment, const BankTable &table,
+                       const std::vector<std::string> &conditions);
+
+/// The effect's amplitude as a parameter of the inference.
+inference::Effect inference_effect(const Effect &effect);
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Which effects look alike on this data, and how small an effect can be seen.
+#ifndef CALENDEM_INFERENCE_CONFOUNDING_H
+#define CALENDEM_INFERENCE_CONFOUNDING_H
+
+#include "inference/which.h"
+
+namespace calendem::inference {
+
+struct ConfoundingSettings {
+  int amplitudes = 24;  ///< steps from 0 to the end of an effect's range
+  double telling = 3.0; ///< log-odds from here on tell two hypotheses apart
+};
+
+struct DetectionLimit {
+  std::string effect, rival; ///< rival: the hardest to tell from at that amplitude
+  double amplitude = 0.0;    ///< of the first amplitude parameter, in its unit; NaN: never
+};
+
+struct Confounding {
+  std::vector<std::string> effects;
+  /// Cosines of the signatures of half-way amplitudes, in the inverse of `recalibrated_covariance`:
+  /// what the base parameters can take up within their priors does not count.
+  Matrix cosine;
+  /// Share of each signature's squared length that recalibration takes up.
+  Vector absorbed;
+  /// Expected ln(p(data | row) / p(data | column)) when the row's effect is true at half-way
+  /// amplitude and the column's may have any; the last column is none.
+  Matrix log_odds;
+  std::vector<DetectionLimit> limits;
+  /// Of the hypotheses in the 95 % set, at their fitted amplitudes.
+  std::vector<std::vector<std::string>> indistinguishable;
+};
+
+/// Expected log-odds are half the squared distance from the true signature to the nearest of the
+/// rival's, amplitudes from a grid, base linearised: the leading term of what noise leaves of the
+/// log likelihood ratio (Box and Hill, Technometrics 9 (1967) 57). Occam's factors are left out.
+Confounding confounding(const Problem &problem, const Which &which,
+                        const ConfoundingSettings &settings);
+
+} // namespace calendem::inference
+
+#endif

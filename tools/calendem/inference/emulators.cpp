@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "inference/emulators.h"
+#include <map>
+
+namespace calendem::inference {
+namespace {
+
+/// Scaled base parameters and effect's parameters; amplitudes as shares of their upper end.
+struct Point {
+  Vector input, amplitudes;
+};
+
+Point point_of(const Vector &scaled_base, const Effect &effect, const Vector &values) {
+  Point p;
+  const auto n = scaled_base.size();
+  p.input.resize(n + values.size());
+  p.input.head(n) = scaled_base;
+  Eigen::Index amplitudes = 0;
+  for (const Parameter &q : effect.parameters)
+    amplitudes += q.amplitude;
+  p.amplitudes.resize(amplitudes);
+  amplitudes = 0;
+  for (Eigen::Index j = 0; j < values.size(); ++j) {
+    const Parameter &q = effect.parameters[std::size_t(j)];
+    p.input[n + j] = q.prior.scaled(values[j]);
+    if (q.amplitude)
+      p.amplitudes[amplitudes++] = values[j] / q.prior.upper();
+  }
+  return p;
+}
+
+Training effect_training(const Bank &bank, const Effect &effect,
+                         const std::vector<std::pair<int, int>> &pairs,
+                         const std::vector<int> &packing) {
+  Training t;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const Run &on = bank.runs[pairs[k].second];
+    const Point p = point_of(scaled_base(bank, on), effect, on.amplitudes);
+    if (k == 0) {
+      t.inputs.resize(p.input.size(), Eigen::Index(pairs.size()));
+      t.amplitudes.resize(p.amplitudes.size(), Eigen::Index(pairs.size()));
+    }
+    t.inputs.col(Eigen::Index(k)) = p.input;
+    t.amplitudes.col(Eigen::Index(k)) = p.amplitudes;
+    t.packing.push_back(packing[pairs[k].second]);
+  }
+  return t;
+}
+
+} // namespace
+
+std::vector<int> base_runs(const Bank &bank) {
+  std::vector<int> places;
+  for (int i = 0; i < int(bank.runs.size()); ++i)
+    if (bank.runs[i].effect.empty())
+      places.push_back(i);
+  return places;
+}
+
+Vector scaled_base(const Bank &bank, const Run &run) {
+  Vector scaled(run.base.size());
+  for (Eigen::Index j = 0; j < scaled.size(); ++j)
+    scaled[j] = bank.base[std::size_t(j)].prior.scaled(run.base[j]);
+  return scaled;
+}
+
+Emulators::Emulators(const Bank &bank, const Matrix &features)
+    : parameters_(bank.base), table_(bank.effects) {
+  std::map<std::string, int> number;
+  std::vector<int> packing;
+  for (const Run &r : bank.runs)
+    packing.push_back(number.emplace(r.packing, int(number.size())).first->second);
+  const auto base = base_runs(bank);
+  Training t;
+  t.inputs.resize(Eigen::Index(bank.base.size()), Eigen::Index(base.size()));
+  t.amplitudes.resize(0, Eigen::Index(base.size()));
+  for (std::size_t k = 0; k < base.size(); ++k) {
+    t.inputs.col(Eigen::Index(k)) = scaled_base(bank, bank.runs[base[k]]);
+    t.packing.push_back(packing[base[k]]);
+  }
+  packing_ = t.packing;
+  for (Eigen::Index f = 0; f < features.rows(); ++f) {
+    t.values = features.row(f)(base);
+    base_.emplace_back(t);
+  }
+  for (const Effect &effect : bank.effects) {
+    const auto pairs = pairs_of(bank, effect.name);
+    Training difference = effect_training(bank, effect, pairs, packing);
+    difference.values.resize(Eigen::Index(pairs.size()));
+    effects_.emplace_back();
+    for (Eigen::Index f = 0; f < features.rows(); ++f) {
+      for (std::size_t k = 0; k < pairs.size(); ++k)
+        difference.values[Eigen::Index(k)] =
+            features(f, pairs[k].second) - features(f, pairs[k].first);
+      effects_.back().emplace_back(difference);
+    }
+  }
+}
+
+void Emulators::predict(const Vector &base_scores, const std::vector<Applied> &on, double share,
+                        int first, Prediction &out) const {
+  Vector base(base_scores.size());
+  for (Eigen::Index j = 0; j < base.size(); ++j) {
+    const Prior &p = parameters_[std::size_t(j)].prior;
+    base[j] = p.scaled(p.value(base_scores[j]));
+  }
+  for (std::size_t f = 0; f < base_.size(); ++f) {
+    const Mean m = base_[f].at(base, Vector());
+    out.mean[first + Eigen::Index(f)] += m.mean;
+    out.variance[first + Eigen::Index(f)] += m.variance;
+  }
+  for (const Applied &a : on) {
+    const Effect &effect = table_[std::size_t(a.effect)];
+    Vector values(a.scores.size());
+    for (Eigen::Index j = 0; j < values.size(); ++j)
+      values[j] = effect.parameters[std::size_t(j)].prior.value(a.scores[j]);
+    const Point p = point_of(base, effect, values);
+    for (std::size_t f = 0; f < base_.size(); ++f) {
+      const GaussianProcess &g = effects_[std::size_t(a.effect)][f];
+      const Mean m = g.at(p.input, p.amplitudes);
+      out.mean[first + Eigen::Index(f)] += m.mean;
+      out.variance[first + Eigen::Index(f)] +=
+          m.variance + share * g.packing_variance() * p.amplitudes.squaredNorm();
+    }
+  }
+}
+
+} // namespace calendem::inference

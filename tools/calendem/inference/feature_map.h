@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Curves as a few numbers that emulators can learn, and one number for what those leave out.
+#ifndef CALENDEM_INFERENCE_FEATURE_MAP_H
+#define CALENDEM_INFERENCE_FEATURE_MAP_H
+
+#include "inference/observable.h"
+
+namespace calendem::inference {
+
+struct Feature {
+  int block = 0;        ///< of `blocks()`
+  bool emulated = true; ///< false: the truncation residual, the same under every known hypothesis
+};
+
+/// Each block is divided by `sd`, and its runs decomposed by singular values (Higdon et al., J. Am.
+/// Stat. Assoc. 103 (2008) 570). Kept are the first vectors, until what is left of a run is on
+/// average below a tenth of one squared standard deviation, or `kMost`. What a measured curve has
+/// outside their span becomes one feature: its squared length q in the covariance of measurement
+/// and bank there, k degrees of freedom, as ((q/k)^(1/3) - 1 + 2/(9k)) / sqrt(2/(9k)): about
+/// standard normal (Wilson and Hilferty, PNAS 17 (1931) 684).
+class FeatureMap {
+public:
+  static constexpr int kMost = 6;
+
+  /// `simulated`: observables x runs, all runs of the bank. `sd` > 0 in the observables' units.
+  FeatureMap(const std::vector<Observable> &observables, const Matrix &simulated, const Vector &sd,
+             const Matrix &measurement);
+
+  const std::vector<Block> &blocks() const { return blocks_; }
+  /// The emulated ones first, by blocks; then the truncation residuals.
+  const std::vector<Feature> &features() const { return features_; }
+  int emulated() const { return int(linear_.rows()); }
+  int size() const { return int(features_.size()); }
+
+  /// Emulated features of simulated values; columns are runs.
+  Matrix emulated_of(const Matrix &simulated) const;
+  /// All features of measured values.
+  Vector features_of(const Vector &measured) const;
+  /// Covariance of all features from that of the observables; 1 for a truncation residual.
+  Matrix covariance(const Matrix &of_observables) const;
+  /// The same for a discrepancy of the model: a truncation residual gets the square of what it is
+  /// expected to grow to, or 1: an unknown effect need not be smooth.
+  Matrix discrepancy(const Matrix &of_observables) const;
+  /// Observables that have these emulated features.
+  Vector observables_of(const Vector &emulated) const;
+
+private:
+  struct Truncation {
+    int block;
+    Matrix across; ///< k x members: the vectors left out, divided by sd
+    Cholesky covariance;
+  };
+  std::vector<Block> blocks_;
+  std::vector<Feature> features_;
+  std::vector<Truncation> truncations_;
+  Vector mean_, sd_;
+  Matrix linear_; ///< emulated features = linear_ (values - mean_)
+  Matrix back_;   ///< values = mean_ + back_ emulated features
+
+  void add_block(int block, const Matrix &scaled, const Matrix &measurement,
+                 std::vector<Matrix> &kept);
+};
+
+/// Wilson and Hilferty's normal score of a chi-squared variable.
+double normal_score(double chi2, int degrees_of_freedom);
+
+} // namespace calendem::inference
+
+#endif

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "inference/prior.h"
+#include "spec/messages.h"
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace calendem::inference {
+namespace {
+
+const boost::math::normal kNormal;
+constexpr double kOutermost = 1e-12; // probability beyond which a bounded parameter is its bound
+
+} // namespace
+
+double Prior::value(double score) const {
+  if (kind == normal)
+    return a + b * score;
+  const double share = 0.5 * std::erfc(-score / std::sqrt(2.0));
+  return kind == uniform ? a + (b - a) * share : a * std::pow(b / a, share);
+}
+
+double Prior::score(double value) const {
+  if (kind == normal)
+    return (value - a) / b;
+  const double share = 0.5 * (scaled(value) + 1.0);
+  return quantile(kNormal, std::clamp(share, kOutermost, 1.0 - kOutermost));
+}
+
+double Prior::scaled(double value) const {
+  if (kind == normal)
+    return (value - a) / (2.0 * b);
+  const double share =
+      kind == uniform ? (value - a) / (b - a) : std::log(value / a) / std::log(b / a);
+  return 2.0 * share - 1.0;
+}
+
+double Prior::upper() const { return kind == normal ? a + 2.0 * b : b; }
+
+void check(const Parameter &p) {
+  const bool spread = p.prior.kind == Prior::normal ? p.prior.b > 0.0 : p.prior.b > p.prior.a;
+  if (!std::isfinite(p.prior.a) || !std::isfinite(p.prior.b) || !spread ||
+      (p.prior.kind == Prior::log_uniform && p.prior.a <= 0.0))
+    throw Failure(
+        kBadInput,
+        fmt::format("{}: prior ({:g}, {:g}); a normal one needs a standard deviation above "
+                    "0, a uniform one an upper bound above the lower, a log-uniform one "
+                    "bounds above 0",
+                    p.name, p.prior.a, p.prior.b));
+  if (p.amplitude && !(p.prior.upper() > 0.0))
+    throw Failure(kBadInput, fmt::format("{}: an amplitude that reaches {:g}; it must go above 0",
+                                         p.name, p.prior.upper()));
+}
+
+} // namespace calendem::inference

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "inference/problem.h"
+
+namespace calendem::inference {
+namespace {
+
+constexpr double kStep = 0.05; // of sensitivities, in standard deviations of the prior
+
+} // namespace
+
+Linearised linearise(const Problem &problem, const Vector &base) {
+  Linearised l;
+  l.at = base;
+  const Prediction here = problem.predict(base, {});
+  l.mean = here.mean;
+  l.covariance = problem.measurement + problem.scatter;
+  l.covariance.diagonal() += here.variance;
+  l.sensitivity.resize(here.mean.size(), base.size());
+  Vector moved = base;
+  for (Eigen::Index j = 0; j < base.size(); ++j) {
+    moved[j] = base[j] + kStep;
+    const Vector above = problem.predict(moved, {}).mean;
+    moved[j] = base[j] - kStep;
+    l.sensitivity.col(j) = (above - problem.predict(moved, {}).mean) / (2.0 * kStep);
+    moved[j] = base[j];
+  }
+  return l;
+}
+
+Matrix beyond_recalibration(const Linearised &base, const Matrix &discrepancy) {
+  if (base.sensitivity.cols() == 0)
+    return discrepancy;
+  const Matrix weighted = Cholesky(base.covariance).solve(base.sensitivity);
+  Matrix normal = base.sensitivity.transpose() * weighted;
+  normal.diagonal().array() += 1e-10 * (1.0 + normal.trace());
+  const Matrix onto = base.sensitivity * Cholesky(normal).solve(weighted.transpose());
+  const Matrix off = Matrix::Identity(onto.rows(), onto.cols()) - onto;
+  return off * discrepancy * off.transpose();
+}
+
+Matrix recalibrated_covariance(const Linearised &base) {
+  return base.covariance + base.sensitivity * base.sensitivity.transpose();
+}
+
+} // namespace calendem::inference

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// All that inference needs to know, whatever made it: emulators, or a formula in a test.
+#ifndef CALENDEM_INFERENCE_PROBLEM_H
+#define CALENDEM_INFERENCE_PROBLEM_H
+
+#include "inference/bank.h"
+#include "inference/feature_map.h"
+#include <functional>
+
+namespace calendem::inference {
+
+/// An effect that is on, with the scores of its parameters.
+struct Applied {
+  int effect = 0;
+  Vector scores;
+};
+
+/// Of all features.
+struct Prediction {
+  Vector mean;
+  Vector variance; ///< of the emulators, and of the scatter the effects add
+};
+
+struct Problem {
+  Vector observed; ///< features
+  std::vector<Feature> features;
+  std::vector<Block> blocks;
+  Matrix measurement;              ///< covariance that is known
+  Matrix scatter;                  ///< of the packings, estimated
+  double degrees_of_freedom = 1e6; ///< of the t distribution of observed - predicted
+  int base_parameters = 0;         ///< number of scores of the base model
+  std::vector<Effect> effects;     ///< measurement faults too
+  Matrix discrepancy;              ///< covariance of the unknown, of one standard deviation
+  std::function<Prediction(const Vector &base, const std::vector<Applied> &)> predict;
+};
+
+/// The base model about a point: mean + sensitivity (scores - at).
+struct Linearised {
+  Vector at, mean;
+  Matrix sensitivity; ///< features x base parameters
+  Matrix covariance;  ///< of observed - predicted, at this point
+};
+Linearised linearise(const Problem &problem, const Vector &base);
+
+/// What of a covariance the base parameters cannot take up: P K P^T, P the projection off their
+/// sensitivities in the metric of the inverse covariance.
+Matrix beyond_recalibration(const Linearised &base, const Matrix &discrepancy);
+
+/// Covariance of observed - mean before anything is known of the base parameters: covariance +
+/// sensitivity sensitivity^T. In its inverse's metric recalibration within the priors is free.
+Matrix recalibrated_covariance(const Linearised &base);
+
+} // namespace calendem::inference
+
+#endif

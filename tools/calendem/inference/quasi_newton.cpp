@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "inference/quasi_newton.h"
+#include <algorithm>
+#include <cmath>
+
+namespace calendem::inference {
+namespace {
+
+constexpr double kGain = 1e-9;   // smaller ones end the search
+constexpr double kArmijo = 1e-4; // of the promised descent that a step must keep
+constexpr double kLongest = 2.0; // step, in any one variable: they are logarithms or scores
+constexpr int kHalvings = 30;    // of a step
+constexpr double kDifference = 1e-4;
+
+/// Shortens `step` until the value falls enough; false: it does not.
+bool descend(const WithGradient &function, const Vector &step, double slope, Minimum &best,
+             Vector &gradient) {
+  double length = 1.0;
+  for (int k = 0; k < kHalvings; ++k, length *= 0.5) {
+    Vector there_gradient(step.size());
+    const Vector there = best.at + length * step;
+    const double value = function(there, there_gradient);
+    if (std::isfinite(value) && there_gradient.allFinite() &&
+        value <= best.value + kArmijo * length * slope) {
+      best = {there, value};
+      gradient = there_gradient;
+      return true;
+    }
+  }
+  return false;
+}
+
+} // namespace
+
+Minimum minimise(const WithGradient &function, const Vector &start, int most) {
+  const auto n = start.size();
+  Vector gradient(n);
+  Minimum best{start, function(start, gradient)};
+  Matrix inverse = Matrix::Identity(n, n);
+  bool fresh = true; // no curvature seen yet
+  for (int k = 0; k < most && n > 0; ++k) {
+    Vector step = -inverse * gradient;
+    if (step.dot(gradient) >= 0.0) {
+      inverse.setIdentity();
+      step = -gradient;
+    }
+    step *= std::min(1.0, kLongest / std::max(step.cwiseAbs().maxCoeff(), 1e-300));
+    const Minimum before = best;
+    const Vector old_gradient = gradient;
+    if (!descend(function, step, step.dot(gradient), best, gradient)) {
+      if (fresh)
+        break;
+      inverse.setIdentity();
+      fresh = true;
+      continue;
+    }
+    const Vector s = best.at - before.at, y = gradient - old_gradient;
+    const double sy = s.dot(y);
+    if (sy > 1e-12 * s.norm() * y.norm()) {
+      if (fresh)
+        inverse *= sy / y.squaredNorm();
+      fresh = false;
+      const Matrix left = Matrix::Identity(n, n) - s * y.transpose() / sy;
+      inverse = left * inverse * left.transpose() + s * s.transpose() / sy;
+    }
+    if (before.value - best.value < kGain)
+      break;
+  }
+  return best;
+}
+
+WithGradient with_differences(const std::function<double(const Vector &)> &function) {
+  return [function](const Vector &x, Vector &gradient) {
+    Vector at = x;
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      at[i] = x[i] + kDifference;
+      const double above = function(at);
+      at[i] = x[i] - kDifference;
+      gradient[i] = (above - function(at)) / (2.0 * kDifference);
+      at[i] = x[i];
+    }
+    return function(x);
+  };
+}
+
+Matrix hessian(const std::function<double(const Vector &)> &function, const Vector &at,
+               double step) {
+  const auto n = at.size();
+  Matrix second(n, n);
+  const double middle = function(at);
+  const auto shifted = [&](Eigen::Index i, double a, Eigen::Index j, double b) {
+    Vector x = at;
+    x[i] += a;
+    x[j] += b;
+    return function(x);
+  };
+  for (Eigen::Index i = 0; i < n; ++i) {
+    second(i, i) =
+        (shifted(i, step, i, 0.0) - 2.0 * middle + shifted(i, -step, i, 0.0)) / (step * step);
+    for (Eigen::Index j = 0; j < i; ++j)
+      second(i, j) = second(j, i) = (shifted(i, step, j, step) - shifted(i, step, j, -step) -
+                                     shifted(i, -step, j, step) + shifted(i, -step, j, -step)) /
+                                    (4.0 * step * step);
+  }
+  return second;
+}
+
+} // namespace calendem::inference

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "inference/which.h"
+#include "inference/chances.h"
+#include "inference/quasi_newton.h"
+#include "spec/messages.h"
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace calendem::inference {
+namespace {
+
+Judged judge(const Problem &problem, const Hypothesis &hypothesis, const Matrix &unknown,
+             const WhichSettings &settings) {
+  Judged j;
+  j.hypothesis = hypothesis;
+  const Likelihood likelihood(problem, hypothesis, unknown);
+  j.evidence = evidence(
+      likelihood.dimension(), [&](const Vector &s) { return likelihood.log(s); },
+      settings.evidence);
+  if (hypothesis.kind == Hypothesis::none || hypothesis.kind == Hypothesis::effects) {
+    const auto square = [&](const Vector &s) { return likelihood.square(s) + s.squaredNorm(); };
+    const Minimum least = minimise(with_differences(square), j.evidence.mode);
+    j.adequacy_p =
+        chance_beyond(least.value, int(problem.observed.size()), problem.degrees_of_freedom);
+  }
+  return j;
+}
+
+/// A place where the unknown may sit, and its covariance there.
+struct Place {
+  std::string name;
+  double share = 1.0;
+  Matrix unknown;
+};
+
+std::vector<Place> places_of(const Problem &problem, const Linearised &base) {
+  std::vector<Place> places{{"everywhere", 1.0, beyond_recalibration(base, problem.discrepancy)}};
+  const auto add = [&](const std::string &name, const auto &contains) {
+    Vector mask(problem.observed.size());
+    for (Eigen::Index f = 0; f < mask.size(); ++f)
+      mask[f] = contains(problem.blocks[problem.features[f].block]) ? 1.0 : 0.0;
+    const bool everywhere = mask.minCoeff() > 0.0;
+    bool known = everywhere;
+    for (const Place &p : places)
+      known |= p.name == name;
+    if (!known)
+      places.push_back({name, 1.0,
+                        beyond_recalibration(base, mask.asDiagonal() * problem.discrepancy *
+                                                       mask.asDiagonal())});
+  };
+  for (const Block &b : problem.blocks)
+    add(b.stage, [&](const Block &o) { return o.stage == b.stage; });
+  for (const Block &b : problem.blocks)
+    add(b.name + ", " + b.stage + ", " + b.condition, [&](const Block &o) { return &o == &b; });
+  for (Eigen::Index f = 0; f < problem.observed.size(); ++f)
+    if (!problem.features[f].emulated) {
+      const Block &b = problem.blocks[problem.features[f].block];
+      places.push_back({b.name + ", " + b.stage + ", " + b.condition + ", unlike any run", 1.0,
+                        Matrix::Zero(problem.observed.size(), problem.observed.size())});
+      places.back().unknown(f, f) = 1.0;
+    }
+  const double others = double(places.size()) - 1.0;
+  for (std::size_t k = 0; k < places.size() && others > 0.0; ++k)
+    places[k].share = k == 0 ? 0.5 : 0.5 / others;
+  return places;
+}
+
+/// The unknown with its evidence averaged over places; parameters are those of the best place.
+Judged judge_unknown(const Problem &problem, const WhichSettings &settings, Which &w) {
+  Judged best;
+  double sum = 0.0, top = -INFINITY;
+  std::vector<std::pair<double, double>> terms; // share, log evidence
+  for (const Place &place : places_of(problem, w.base)) {
+    Judged here =
+        judge(problem, {Hypothesis::unknown, {}, "unknown", 0.0}, place.unknown, settings);
+    here.place = place.name;
+    terms.emplace_back(place.share, here.evidence.log_evidence);
+    const double mass = std::log(place.share) + here.evidence.log_evidence;
+    if (!(mass > top))
+      continue;
+    top = mass;
+    best = std::move(here);
+    w.unknown = place.unknown;
+  }
+  for (const auto &[share, log_evidence] : terms)
+    sum += std::exp(std::log(share) + log_evidence - top);
+  const double shift = top + std::log(sum) - best.evidence.log_evidence;
+  best.evidence.log_evidence += shift;
+  best.evidence.laplace += shift;
+  return best;
+}
+
+std::string joined(const Problem &problem, const std::vector<int> &on) {
+  std::string name = problem.effects[on[0]].name;
+  for (std::size_t k = 1; k < on.size(); ++k)
+    name += " + " + problem.effects[on[k]].name;
+  return name;
+}
+
+/// The best single effects joined with every other, if one of them beats the base model.
+std::vector<Hypothesis> greedy_pairs(const Problem &problem, const Which &so_far, int seeds) {
+  std::vector<std::pair<double, int>> singles;
+  for (const Judged &j : so_far.judged)
+    if (j.hypothesis.kind == Hypothesis::effects)
+      singles.emplace_back(-j.evidence.log_evidence, j.hypothesis.on[0]);
+  std::sort(singles.begin(), singles.end());
+  std::vector<Hypothesis> pairs;
+  if (singles.empty() || -singles[0].first < so_far.of("none").evidence.log_evidence)
+    return pairs;
+  for (int s = 0; s < std::min(seeds, int(singles.size())); ++s)
+    for (int o = s + 1; o < int(singles.size()); ++o) {
+      std::vector<int> on{singles[s].second, singles[o].second};
+      std::sort(on.begin(), on.end());
+      pairs.push_back({Hypothesis::effects, on, joined(problem, on), 0.0});
+    }
+  return pairs;
+}
+
+} // namespace
+
+const Judged &Which::of(const std::string &name) const {
+  for (const Judged &j : judged)
+    if (j.hypothesis.name == name)
+      return j;
+  throw Failure(kBadInput, fmt::format("no hypothesis '{}' was computed", name));
+}
+
+Which which(const Problem &problem, const WhichSettings &settings) {
+  Which w;
+  const Matrix nothing;
+  w.judged.push_back(judge(problem, {Hypothesis::none, {}, "none", 0.0}, nothing, settings));
+  w.base = linearise(problem, w.judged[0].evidence.mode);
+  w.judged.push_back(judge_unknown(problem, settings, w));
+  if (settings.noise)
+    w.judged.push_back(judge(problem, {Hypothesis::noise, {}, "noise", 0.0}, nothing, settings));
+  for (int e = 0; e < int(problem.effects.size()); ++e)
+    w.judged.push_back(judge(problem, {Hypothesis::effects, {e}, problem.effects[e].name, 0.0},
+                             nothing, settings));
+  for (const Hypothesis &pair : greedy_pairs(problem, w, settings.pair_seeds))
+    w.judged.push_back(judge(problem, pair, nothing, settings));
+  decide(w, settings, int(problem.effects.size()));
+  return w;
+}
+
+} // namespace calendem::inference

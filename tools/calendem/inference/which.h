@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Which hypothesis explains the gap, and whether that may be claimed.
+#ifndef CALENDEM_INFERENCE_WHICH_H
+#define CALENDEM_INFERENCE_WHICH_H
+
+#include "inference/evidence.h"
+#include "inference/hypothesis.h"
+#include <map>
+
+namespace calendem::inference {
+
+/// Prior probabilities. What none and unknown leave is shared: pairs get `pair_share` of it in
+/// equal parts for all pairs there are, computed or not; single ones the rest by weight.
+struct Priors {
+  double none = 0.4, unknown = 0.1, pair_share = 0.1;
+  std::map<std::string, double> weight; ///< of single effects and noise; 1 where not named
+};
+
+struct WhichSettings {
+  Priors priors;
+  bool noise = true;              ///< "noise" (understated errors) is a hypothesis
+  int pair_seeds = 2;             ///< best single effects that are joined with all others
+  double claim_probability = 0.8; ///< a name is claimed from here on
+  double adequacy = 0.01;         ///< and only with at least this p
+  std::vector<std::string> poor;  ///< effects whose emulators are too poor to be claimed
+  EvidenceSettings evidence;
+};
+
+struct Judged {
+  Hypothesis hypothesis;
+  Evidence evidence;
+  double adequacy_p = 1.0; ///< of its best fit; 1 for unknown and noise, which fit anything
+  double probability = 0.0;
+  std::string place; ///< of unknown: the most probable of its places
+};
+
+/// The claim, had the priors been others.
+struct Sensitivity {
+  std::string change, claim;
+  double probability = 0.0; ///< of the most probable
+};
+
+struct Which {
+  std::string claim;              ///< an effect, a pair "a + b", none, noise, unknown or undecided
+  std::string why;                ///< one sentence
+  double adequacy_p = 0.0;        ///< of the best hypothesis that makes a prediction
+  std::vector<Judged> judged;     ///< most probable first
+  std::vector<std::string> set95; ///< most probable first, until 95 %
+  std::map<std::string, double> inclusion; ///< of each effect: alone or in a pair
+  std::vector<Sensitivity> sensitivity;
+  Linearised base; ///< about the recalibrated base model
+  /// Covariance of the discrepancy of one standard deviation at its most probable place.
+  Matrix unknown;
+
+  const Judged &of(const std::string &name) const;
+};
+
+/// Adequacy: the least of (observed - predicted)^2 / covariance + scores^2 over all scores is
+/// chi-squared with as many degrees of freedom as features in the linear-Gaussian case, n F(n, nu)
+/// with an estimated covariance; p is the chance of more. Nothing is lost to recalibration because
+/// the priors count as data. Claim: see `why`; if no prediction is adequate the claim is unknown.
+/// The unknown may sit everywhere (half its prior), or in one stage, one block or one truncation
+/// residual (the other half in equal parts); its evidence is the mean over these places.
+Which which(const Problem &problem, const WhichSettings &settings);
+
+/// The rule alone, on hypotheses that have evidence and adequacy: sets probabilities and sorts.
+/// `effects`: how many single effects there are.
+void decide(Which &which, const WhichSettings &settings, int effects);
+
+} // namespace calendem::inference
+
+#endif
