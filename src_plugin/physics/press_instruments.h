@@ -6,7 +6,7 @@
 // Signs: displacement grows downwards, P > 0 in compression. Range: factor > 0, C >= 0, any zero.
 // factor 1, C 0, zero 0 show the truth exactly. A machine that is told where to stop stops by what
 // it shows. Energy: the frame's is elastic, C A P^2 / 2, and outside the film's ledger. Source:
-// linear machine compliance, as in indentation (Oliver & Pharr 1992, eq. 1). Deviations: the
+// linear machine compliance, as in indentation (Oliver & Pharr 1992). Deviations: the
 // frame's stretch does not change the platen's speed (a quasi-static run does not see it), and does
 // not grow in a dwell. Verified by tests/unit/physics/press_instruments_test.cpp and
 // tests/verification/platen.
@@ -26,8 +26,6 @@ struct PressInstruments {
     return displacement + compliance * pressure;
   }
   double thickness_shown(double thickness) const { return thickness + thickness_zero; }
-  /// Pressure on the film when the gauge shows `shown`.
-  double pressure_at(double shown) const { return shown / pressure_factor; }
 };
 
 } // namespace calendem

@@ -18,7 +18,6 @@ TEST(PressInstruments, ThatAreRightShowTheTruth) {
 TEST(PressInstruments, ShowFactorStretchAndZero) {
   const PressInstruments press = {1.2, 0.02, -1.5};
   EXPECT_DOUBLE_EQ(press.pressure_shown(100.0), 120.0);
-  EXPECT_DOUBLE_EQ(press.pressure_at(120.0), 100.0);
   EXPECT_DOUBLE_EQ(press.displacement_shown(10.0, 100.0), 12.0);
   EXPECT_DOUBLE_EQ(press.thickness_shown(50.0), 48.5);
 }

@@ -58,7 +58,7 @@ std::vector<BankPoint> bank_points(const BankSpec &spec) {
     const Effect &effect = find_effect(spec.effects[e]);
     const auto amplitudes = inference::sobol_points(1, spec.effect_points, spec.seed + 1 + e);
     for (int k = 0; k < spec.effect_points && !effect.instrument; ++k) {
-      BankPoint p = out[std::size_t(k) * spec.base_points / spec.effect_points];
+      BankPoint p = out[std::size_t(k)];
       p.effect = effect.name;
       p.value = between(effect.parameter.low, effect.parameter.high, effect.parameter.spread,
                         amplitudes(0, k));

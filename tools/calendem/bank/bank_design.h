@@ -18,7 +18,8 @@ struct BankPoint {
 };
 
 /// Base points first: a Sobol sequence over the priors, packings in turn. Then the points of each
-/// effect that needs runs of its own, spread over its prior, beside evenly spaced base points.
+/// effect that needs runs of its own, spread over its prior, beside the first base points: these
+/// fill the priors evenly too, and stand on all packings.
 std::vector<BankPoint> bank_points(const BankSpec &spec);
 
 /// The runs of all points: for each point one per pressure, in their order. Throws Failure(2) where

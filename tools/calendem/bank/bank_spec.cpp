@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "bank/bank_spec.h"
-#include "spec/key.h"
-#include "spec/toml_file.h"
+#include "spec/table_reader.h"
 #include <algorithm>
-#include <filesystem>
 #include <fmt/format.h>
 #include <set>
 
 namespace calendem {
-namespace fs = std::filesystem;
 namespace {
 
 const std::vector<Key> &head_keys() {
@@ -19,18 +16,18 @@ const std::vector<Key> &head_keys() {
       {"packings", "", "12", 2, 1000, "", "seeds of the recipe", "", false, true},
       {"base_points", "", "48", 4, 10000, "", "without effects", "", false, true},
       {"effect_points", "", "24", 2, 10000, "", "of every effect", "", false, true},
-      {"seed", "", "1", 0, 4e9, "", "of the design", "", false, true}};
+      {"seed", "", "1", 0, 4e9, "", "of the design", "", false, true},
+      {"pressures_MPa", "", "", 0.1, 2000, "MPa", "a run for each at every point"}};
   return keys;
 }
 
-class Reader {
+class Reader : TableReader {
 public:
-  Reader(const std::string &file, Mistakes &mistakes)
-      : folder_(fs::absolute(file).parent_path()), mistakes_(mistakes) {}
+  using TableReader::TableReader;
 
   void read_head(const toml::table &t, BankSpec &out) {
-    stop_at_unknown(t, {"name", "recipe", "case", "packings", "base_points", "effect_points",
-                        "seed", "pressures_MPa", "effects"});
+    tell_unknown(t, {"name", "recipe", "case", "packings", "base_points", "effect_points", "seed",
+                     "pressures_MPa", "effects"});
     out.name = text(t, head_keys()[0]);
     out.recipe_file = path(t, head_keys()[1]);
     out.case_file = path(t, head_keys()[2]);
@@ -42,7 +39,8 @@ public:
       mistakes_.add(0, fmt::format("effect_points is {}, base_points {}: every point of an effect "
                                    "needs a base point of its own.",
                                    out.effect_points, out.base_points));
-    read_pressures(t, out);
+    out.pressures = numbers(t, head_keys()[7]);
+    std::sort(out.pressures.begin(), out.pressures.end());
     read_effects(t, out);
   }
 
@@ -53,14 +51,20 @@ public:
       mistakes_.add(line_of(node), "write a parameter as a table: [[parameter]].");
       return p;
     }
-    stop_at_unknown(*t, {"name", "keys", "low", "high", "prior"});
+    tell_unknown(*t, {"name", "keys", "low", "high", "prior"});
     p.name = text(*t, {"name", "", "", 0, 0, "", "of the parameter", "", true});
+    if (p.name.find_first_not_of(
+            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") != std::string::npos)
+      mistakes_.add(line_of(node), fmt::format("parameter '{}': a name has letters, digits and _ "
+                                               "only, it heads a column.",
+                                               p.name));
     p.low = number(*t, {"low", "", "", -1e300, 1e300, "", "end of the prior"});
     p.high = number(*t, {"high", "", "", -1e300, 1e300, "", "end of the prior"});
     const std::string prior =
         text(*t, {"prior", "", "uniform", 0, 0, "", "", "uniform|log-uniform"});
     p.spread = prior == "log-uniform" ? Spread::LogUniform : Spread::Uniform;
-    if (p.low >= p.high || (p.spread == Spread::LogUniform && p.low <= 0.0))
+    const bool both = t->contains("low") && t->contains("high");
+    if (both && (p.low >= p.high || (p.spread == Spread::LogUniform && p.low <= 0.0)))
       mistakes_.add(line_of(node),
                     fmt::format("parameter '{}' goes from {} to {}; low must be below "
                                 "high, and above 0 for a log-uniform prior.",
@@ -73,78 +77,6 @@ public:
   }
 
 private:
-  fs::path folder_;
-  Mistakes &mistakes_;
-
-  void stop_at_unknown(const toml::table &t, const std::vector<std::string> &known) {
-    for (const auto &[key, node] : t)
-      if (std::find(known.begin(), known.end(), key.str()) == known.end())
-        mistakes_.add(line_of(node), fmt::format("unknown key '{}'. Did you mean '{}'?", key.str(),
-                                                 closest(std::string(key.str()), known)));
-  }
-
-  std::string text(const toml::table &t, const Key &key) {
-    const toml::node *node = t.get(key.name);
-    if (!node) {
-      if (key.fallback.empty())
-        mistakes_.add(0, fmt::format("key '{}' is missing ({}).", key.name, key.meaning));
-      return key.fallback;
-    }
-    if (!node->is_string())
-      mistakes_.add(line_of(*node),
-                    fmt::format("{} must be a text in quotes, not {}.", key.name, shown(*node)));
-    else if (const auto wrong = wrong_text(key, **node->as_string()))
-      mistakes_.add(line_of(*node), *wrong);
-    else
-      return **node->as_string();
-    return key.fallback;
-  }
-
-  double number(const toml::table &t, const Key &key) {
-    const toml::node *node = t.get(key.name);
-    if (!node) {
-      if (key.fallback.empty())
-        mistakes_.add(0, fmt::format("key '{}' is missing ({}).", key.name, key.meaning));
-      return key.fallback.empty() ? 0.0 : std::stod(key.fallback);
-    }
-    if (!node->is_number())
-      mistakes_.add(line_of(*node),
-                    fmt::format("{} must be a number, not {}.", key.name, shown(*node)));
-    else if (const auto wrong = wrong_number(key, *node->value<double>()))
-      mistakes_.add(line_of(*node), *wrong);
-    else
-      return *node->value<double>();
-    return 0.0;
-  }
-
-  std::string path(const toml::table &t, const Key &key) {
-    const std::string given = text(t, key);
-    return given.empty() ? "" : (folder_ / given).lexically_normal().string();
-  }
-
-  std::vector<std::string> texts(const toml::table &t, const char *key) {
-    std::vector<std::string> out;
-    if (const toml::array *list = t[key].as_array())
-      for (const toml::node &n : *list)
-        if (n.is_string())
-          out.push_back(**n.as_string());
-    return out;
-  }
-
-  void read_pressures(const toml::table &t, BankSpec &out) {
-    static const Key key = {"pressures_MPa", "", "", 0.1, 2000, "MPa", "maximum of a run"};
-    if (const toml::array *list = t["pressures_MPa"].as_array())
-      for (const toml::node &n : *list)
-        if (const auto wrong = n.is_number() ? wrong_number(key, *n.value<double>())
-                                             : std::optional(shown(n) + " is no number."))
-          mistakes_.add(line_of(n), *wrong);
-        else
-          out.pressures.push_back(*n.value<double>());
-    std::sort(out.pressures.begin(), out.pressures.end());
-    if (out.pressures.empty())
-      mistakes_.add(0, "[bank] needs a list pressures_MPa.");
-  }
-
   void read_effects(const toml::table &t, BankSpec &out) {
     out.effects = texts(t, "effects");
     for (const std::string &name : out.effects)
@@ -166,7 +98,7 @@ BankSpec read_bank_spec(const std::string &file) {
   BankSpec out;
   out.file = file;
   const TomlFile parsed = parse_toml(file, mistakes);
-  Reader reader(file, mistakes);
+  Reader reader(file, parsed.whole, mistakes);
   for (const auto &[key, node] : parsed.root) {
     if (key.str() == "bank" && node.is_table())
       reader.read_head(*node.as_table(), out);

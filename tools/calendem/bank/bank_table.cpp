@@ -84,7 +84,9 @@ BankTable read_bank_table(const BankSpec &spec, const std::string &file) {
   Mistakes mistakes(file, 10);
   std::ifstream in(file, std::ios::binary);
   if (!in)
-    mistakes.add(0, "no such file. Make the bank with calendem bank.");
+    mistakes.add(0, fmt::format("no such file. Make it with calendem bank {} -o DIR; it is then "
+                                "DIR/bank.csv.",
+                                spec.file));
   const CsvTable t =
       CsvTable::parse({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
   std::vector<std::string> wanted = {"effect", "base_point", "packing", "value"};

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "bank/verb.h"
 #include "bank/bank_table.h"
+#include "spec/messages.h"
 #include "spec/provenance.h"
 #include "study/study.h"
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <fmt/format.h>
 
 namespace calendem {
@@ -14,21 +14,13 @@ namespace {
 BankTable table_of(const BankSpec &spec, const std::vector<BankPoint> &points, const Study &study,
                    const StudyOptions &o) {
   BankTable table = {spec, {}};
-  const std::vector<std::string> folders = run_folders(study, o);
-  const std::size_t pressures = spec.pressures.size();
-  std::size_t missing = 0;
+  const std::vector<std::string> folders = finished_runs(study, o);
   for (std::size_t k = 0; k < folders.size(); ++k)
-    if (std::filesystem::exists(folders[k] + "/curve.csv"))
-      try {
-        table.rows.push_back({points[k / pressures], read_simulated_run(folders[k])});
-      } catch (const Failure &) { // not finished
-        ++missing;
-      }
-    else
-      ++missing;
-  if (missing > 0)
-    fmt::print("bank: {} of {} runs are not there yet; the table holds the others\n", missing,
-               folders.size());
+    if (!folders[k].empty())
+      table.rows.push_back({points[k / spec.pressures.size()], read_simulated_run(folders[k])});
+  if (table.rows.size() < folders.size())
+    fmt::print("bank: {} of {} runs are not there yet; the table holds the others\n",
+               folders.size() - table.rows.size(), folders.size());
   return table;
 }
 
@@ -39,12 +31,15 @@ void make_bank(const std::string &file, StudyOptions o) {
   const auto write_table = [&] {
     const BankTable table = table_of(spec, points, study, o);
     write_file(o.folder + "/bank.csv", write_bank_table(table));
-    fmt::print("bank: {} rows, {}/bank.csv\n", table.rows.size(), o.folder);
+    fmt::print("bank: {0} rows, {1}/bank.csv\nNext: calendem diagnose EXPERIMENT.toml -o DIR "
+               "--bank {2} --table {1}/bank.csv\n",
+               table.rows.size(), o.folder, file);
   };
   try {
     make_study(study, o);
-  } catch (const Failure &) {
-    write_table();
+  } catch (const Failure &f) {
+    if (f.exit_status() != kBadInput) // else there is nothing yet
+      write_table();
     throw;
   }
   write_table();

@@ -13,22 +13,31 @@ using inference::Matrix;
 using inference::Vector;
 namespace {
 
-constexpr double kExact = 1e-3; // of the value: what an observable without sd is good for
+// Of the value: what an observable without sd counts as good to, so that no covariance is singular.
+constexpr double kExact = 1e-3;
 
 /// The runs of one point, by target.
 using PointRuns = std::vector<const BankRow *>;
 
-std::vector<PointRuns> points_of(const BankTable &table) {
+std::vector<PointRuns> points_of(const BankTable &table, std::vector<std::string> &not_said) {
   std::map<std::pair<std::string, int>, PointRuns> points;
   for (const BankRow &row : table.rows)
     points[{row.point.effect, row.point.base_point}].push_back(&row);
   std::vector<PointRuns> out;
+  const auto whole = [&](const std::string &effect, int base_point) {
+    const auto at = points.find({effect, base_point});
+    return at != points.end() && at->second.size() == table.spec.pressures.size();
+  };
   for (auto &[key, runs] : points) {
     std::sort(runs.begin(), runs.end(),
               [](const BankRow *a, const BankRow *b) { return a->run.target < b->run.target; });
-    if (runs.size() == table.spec.pressures.size())
+    if (whole(key.first, key.second) && whole("", key.second))
       out.push_back(runs);
   }
+  if (out.size() < points.size())
+    not_said.push_back(fmt::format("{} of the bank's {} points lack a run, or that of their base "
+                                   "point, and are left out.",
+                                   points.size() - out.size(), points.size()));
   return out;
 }
 
@@ -71,6 +80,14 @@ std::vector<Covered> covered_by(const Experiment &e, const BankSpec &spec,
                                      c.id, p, spec.pressures.front(), spec.pressures.back()));
       continue;
     }
+    if (c.dwell_s > 0.0)
+      not_said.push_back(fmt::format("{}: the bank's runs do not dwell; its {:g} s at the target "
+                                     "are left out.",
+                                     c.id, c.dwell_s));
+    if (!c.labels_before.empty() || !c.labels_after.empty())
+      not_said.push_back(fmt::format("{}: label images are not looked at here; calendem measure "
+                                     "measures them.",
+                                     c.id));
     out.push_back({&c, p, observables_of(e, c, not_said)});
   }
   return out;
@@ -131,8 +148,10 @@ Vector by_pressure(const std::vector<Covered> &all, const std::vector<PointRuns>
       int n = 0;
       for (const PointRuns &runs : points)
         if (runs.front()->point.effect.empty()) {
-          sum += o.slope(run_at(runs, c.pressure, [](const SimulatedRun &r) { return r; }));
-          ++n;
+          const double slope =
+              o.slope(run_at(runs, c.pressure, [](const SimulatedRun &r) { return r; }));
+          sum += std::isfinite(slope) ? slope : 0.0; // NaN: the run ends before that pressure
+          n += std::isfinite(slope);
         }
       out.push_back(n > 0 ? sum / n * c.condition->max_pressure_MPa->sd : 0.0);
     }
@@ -196,7 +215,7 @@ inference::Effect inference_effect(const Effect &effect) {
 ExperimentData data_of(const Experiment &experiment, const BankTable &table,
                        const std::vector<std::string> &conditions) {
   ExperimentData data;
-  const std::vector<PointRuns> points = points_of(table);
+  const std::vector<PointRuns> points = points_of(table, data.not_said);
   const std::vector<Covered> all = covered_by(experiment, table.spec, conditions, data.not_said);
   for (const BankParameter &p : table.spec.parameters)
     data.bank.base.push_back({p.name, prior_of(p.spread, p.low, p.high), false});

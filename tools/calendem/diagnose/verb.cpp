@@ -14,9 +14,9 @@ namespace calendem {
 namespace {
 
 struct Options {
-  std::string experiment, folder, bank;
+  std::string experiment, folder, bank, table;
   std::vector<std::string> without;
-  double cells = 1e6; // of the bank's size in a sample of 1 cm2
+  double cells = 0.0; // 0: from the sample's diameter
 };
 
 /// The table's spec without the effects that may not be named.
@@ -31,8 +31,7 @@ BankSpec spec_of(const Options &o) {
 }
 
 BankTable table_of(const Options &o) {
-  BankTable table =
-      read_bank_table(spec_of(o), std::filesystem::path(o.bank).replace_extension("csv").string());
+  BankTable table = read_bank_table(spec_of(o), o.table);
   const auto excluded = [&](const BankRow &row) {
     return std::find(o.without.begin(), o.without.end(), row.point.effect) != o.without.end();
   };
@@ -61,25 +60,33 @@ void print(const inference::Diagnosis &d, const std::vector<std::string> &not_sa
     fmt::print("- {}\n", text);
 }
 
-void run(const Options &o) {
+/// How many of the bank's cells the sample is as large as.
+double cells_of(const Experiment &e, const BankSpec &spec) {
+  if (!(e.sample_diameter_mm > 0.0))
+    throw Failure(kBadInput, "how large is the sample? Give sample_diameter_mm in the experiment "
+                             "file, or --cells, how many of the bank's cells it is as large as.");
+  return 1e8 * sample_area_cm2(e) / read_recipe(spec.recipe_file).area(); // um2 per cm2
+}
+
+void run(Options o) {
+  if (o.table.empty())
+    o.table = std::filesystem::path(o.bank).replace_extension("csv").string();
   const Experiment experiment = read_experiment(o.experiment);
   const BankTable table = table_of(o);
   const ExperimentData data = data_of(experiment, table, {});
   inference::Settings settings;
-  settings.model.packings_in_sample = o.cells;
+  settings.model.packings_in_sample = o.cells > 0.0 ? o.cells : cells_of(experiment, table.spec);
   const inference::Model model(data.bank, data.experiment, settings.model);
   const inference::Diagnosis d =
       inference::diagnose(model, data.bank, data.experiment.values, settings);
   nlohmann::ordered_json j = nlohmann::ordered_json::parse(inference::to_json(d));
   j["experiment"] = experiment.name;
   j["not_said"] = data.not_said;
-  j["provenance"] = {
-      {"calendem", version()},
-      {"hashes", "64-bit FNV-1a"},
-      {"experiment_file", hash_of_file(o.experiment)},
-      {"bank", hash_of_file(o.bank)},
-      {"bank_table",
-       hash_of_file(std::filesystem::path(o.bank).replace_extension("csv").string())}};
+  j["provenance"] = {{"calendem", version()},
+                     {"hashes", "64-bit FNV-1a"},
+                     {"experiment_file", hash_of_file(o.experiment)},
+                     {"bank", hash_of_file(o.bank)},
+                     {"bank_table", hash_of_file(o.table)}};
   make_output_folder(o.folder);
   write_file(o.folder + "/gap.json", j.dump(1) + "\n");
   print(d, data.not_said);
@@ -95,11 +102,13 @@ void add_diagnose_verb(CLI::App &app) {
       "diagnose", "Where simulation and experiment disagree, and which effect explains it");
   verb->add_option("EXPERIMENT", o->experiment, "experiment file (TOML)")->required();
   verb->add_option("-o,--output", o->folder, "folder for gap.json")->required();
-  verb->add_option("--bank", o->bank, "bank (TOML), its table of the same name (.csv) beside it");
+  verb->add_option("--bank", o->bank, "bank (TOML) that the table was made from");
+  verb->add_option("--table", o->table,
+                   "bank.csv as calendem bank wrote it; default: beside the bank, with its name");
   verb->add_option("--without", o->without, "effects that may not be named");
   verb->add_option("--cells", o->cells,
                    "how many of the bank's cells the sample is as large as (scatter between "
-                   "packings counts with its inverse)")
+                   "packings counts with its inverse); default: from sample_diameter_mm")
       ->check(CLI::Range(1.0, 1e12));
   verb->callback([o] { run(*o); });
 }

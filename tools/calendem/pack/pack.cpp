@@ -53,17 +53,6 @@ void densify(const PackOptions &o, const Recipe &r) {
     std::cout << "\r\033[K";
 }
 
-// Everything the result depends on.
-std::string identity_of(const Recipe &recipe, const std::string &liggghts) {
-  std::string text =
-      version() + hash_of_file(liggghts) + hash_of_file(input_scripts() + "/in.pack");
-  for (const auto &[key, value] : recipe.settings.all())
-    if ((recipe.shapes.given() || key.rfind("shapes.", 0) != 0) &&
-        (recipe.structure.given() || key.rfind("structure.", 0) != 0))
-      text += key + "=" + value + "\n";
-  return hash_of_text(text + hash_of_shapes(recipe) + hash_of_structure(recipe.structure));
-}
-
 void check_machine(const Recipe &r, const PackOptions &o) {
   Mistakes mistakes("pack");
   const int most = most_ranks(r.cell_x, r.cell_y, std::max(r.primary_diameter, r.cbd_diameter));
@@ -103,11 +92,24 @@ void check(const nlohmann::json &electrode, const Recipe &recipe, const std::str
 
 } // namespace
 
+std::string packing_tools(const std::string &liggghts) {
+  return version() + hash_of_file(liggghts) + hash_of_file(input_scripts() + "/in.pack");
+}
+
+std::string packing_identity(const Recipe &recipe, const std::string &tools) {
+  std::string text = tools;
+  for (const auto &[key, value] : recipe.settings.all())
+    if ((recipe.shapes.given() || key.rfind("shapes.", 0) != 0) &&
+        (recipe.structure.given() || key.rfind("structure.", 0) != 0))
+      text += key + "=" + value + "\n";
+  return hash_of_text(text + hash_of_shapes(recipe) + hash_of_structure(recipe.structure));
+}
+
 void pack_electrode(const Recipe &as_given, PackOptions o) {
   o.folder = fs::absolute(o.folder).lexically_normal().string(); // LIGGGHTS runs in that folder
   o.liggghts = fs::absolute(o.liggghts).lexically_normal().string();
   const std::string summary = o.folder + "/electrode.json",
-                    identity = identity_of(as_given, o.liggghts);
+                    identity = packing_identity(as_given, packing_tools(o.liggghts));
   if (made_of(summary, identity)) {
     fmt::print("pack: {} already holds this electrode\n", o.folder);
     return;

@@ -14,6 +14,11 @@ struct PackOptions {
   int ranks = 2;
 };
 
+/// Hash of everything that a packing depends on: recipe, its sources' files, packing_tools.
+std::string packing_identity(const Recipe &recipe, const std::string &tools);
+/// Program and script of it, as text.
+std::string packing_tools(const std::string &liggghts);
+
 /// Throws Failure: 2 bad recipe or folder, 3 the simulation failed, 4 the packing misses its
 /// targets.
 void pack_electrode(const Recipe &recipe, PackOptions options);

@@ -112,18 +112,6 @@ std::vector<std::pair<std::string, std::string>> script_settings(const Settings 
   return out;
 }
 
-std::string case_hash(const Settings &settings, const std::string &liggghts) {
-  std::string identity = version() + hash_of_file(liggghts) +
-                         hash_of_file(input_scripts() + "/in.compression") +
-                         hash_of_file(input_scripts() + "/in.relaxation") +
-                         hash_of_folder(input_scripts() + "/common") +
-                         hash_of_file(settings.text("electrode") + "/electrode.data");
-  for (const auto &[key, value] : settings.all())
-    if (key != "electrode")
-      identity += key + "=" + value + "\n";
-  return hash_of_text(identity);
-}
-
 /// A restart file and a frame; measured: 1.2 kB and 0.3 kB per atom.
 std::uintmax_t room_for_next_files(const ElectrodeFacts &e) { return 1000000 + 4000 * e.atoms; }
 
@@ -183,11 +171,27 @@ bool prepare(const Settings &settings, const ElectrodeFacts &electrode, const Ru
 
 } // namespace
 
+std::string run_tools(const std::string &liggghts) {
+  return version() + hash_of_file(liggghts) + hash_of_file(input_scripts() + "/in.compression") +
+         hash_of_file(input_scripts() + "/in.relaxation") +
+         hash_of_folder(input_scripts() + "/common");
+}
+
+std::string run_identity(const Settings &settings, const std::string &tools) {
+  std::string identity = tools;
+  for (const auto &[key, value] : settings.all())
+    if (key != "electrode")
+      identity += key + "=" + value + "\n";
+  return identity;
+}
+
 void run_case(const Settings &settings, RunOptions o) {
   o.liggghts = fs::absolute(o.liggghts).lexically_normal().string(); // it runs in the run's folder
   const ElectrodeFacts electrode = read_electrode(settings.text("electrode"));
   check_case(settings, electrode, o);
-  const std::string hash = case_hash(settings, o.liggghts);
+  const std::string hash =
+      hash_of_text(run_identity(settings, run_tools(o.liggghts)) +
+                   hash_of_file(settings.text("electrode") + "/electrode.data"));
   const std::string folder = fs::absolute(o.folder).lexically_normal().string();
   o.folder = folder;
   make_output_folder(folder, 2 * room_for_next_files(electrode));

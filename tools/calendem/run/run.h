@@ -18,6 +18,11 @@ struct RunOptions {
   bool force = false; ///< overwrite a run of another case or an unfinished one
 };
 
+/// All that a run depends on, but for its electrode's file: settings and run_tools; as text.
+std::string run_identity(const Settings &settings, const std::string &tools);
+/// Program and scripts of it, as text.
+std::string run_tools(const std::string &liggghts);
+
 /// What was computed is collected and kept however the run ends, marked in summary.json
 /// ("finished", "stopped_because", "failed_checks"). Throws Failure: 2 bad input, 3 the simulation
 /// failed, 4 a check did not hold.

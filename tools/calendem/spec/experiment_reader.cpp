@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "spec/experiment_checks.h"
 #include "spec/experiment_keys.h"
-#include "spec/toml_file.h"
+#include "spec/table_reader.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -12,16 +12,12 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Reads one file; every message goes to `mistakes`.
-class ExperimentReader {
+class ExperimentReader : TableReader {
 public:
-  ExperimentReader(const std::string &file, Mistakes &mistakes)
-      : folder_(fs::absolute(file).parent_path()), mistakes_(mistakes) {}
+  using TableReader::TableReader;
 
   Experiment read(const TomlFile &file) {
-    whole_ = file.whole;
-    for (const auto &[key, node] : file.root)
-      if (key.str() != "experiment" && key.str() != "condition")
-        unknown(std::string(key.str()), line_of(node), {"experiment", "condition"});
+    tell_unknown(file.root, {"experiment", "condition"});
     const toml::table *head = file.root["experiment"].as_table();
     if (head)
       read_head(*head);
@@ -39,55 +35,14 @@ public:
   }
 
 private:
-  fs::path folder_;
-  Mistakes &mistakes_;
   Experiment e_;
-  bool whole_ = true;
-
-  void unknown(const std::string &name, int line, const std::vector<std::string> &known) {
-    mistakes_.add(line,
-                  fmt::format("unknown key '{}'. Did you mean '{}'?", name, closest(name, known)));
-  }
-
-  std::string text(const toml::table &t, const Key &key) {
-    const toml::node *node = t.get(key.name);
-    if (!node) {
-      if (key.fallback.empty() && whole_)
-        mistakes_.add(line_of(t), fmt::format("key '{}' is missing ({}).", key.name, key.meaning));
-      return "";
-    }
-    if (!node->is_string())
-      mistakes_.add(line_of(*node), fmt::format("{} must be a text in quotes ({}), not {}.",
-                                                key.name, key.meaning, shown(*node)));
-    else if (const auto wrong = wrong_text(key, **node->as_string()))
-      mistakes_.add(line_of(*node), *wrong);
-    else
-      return **node->as_string();
-    return "";
-  }
-
-  std::optional<double> number(const toml::node &node, const Key &key) {
-    if (!node.is_number())
-      mistakes_.add(line_of(node), fmt::format("{} must be a number without quotes ({}), not {}.",
-                                               key.name, key.meaning, shown(node)));
-    else if (const auto wrong = wrong_number(key, *node.value<double>()))
-      mistakes_.add(line_of(node), *wrong);
-    else
-      return *node.value<double>();
-    return std::nullopt;
-  }
-
-  double number(const toml::table &t, const Key &key) {
-    const toml::node *node = t.get(key.name);
-    return node ? number(*node, key).value_or(0.0) : 0.0;
-  }
 
   /// Absolute path of a file that must exist; empty if it is not given.
   std::string existing(const toml::table &t, const Key &key) {
-    const std::string name = text(t, key);
-    if (name.empty())
+    const std::string path = this->path(t, key);
+    if (path.empty())
       return "";
-    const std::string path = (folder_ / name).lexically_normal().string();
+    const std::string name = **t.get(key.name)->as_string();
     std::error_code none;
     if (!fs::exists(path, none))
       mistakes_.add(line_of(*t.get(key.name)),
@@ -106,9 +61,7 @@ private:
     std::vector<std::string> known = {"split"};
     for (const Key &key : head_keys())
       known.push_back(key.name);
-    for (const auto &[key, node] : head)
-      if (std::find(known.begin(), known.end(), key.str()) == known.end())
-        unknown("experiment." + std::string(key.str()), line_of(node), known);
+    tell_unknown(head, known, "experiment.");
     e_.name = text(head, head_keys()[0]);
     e_.electrode = existing(head, head_keys()[1]);
     e_.sample_diameter_mm = number(head, head_keys()[2]);
@@ -134,9 +87,7 @@ private:
       known.push_back(key.name);
     for (const Quantity &q : quantities())
       known.push_back(q.key.name);
-    for (const auto &[key, value] : *t)
-      if (std::find(known.begin(), known.end(), key.str()) == known.end())
-        unknown("condition." + std::string(key.str()), line_of(value), known);
+    tell_unknown(*t, known, "condition.");
     Condition c;
     c.id = text(*t, condition_keys()[0]);
     c.control = text(*t, condition_keys()[1]);
@@ -164,9 +115,7 @@ private:
     std::vector<std::string> known = {"value", "sd", "sd_relative"};
     if (has_foil)
       known.push_back("includes_foil");
-    for (const auto &[k, part] : *t)
-      if (std::find(known.begin(), known.end(), k.str()) == known.end())
-        unknown(key.name + "." + std::string(k.str()), line_of(part), known);
+    tell_unknown(*t, known, key.name + ".");
     if (const toml::node *foil = t->get("includes_foil"); foil && has_foil)
       read_foil(*foil, key, m);
     const toml::node *value = t->get("value");
@@ -282,7 +231,7 @@ Experiment read_experiment(const std::string &file) {
   const TomlFile parsed = parse_toml(file, mistakes);
   Experiment e;
   if (!parsed.root.empty())
-    e = ExperimentReader(file, mistakes).read(parsed);
+    e = ExperimentReader(file, parsed.whole, mistakes).read(parsed);
   mistakes.stop_if_any();
   return e;
 }

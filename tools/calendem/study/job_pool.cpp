@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "study/job_pool.h"
 #include "spec/messages.h"
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstring>
@@ -18,7 +19,7 @@ extern char **environ;
 namespace calendem {
 namespace {
 
-volatile sig_atomic_t signal_received = 0;
+std::atomic<int> signal_received{0}; // lock-free, for the handler and the threads
 void on_signal(int number) { signal_received = number; }
 
 } // namespace

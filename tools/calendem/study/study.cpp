@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "study/study.h"
+#include "pack/pack.h"
 #include "run/process.h"
+#include "run/run.h"
 #include "spec/case.h"
 #include "spec/output_folder.h"
 #include "spec/provenance.h"
 #include "study/job_pool.h"
 #include "study/study_table.h"
+#include <algorithm>
 #include <chrono>
 #include <fcntl.h>
 #include <filesystem>
@@ -24,13 +27,12 @@ namespace {
 
 const char *const kChecksFailed = "checks failed";
 
-std::string as_text(const Settings &s) {
-  std::string out;
-  for (const auto &[key, value] : s.all())
-    if (key != "name" && key != "electrode")
-      out += key + "=" + value + "\n";
-  return out;
-}
+/// Where a run's results lie and how it stands.
+struct RunState {
+  std::string run, packing;           ///< names of their folders: hashes of what they depend on
+  std::string status = "not started"; ///< "done", "checks failed", "failed", ...
+  std::string results;                ///< cells of the table
+};
 
 /// The recipe as a file that reads back the same: tables of sources that it does not use may not be
 /// there.
@@ -67,15 +69,18 @@ class Making {
 public:
   Making(const Study &study, const StudyOptions &options)
       : study_(study), o_(options), states_(study.runs.size()) {
-    const std::string program =
-        version() + hash_of_file(o_.liggghts) + hash_of_folder(input_scripts() + "/common");
-    for (const char *script : {"/in.pack", "/in.compression", "/in.relaxation"})
-      scripts_ += hash_of_file(input_scripts() + script);
+    const std::string for_packing = packing_tools(o_.liggghts), for_run = run_tools(o_.liggghts);
+    std::map<std::map<std::string, std::string>, std::string> packings; // by settings
     for (std::size_t k = 0; k < states_.size(); ++k) {
       const StudyRun &r = study.runs[k];
-      states_[k].packing = hash_of_text(program + scripts_ + as_text(r.recipe.settings));
-      states_[k].run = hash_of_text(states_[k].packing + as_text(r.settings));
-      states_[k].status = status_of(states_[k]);
+      RunState &state = states_[k];
+      std::string &packing = packings[r.recipe.settings.all()];
+      if (packing.empty())
+        packing = packing_identity(r.recipe, for_packing);
+      state.packing = packing;
+      state.run = hash_of_text(packing + run_identity(r.settings, for_run));
+      state.status = status_of(state);
+      state.results = results(state);
     }
   }
 
@@ -87,17 +92,26 @@ public:
     std::string failed = pack(k);
     if (failed.empty())
       failed = run(k);
+    if (failed.empty() && !study_.keep_all)
+      keep_tables(k);
     set_status(k, failed.empty() ? "done" : failed);
     const double s =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    if (failed.empty() && !study_.keep_all)
-      keep_tables(k);
     tell(k, fmt::format("{}, {:.0f} s", states_[k].status, s));
   }
 
   void write_table() {
     const std::lock_guard<std::mutex> lock(guard_);
-    write_file(o_.folder + "/study.csv", study_table(study_, states_, o_.folder));
+    const WaitingLock others(o_.folder + "/.study.lock"); // jobs of an array write it too
+    std::string table = study_header(study_);
+    for (std::size_t k = 0; k < states_.size(); ++k) {
+      const RunState &s = states_[k];
+      table += fmt::format("{},{},{},{}", study_.runs[k].number, s.status, s.run, s.packing);
+      for (const std::string &v : study_.runs[k].values)
+        table += "," + v;
+      table += s.results + "\n";
+    }
+    write_file(o_.folder + "/study.csv", table);
   }
 
   int count(const std::string &status) const {
@@ -114,10 +128,10 @@ public:
     return out;
   }
 
-  std::vector<std::string> folders() const {
+  std::vector<std::string> finished() const {
     std::vector<std::string> out;
     for (const RunState &s : states_)
-      out.push_back(run_folder(s));
+      out.push_back(s.status == "done" ? run_folder(s) : "");
     return out;
   }
 
@@ -132,15 +146,14 @@ public:
               {"recipe", hash_of_file(study_.recipe_file)},
               {"case", hash_of_file(study_.case_file)},
               {"liggghts", hash_of_file(o_.liggghts)},
-              {"input_scripts",
-               hash_of_text(scripts_ + hash_of_folder(input_scripts() + "/common"))}}}};
+              {"packing_tools", hash_of_text(packing_tools(o_.liggghts))},
+              {"run_tools", hash_of_text(run_tools(o_.liggghts))}}}};
   }
 
 private:
   const Study &study_;
   const StudyOptions &o_;
   std::vector<RunState> states_;
-  std::string scripts_;
   std::mutex guard_;
 
   std::string run_folder(const RunState &s) const { return o_.folder + "/runs/" + s.run; }
@@ -159,10 +172,17 @@ private:
     return j.value("failed_checks", nlohmann::json::array()).empty() ? "done" : kChecksFailed;
   }
 
+  std::string results(const RunState &s) const {
+    return s.status == "done" || s.status == kChecksFailed
+               ? results_of(run_folder(s), study_.at_pressure)
+               : no_results(study_.at_pressure);
+  }
+
   void set_status(int k, const std::string &status) {
     {
       const std::lock_guard<std::mutex> lock(guard_);
       states_[k].status = status;
+      states_[k].results = results(states_[k]);
     }
     write_table();
   }
@@ -230,10 +250,9 @@ private:
 
 } // namespace
 
-std::vector<std::string> run_folders(const Study &study, const StudyOptions &options) {
-  StudyOptions o = options;
+std::vector<std::string> finished_runs(const Study &study, StudyOptions o) {
   o.liggghts = fs::absolute(o.liggghts).lexically_normal().string();
-  return Making(study, o).folders();
+  return Making(study, o).finished();
 }
 
 void make_study(const Study &study, StudyOptions o) {

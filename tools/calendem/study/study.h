@@ -21,8 +21,8 @@ struct StudyOptions {
 /// Failure: 2 bad input, 3 a run failed (the others were made), 4 checks of a run did not hold.
 void make_study(const Study &study, StudyOptions options);
 
-/// Folders of the runs, in their order, whether they are there or not.
-std::vector<std::string> run_folders(const Study &study, const StudyOptions &options);
+/// Folders of the runs in their order; empty where a run is not done or its checks did not hold.
+std::vector<std::string> finished_runs(const Study &study, StudyOptions options);
 
 } // namespace calendem
 

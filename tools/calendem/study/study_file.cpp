@@ -2,15 +2,13 @@
 #include "study/study_file.h"
 #include "spec/case.h"
 #include "spec/csv_table.h"
-#include "spec/toml_file.h"
+#include "spec/table_reader.h"
 #include <algorithm>
-#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
 
 namespace calendem {
-namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMostRuns = 100000;
@@ -46,25 +44,19 @@ std::string unknown_key(const std::string &name) {
 }
 
 /// Reads the file, table by table.
-class Reader {
+class Reader : TableReader {
 public:
-  Reader(const std::string &file, Mistakes &mistakes)
-      : folder_(fs::absolute(file).parent_path()), mistakes_(mistakes) {}
+  using TableReader::TableReader;
 
   void read_head(const toml::table &t, Study &out) {
-    static const std::vector<std::string> known = {"name", "recipe", "case", "at_pressure_MPa",
-                                                   "keep"};
-    stop_at_unknown(t, known);
-    out.name = text(t, "name", "study");
-    out.recipe_file = path(t, "recipe");
-    out.case_file = path(t, "case");
-    const std::string keep = text(t, "keep", "all");
-    if (keep != "all" && keep != "tables")
-      mistakes_.add(line_of(*t.get("keep")),
-                    fmt::format("keep is \"{}\"; it must be \"all\" or \"tables\".", keep));
-    out.keep_all = keep == "all";
-    if (const toml::node *node = t.get("at_pressure_MPa"))
-      read_pressures(*node, out);
+    tell_unknown(t, {"name", "recipe", "case", "at_pressure_MPa", "keep"});
+    out.name = text(t, {"name", "", "study", 0, 0, "", "for reports", "", true});
+    out.recipe_file = path(t, {"recipe", "", "", 0, 0, "", "electrode recipe", "", true});
+    out.case_file = path(t, {"case", "", "", 0, 0, "", "its electrode is replaced", "", true});
+    out.keep_all = text(t, {"keep", "", "all", 0, 0, "", "of each run", "all|tables"}) != "tables";
+    out.at_pressure =
+        numbers(t, {"at_pressure_MPa", "", "-", 1e-3, 1e4, "MPa", "columns of the table"});
+    std::sort(out.at_pressure.begin(), out.at_pressure.end());
   }
 
   Group read_group(const toml::node &node) {
@@ -73,7 +65,7 @@ public:
       mistakes_.add(line_of(node), "write what is varied as tables: [[vary]].");
       return {};
     }
-    stop_at_unknown(*t, {"keys", "values", "design"});
+    tell_unknown(*t, {"keys", "values", "design"});
     if (t->contains("design") && (t->contains("keys") || t->contains("values"))) {
       mistakes_.add(line_of(node), "give either keys and values, or a design.");
       return {};
@@ -82,57 +74,15 @@ public:
   }
 
 private:
-  fs::path folder_;
-  Mistakes &mistakes_;
-
-  void stop_at_unknown(const toml::table &t, const std::vector<std::string> &known) {
-    for (const auto &[key, node] : t)
-      if (std::find(known.begin(), known.end(), key.str()) == known.end())
-        mistakes_.add(line_of(node), fmt::format("unknown key '{}'. Did you mean '{}'?", key.str(),
-                                                 closest(std::string(key.str()), known)));
-  }
-
-  std::string text(const toml::table &t, const char *key, const char *fallback) {
-    const toml::node *node = t.get(key);
-    if (!node)
-      return fallback;
-    if (!node->is_string())
-      mistakes_.add(line_of(*node),
-                    fmt::format("{} must be a text in quotes, not {}.", key, shown(*node)));
-    return node->is_string() ? **node->as_string() : fallback;
-  }
-
-  std::string path(const toml::table &t, const char *key) {
-    const std::string given = text(t, key, "");
-    if (given.empty()) {
-      if (!t.contains(key))
-        mistakes_.add(0, fmt::format("key '{}' is missing in [study].", key));
-      return "";
-    }
-    return (folder_ / given).lexically_normal().string();
-  }
-
-  void read_pressures(const toml::node &node, Study &out) {
-    static const Key key = {"at_pressure_MPa", "", "", 1e-3, 1e4, "MPa", "columns of the table"};
-    const toml::array *list = node.as_array();
-    if (!list)
-      return mistakes_.add(line_of(node), "at_pressure_MPa must be a list of numbers.");
-    for (const toml::node &n : *list)
-      if (!n.is_number())
-        mistakes_.add(line_of(n),
-                      fmt::format("at_pressure_MPa holds {}; it must hold numbers.", shown(n)));
-      else if (const auto wrong = wrong_number(key, *n.value<double>()))
-        mistakes_.add(line_of(n), *wrong);
-      else
-        out.at_pressure.push_back(*n.value<double>());
-    std::sort(out.at_pressure.begin(), out.at_pressure.end());
-  }
-
   /// The value as text if the key may hold it.
   std::string checked(const std::string &name, const std::string &cell, int line) {
     const Key *key = find_key(name);
     if (const auto wrong = key ? wrong_cell(*key, cell) : std::nullopt)
       mistakes_.add(line, *wrong);
+    else if (cell.find_first_of(",\n\"") != std::string::npos)
+      mistakes_.add(line, fmt::format("{}: '{}' holds a comma, a quote or a line's end, which the "
+                                      "table of results cannot hold.",
+                                      name, cell));
     return cell;
   }
 
@@ -176,7 +126,7 @@ private:
   Group read_design(const toml::table &t) {
     Group group;
     const int line = line_of(*t.get("design"));
-    const std::string file = path(t, "design");
+    const std::string file = path(t, {"design", "", "", 0, 0, "", "table (CSV)", "", true});
     std::ifstream in(file, std::ios::binary);
     if (!in) {
       mistakes_.add(line, fmt::format("design: there is no file '{}'.", file));
@@ -289,7 +239,7 @@ Study read_study(const std::string &file) {
   Study out;
   out.file = file;
   const TomlFile parsed = parse_toml(file, mistakes);
-  Reader reader(file, mistakes);
+  Reader reader(file, parsed.whole, mistakes);
   std::vector<Group> groups;
   for (const auto &[key, node] : parsed.root) {
     if (key.str() == "study" && node.is_table())

@@ -56,30 +56,11 @@ std::vector<double> at_pressure(const CsvTable &curve, double pressure) {
   return out;
 }
 
-std::string results_of(const std::string &folder, const std::vector<double> &pressures) {
-  const nlohmann::json s = nlohmann::json::parse(text_of(folder + "/summary.json"), nullptr, false);
-  const CsvTable curve = CsvTable::parse(text_of(folder + "/curve.csv"));
-  const bool finished = s.is_object() && s.value("finished", false);
-  const auto value = [](const nlohmann::json &j, const char *key) {
-    return j.contains(key) && j[key].is_number() ? j[key].get<double>() : std::nan("");
-  };
-  std::string out;
-  for (const char *key : kNumbers)
-    out += "," + number(finished ? value(s, key) : std::nan(""));
-  const nlohmann::json quiet =
-      finished ? s.value("quasi_static", nlohmann::json::object()) : nlohmann::json::object();
-  out += "," + number(value(quiet, "pressure_difference_max_above_5_MPa"));
-  for (const double p : pressures)
-    for (const double v : finished ? at_pressure(curve, p)
-                                   : std::vector<double>(std::size(kAtPressure), std::nan("")))
-      out += "," + number(v);
-  return out;
-}
+constexpr std::size_t kOwn = std::size(kNumbers) + 1; // and the imbalance of pressures
 
 } // namespace
 
-std::string study_table(const Study &study, const std::vector<RunState> &states,
-                        const std::string &folder) {
+std::string study_header(const Study &study) {
   std::string out = "number,status,run,packing";
   for (const std::string &c : study.columns)
     out += "," + c;
@@ -89,14 +70,31 @@ std::string study_table(const Study &study, const std::vector<RunState> &states,
   for (const double p : study.at_pressure)
     for (const char *key : kAtPressure)
       out += fmt::format(",{}_at_{:g}_MPa", key, p);
-  out += "\n";
-  for (std::size_t k = 0; k < study.runs.size(); ++k) {
-    const RunState &s = states[k];
-    out += fmt::format("{},{},{},{}", study.runs[k].number, s.status, s.run, s.packing);
-    for (const std::string &v : study.runs[k].values)
-      out += "," + v;
-    out += results_of(folder + "/runs/" + s.run, study.at_pressure) + "\n";
-  }
+  return out + "\n";
+}
+
+std::string no_results(const std::vector<double> &pressures) {
+  return std::string(kOwn + pressures.size() * std::size(kAtPressure), ',');
+}
+
+std::string results_of(const std::string &folder, const std::vector<double> &pressures) {
+  const nlohmann::json s = nlohmann::json::parse(text_of(folder + "/summary.json"), nullptr, false);
+  if (!s.is_object())
+    return no_results(pressures);
+  const auto value = [](const nlohmann::json &j, const char *key) {
+    return j.contains(key) && j[key].is_number() ? j[key].get<double>() : std::nan("");
+  };
+  std::string out;
+  for (const char *key : kNumbers)
+    out += "," + number(value(s, key));
+  out += "," + number(value(s.value("quasi_static", nlohmann::json::object()),
+                            "pressure_difference_max_above_5_MPa"));
+  if (pressures.empty())
+    return out;
+  const CsvTable curve = CsvTable::parse(text_of(folder + "/curve.csv"));
+  for (const double p : pressures)
+    for (const double v : at_pressure(curve, p))
+      out += "," + number(v);
   return out;
 }
 

@@ -7,17 +7,16 @@
 
 namespace calendem {
 
-/// Where a run's results lie and how it stands.
-struct RunState {
-  std::string run, packing;           ///< names of their folders: hashes of what they depend on
-  std::string status = "not started"; ///< "done", "checks failed", "failed", ...
-};
+/// Header of study.csv: number, status, folders, the varied settings, then numbers of summary.json
+/// and, for every pressure of the study, displacement, thickness, broken fraction and total
+/// porosity at the compression's first crossing. Pressures MPa, lengths um.
+std::string study_header(const Study &study);
 
-/// study.csv: number, status, folders, the varied settings, then numbers of summary.json and, for
-/// every pressure of the study, displacement, thickness, broken fraction and total porosity at the
-/// compression's first crossing. Empty cells: not known. Pressures MPa, lengths um.
-std::string study_table(const Study &study, const std::vector<RunState> &states,
-                        const std::string &folder);
+/// The cells of a finished run's results, each after a comma; empty cells: not known.
+std::string results_of(const std::string &folder, const std::vector<double> &pressures);
+
+/// The same for a run that is not finished.
+std::string no_results(const std::vector<double> &pressures);
 
 } // namespace calendem
 

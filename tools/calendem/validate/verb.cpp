@@ -96,9 +96,9 @@ void validate(const std::vector<std::string> &files) {
 
 void add_validate_verb(CLI::App &app) {
   auto files = std::make_shared<std::vector<std::string>>();
-  CLI::App *verb = app.add_subcommand(
-      "validate",
-      "Every mistake in recipes, cases, tomograms, studies and experiment files, at once");
+  CLI::App *verb =
+      app.add_subcommand("validate", "Every mistake in recipes, cases, tomograms, films, studies, "
+                                     "banks and experiment files, at once");
   verb->add_option("FILE", *files, "TOML files")->required();
   verb->footer(
       list_of_experiment_keys() +
