@@ -20,6 +20,11 @@ std::string hash_of_text(const std::string &text) {
   return fmt::format("{:016x}", h);
 }
 
+std::string text_of_file(const std::string &file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
 std::string hash_of_file(const std::string &file) {
   std::ifstream in(file, std::ios::binary);
   if (!in)

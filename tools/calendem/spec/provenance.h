@@ -24,6 +24,9 @@ std::string input_scripts();
 /// The LIGGGHTS program that lies beside this one.
 std::string liggghts_program();
 
+/// The file's bytes; empty if it cannot be read.
+std::string text_of_file(const std::string &file);
+
 /// Writes via a file `name.part` that is renamed when complete; throws Failure(2) on a full disk.
 void write_file(const std::string &name, const std::string &content);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "study/study_table.h"
 #include "spec/csv_table.h"
+#include "spec/provenance.h"
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -27,11 +27,6 @@ const char *const kNumbers[] = {"max_pressure_MPa",
                                 "wall_clock_s"};
 const char *const kAtPressure[] = {"displacement_um", "thickness_um", "broken_fraction",
                                    "porosity_total"};
-
-std::string text_of(const std::string &file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 std::string number(double v) { return std::isfinite(v) ? fmt::format("{:.10g}", v) : ""; }
 
@@ -78,7 +73,8 @@ std::string no_results(const std::vector<double> &pressures) {
 }
 
 std::string results_of(const std::string &folder, const std::vector<double> &pressures) {
-  const nlohmann::json s = nlohmann::json::parse(text_of(folder + "/summary.json"), nullptr, false);
+  const nlohmann::json s =
+      nlohmann::json::parse(text_of_file(folder + "/summary.json"), nullptr, false);
   if (!s.is_object())
     return no_results(pressures);
   const auto value = [](const nlohmann::json &j, const char *key) {
@@ -91,7 +87,7 @@ std::string results_of(const std::string &folder, const std::vector<double> &pre
                             "pressure_difference_max_above_5_MPa"));
   if (pressures.empty())
     return out;
-  const CsvTable curve = CsvTable::parse(text_of(folder + "/curve.csv"));
+  const CsvTable curve = CsvTable::parse(text_of_file(folder + "/curve.csv"));
   for (const double p : pressures)
     for (const double v : at_pressure(curve, p))
       out += "," + number(v);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "study/verb.h"
+#include "spec/messages.h"
 #include "spec/provenance.h"
 #include "study/study.h"
+#include "study/study_page.h"
 #include <CLI/CLI.hpp>
 
 namespace calendem {
@@ -10,6 +12,7 @@ void add_study_verb(CLI::App &app) {
   struct Arguments {
     std::string spec;
     StudyOptions options;
+    bool page = false;
   };
   auto a = std::make_shared<Arguments>();
   a->options.liggghts = liggghts_program();
@@ -27,8 +30,22 @@ void add_study_verb(CLI::App &app) {
   verb->add_option("--only", a->options.only, "make the run of this number and no other")
       ->check(CLI::Range(1, 1000000));
   verb->add_flag("--table", a->options.table, "make no run, only the table of what there is");
+  verb->add_flag("--page", a->page, "draw the page of the table that lies in the folder, no more");
   verb->add_option("--liggghts", a->options.liggghts, "program with the plugin");
-  verb->callback([a] { make_study(read_study(a->spec), a->options); });
+  verb->callback([a] {
+    const Study study = read_study(a->spec);
+    if (a->page)
+      return draw_study(study.columns, a->options.folder);
+    try {
+      make_study(study, a->options);
+    } catch (const Failure &f) {
+      if (f.exit_status() != kBadInput) // else there is nothing yet
+        draw_study(study.columns, a->options.folder);
+      throw;
+    }
+    if (a->options.only == 0)
+      draw_study(study.columns, a->options.folder);
+  });
 }
 
 } // namespace calendem
