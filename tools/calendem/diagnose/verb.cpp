@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/verb.h"
-#include "diagnose/diagnose.h"
+#include "diagnose/how_far.h"
 #include "spec/output_folder.h"
 #include "spec/provenance.h"
 #include <CLI/CLI.hpp>
@@ -14,6 +14,8 @@ struct Options {
   std::string experiment, folder, bank, table;
   std::vector<std::string> without;
   double cells = 0.0; // 0: from the sample's diameter
+  bool no_rerun = false;
+  RerunOptions rerun;
 };
 
 void print(const inference::Diagnosis &d, const std::vector<std::string> &not_said) {
@@ -36,6 +38,32 @@ void print(const inference::Diagnosis &d, const std::vector<std::string> &not_sa
     fmt::print("- {}\n", text);
 }
 
+std::string shown(const Estimate &e) {
+  return fmt::format("{:.1f} ({:.1f} to {:.1f})", e.value, e.low90, e.high90);
+}
+
+/// The third part: adds "shrink" to gap.json once the models have run again.
+void how_far(Options &o, const Experiment &experiment, const BankTable &table, Diagnosed &d) {
+  if (o.no_rerun)
+    return;
+  const std::vector<RerunModel> models = models_to_rerun(experiment, table, d, o.cells);
+  if (models.empty()) {
+    fmt::print("- how far: the experiment file has no split = {{ train = [...], test = [...] }}; "
+               "nothing is run again\n");
+    return;
+  }
+  fmt::print("how far: gap on the held-out conditions, in standard deviations, as predicted\n");
+  for (const RerunModel &m : models)
+    fmt::print("  {:<10} {:<32} {}\n", m.role, m.hypothesis, shown(m.predicted));
+  o.rerun.study.folder = o.folder + "/rerun";
+  d.gap["shrink"] = rerun(experiment, table, models, o.rerun);
+  write_file(o.folder + "/gap.json", d.gap.dump(1) + "\n");
+  fmt::print("how far: as run again on {} packings that the bank has not\n", o.rerun.packings);
+  for (const auto &m : d.gap["shrink"]["models"])
+    fmt::print("  {:<10} {:<32} {:.1f}\n", m["role"].get<std::string>(),
+               m["hypothesis"].get<std::string>(), m["gap"]["value"].get<double>());
+}
+
 void run(Options o) {
   if (o.table.empty())
     o.table = std::filesystem::path(o.bank).replace_extension("csv").string();
@@ -52,6 +80,7 @@ void run(Options o) {
   write_file(o.folder + "/gap.json", d.gap.dump(1) + "\n");
   print(d.diagnosis, d.data.not_said);
   fmt::print("data: {}/gap.json\n", o.folder);
+  how_far(o, experiment, table, d);
 }
 
 } // namespace
@@ -59,6 +88,7 @@ void run(Options o) {
 void add_diagnose_verb(CLI::App &app) {
   auto o = std::make_shared<Options>();
   o->bank = input_scripts() + "/cases/bank/bank.toml";
+  o->rerun.study.liggghts = liggghts_program();
   CLI::App *verb = app.add_subcommand(
       "diagnose", "Where simulation and experiment disagree, and which effect explains it");
   verb->add_option("EXPERIMENT", o->experiment, "experiment file (TOML)")->required();
@@ -71,6 +101,11 @@ void add_diagnose_verb(CLI::App &app) {
                    "how many of the bank's cells the sample is as large as (scatter between "
                    "packings counts with its inverse); default: from sample_diameter_mm")
       ->check(CLI::Range(1.0, 1e12));
+  verb->add_flag("--no-rerun", o->no_rerun, "where and which only: run nothing again");
+  verb->add_option("--packings", o->rerun.packings, "new packings that models are run again on")
+      ->check(CLI::Range(2, 1000));
+  verb->add_option("--jobs", o->rerun.study.jobs, "runs at a time")->check(CLI::Range(1, 4096));
+  verb->add_option("--liggghts", o->rerun.study.liggghts, "program with the plugin");
   verb->callback([o] { run(*o); });
 }
 

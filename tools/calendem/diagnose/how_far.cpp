@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "diagnose/how_far.h"
+#include "compare/observables.h"
+#include "inference/evidence.h"
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace calendem {
+using inference::Hypothesis;
+using inference::Matrix;
+using inference::Vector;
+namespace {
+
+/// What the emulators know of some conditions of the experiment.
+struct Part {
+  ExperimentData data;
+  std::unique_ptr<inference::Model> model;
+  inference::Problem problem;
+};
+
+Part part_of(const Experiment &e, const BankTable &table, const std::vector<std::string> &ids,
+             double cells) {
+  Part part;
+  part.data = data_of(e, table, ids);
+  inference::ModelSettings settings;
+  settings.packings_in_sample = cells;
+  part.model = std::make_unique<inference::Model>(part.data.bank, part.data.experiment, settings);
+  part.problem = part.model->problem(part.data.experiment.values);
+  return part;
+}
+
+HeldOut held_out_of(const ExperimentData &data) {
+  return {inference::blocks_of(data.experiment.of), data.experiment.values,
+          data.experiment.covariance.diagonal().cwiseSqrt()};
+}
+
+std::vector<inference::Applied> applied(const inference::Problem &problem, const Hypothesis &h,
+                                        const Vector &scores) {
+  std::vector<inference::Applied> on;
+  int at = problem.base_parameters;
+  for (const int e : h.on) {
+    const int n = int(problem.effects[std::size_t(e)].parameters.size());
+    on.push_back({e, scores.segment(at, n)});
+    at += n;
+  }
+  return on;
+}
+
+/// Held-out observables as the emulators predict them.
+Vector predicted(const Part &part, const Hypothesis &h, const Vector &scores) {
+  const inference::Prediction p = part.problem.predict(scores.head(part.problem.base_parameters),
+                                                       applied(part.problem, h, scores));
+  return part.model->map().observables_of(p.mean.head(part.model->map().emulated()));
+}
+
+/// Recalibrated on `train`, predicted for `test`.
+RerunModel calibrated(const std::string &role, const Hypothesis &h, const Part &train,
+                      const Part &test) {
+  const inference::Likelihood likelihood(train.problem, h, train.problem.discrepancy);
+  const inference::Evidence e = inference::evidence(
+      likelihood.dimension(), [&](const Vector &scores) { return likelihood.log(scores); }, {});
+  RerunModel out;
+  out.role = role;
+  out.hypothesis = h.name;
+  for (int k = 0; k < train.problem.base_parameters; ++k)
+    out.base.push_back(train.data.bank.base[std::size_t(k)].prior.value(e.mode[k]));
+  for (const inference::Applied &a : applied(train.problem, h, e.mode)) {
+    const inference::Effect &effect = train.problem.effects[std::size_t(a.effect)];
+    out.effect[effect.name] =
+        find_effect(effect.name)
+            .parameter.value(effect.parameters.front().prior.value(a.scores[0]));
+  }
+  const HeldOut held_out = held_out_of(test.data);
+  const Vector none = Vector::Zero(held_out.sd.size());
+  std::vector<double> gaps;
+  for (Eigen::Index k = 0; k < e.draws.cols(); ++k)
+    gaps.push_back(gap_of(held_out, predicted(test, h, e.draws.col(k)), none));
+  out.predicted = interval_of(gap_of(held_out, predicted(test, h, e.mode), none), gaps);
+  return out;
+}
+
+/// Roles and hypotheses, the base model first.
+std::vector<std::pair<std::string, Hypothesis>> chosen(const inference::Which &which) {
+  std::vector<std::pair<std::string, Hypothesis>> out = {{"before", which.of("none").hypothesis}};
+  if (which.claim == "none")
+    return out;
+  std::vector<Hypothesis> effects;
+  for (const inference::Judged &j : which.judged)
+    if (j.hypothesis.kind == Hypothesis::effects)
+      effects.push_back(j.hypothesis);
+  if (effects.empty())
+    return out;
+  const Hypothesis &first = effects.front();
+  const bool claimed = which.claim == first.name;
+  out.emplace_back(claimed ? "after" : "leading", first);
+  const auto apart = [&](const Hypothesis &h) {
+    return h.on.size() == 1 &&
+           std::find(first.on.begin(), first.on.end(), h.on[0]) == first.on.end();
+  };
+  const auto second = std::find_if(effects.begin() + 1, effects.end(), apart);
+  if (second == effects.end())
+    return out;
+  out.emplace_back("runner-up", *second);
+  const auto least = std::find_if(effects.rbegin(), effects.rend(), apart);
+  if (claimed && least->name != second->name)
+    out.emplace_back("placebo", *least);
+  return out;
+}
+
+std::string text_of(double value) { return fmt::format("{:.4g}", value); }
+
+/// The models as runs: for each, the packings; for each packing, the pressures.
+Study study_of(const BankTable &table, const std::vector<RerunModel> &models,
+               const std::vector<double> &pressures, int packings) {
+  const BankSpec &spec = table.spec;
+  Study study;
+  study.file = spec.file;
+  study.name = "how far";
+  study.recipe_file = spec.recipe_file;
+  study.case_file = spec.case_file;
+  study.keep_all = false;
+  study.columns = {"recipe.seed"};
+  for (const BankParameter &p : spec.parameters)
+    study.columns.insert(study.columns.end(), p.keys.begin(), p.keys.end());
+  for (const std::string &name : spec.effects)
+    for (const std::string &key : find_effect(name).parameter.keys)
+      study.columns.push_back("case." + key);
+  study.columns.push_back("case.platen.max_pressure_MPa");
+  std::vector<std::vector<std::string>> rows;
+  for (const RerunModel &m : models)
+    for (int k = 1; k <= packings; ++k)
+      for (const double pressure : pressures) {
+        // seeds that no bank has
+        std::vector<std::string> row = {fmt::format("{}", 100000 + k)};
+        for (std::size_t p = 0; p < spec.parameters.size(); ++p)
+          row.insert(row.end(), spec.parameters[p].keys.size(), text_of(m.base[p]));
+        for (const std::string &name : spec.effects) {
+          const EffectParameter &p = find_effect(name).parameter;
+          const auto on = m.effect.find(name);
+          row.insert(row.end(), p.keys.size(), on == m.effect.end() ? p.off : text_of(on->second));
+        }
+        row.push_back(text_of(pressure));
+        rows.push_back(row);
+      }
+  Mistakes mistakes(spec.file, 20);
+  add_runs(study, rows, mistakes);
+  mistakes.stop_if_any();
+  return study;
+}
+
+/// The runs as rows of a bank's table: each model is a base point, so that the same code finds the
+/// observables.
+BankTable table_of(const BankTable &bank, const std::vector<RerunModel> &models, int packings,
+                   const std::vector<std::string> &folders, const std::vector<double> &pressures) {
+  BankTable out;
+  out.spec = bank.spec;
+  out.spec.pressures = pressures;
+  out.spec.effects.clear();
+  for (std::size_t k = 0; k < folders.size(); ++k) {
+    BankRow row;
+    row.point.base_point = int(k / pressures.size());
+    row.point.packing = row.point.base_point + 1;
+    row.point.base = models[k / pressures.size() / std::size_t(packings)].base;
+    row.run = read_simulated_run(folders[k]);
+    out.rows.push_back(row);
+  }
+  return out;
+}
+
+nlohmann::ordered_json json_of(const Estimate &e) {
+  return {{"value", e.value}, {"low90", e.low90}, {"high90", e.high90}};
+}
+
+/// Pressures of the held-out conditions, rising.
+std::vector<double> pressures_of(const Experiment &e) {
+  std::vector<double> out;
+  for (const Condition &c : e.conditions)
+    if (std::find(e.test.begin(), e.test.end(), c.id) != e.test.end() && c.max_pressure_MPa)
+      out.push_back(c.max_pressure_MPa->value);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+/// What was measured and what the models gave, observable by observable.
+nlohmann::ordered_json observables(const HeldOut &h, const std::vector<inference::Observable> &of,
+                                   const std::vector<RerunModel> &models,
+                                   const std::vector<Matrix> &simulated) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (Eigen::Index i = 0; i < h.measured.size(); ++i) {
+    const inference::Observable &o = of[std::size_t(i)];
+    nlohmann::ordered_json row = {{"condition", o.condition},  {"name", o.name},
+                                  {"stage", o.stage},          {"coordinate", o.coordinate},
+                                  {"measured", h.measured[i]}, {"sd", h.sd[i]}};
+    for (std::size_t m = 0; m < models.size(); ++m)
+      row[models[m].role] = simulated[m].row(i).mean();
+    out.push_back(row);
+  }
+  return out;
+}
+
+nlohmann::ordered_json models_json(const BankSpec &spec, const HeldOut &h,
+                                   const std::vector<RerunModel> &models,
+                                   const std::vector<Matrix> &simulated) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    nlohmann::ordered_json parameters;
+    for (std::size_t p = 0; p < spec.parameters.size(); ++p)
+      parameters[spec.parameters[p].name] = models[m].base[p];
+    for (const auto &[effect, value] : models[m].effect)
+      parameters[find_effect(effect).parameter.keys.front()] = value;
+    out.push_back({{"role", models[m].role},
+                   {"hypothesis", models[m].hypothesis},
+                   {"parameters", parameters},
+                   {"gap", json_of(gap_of_packings(h, simulated[m]))},
+                   {"predicted_gap", json_of(models[m].predicted)}});
+    if (m > 0)
+      out.back()["shrinkage"] = json_of(shrinkage_of(h, simulated[0], simulated[m]));
+  }
+  return out;
+}
+
+nlohmann::ordered_json curves(const Experiment &e, const BankTable &runs,
+                              const std::vector<RerunModel> &models, int packings) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const Condition &c : e.conditions) {
+    if (std::find(e.test.begin(), e.test.end(), c.id) == e.test.end())
+      continue;
+    for (const BankRow &row : runs.rows)
+      if (row.point.base_point % packings == 0 && belongs(row.run, c))
+        out.push_back({{"condition", c.id},
+                       {"role", models[std::size_t(row.point.base_point / packings)].role},
+                       {"displacement_um", row.run.displacement},
+                       {"pressure_MPa", row.run.pressure}});
+  }
+  return out;
+}
+
+} // namespace
+
+std::vector<RerunModel> models_to_rerun(const Experiment &experiment, const BankTable &table,
+                                        const Diagnosed &diagnosed, double cells) {
+  std::vector<RerunModel> out;
+  if (experiment.train.empty() || experiment.test.empty())
+    return out;
+  cells = cells > 0.0 ? cells : cells_of(experiment, table.spec);
+  const Part train = part_of(experiment, table, experiment.train, cells),
+             test = part_of(experiment, table, experiment.test, cells);
+  for (const auto &[role, hypothesis] : chosen(diagnosed.diagnosis.which))
+    out.push_back(calibrated(role, hypothesis, train, test));
+  return out;
+}
+
+nlohmann::ordered_json rerun(const Experiment &experiment, const BankTable &table,
+                             const std::vector<RerunModel> &models, const RerunOptions &options) {
+  const std::vector<double> pressures = pressures_of(experiment);
+  const Study study = study_of(table, models, pressures, options.packings);
+  make_study(study, options.study);
+  const BankTable runs =
+      table_of(table, models, options.packings, finished_runs(study, options.study), pressures);
+  const ExperimentData data = data_of(experiment, runs, experiment.test);
+  const HeldOut held_out = held_out_of(data);
+  std::vector<Matrix> simulated(models.size(), Matrix(held_out.measured.size(), options.packings));
+  for (std::size_t k = 0; k < data.bank.runs.size(); ++k)
+    simulated[k / std::size_t(options.packings)].col(Eigen::Index(k) % options.packings) =
+        data.bank.runs[k].values;
+  return {{"train", experiment.train},
+          {"held_out", experiment.test},
+          {"unit", "standard deviations of the measurement"},
+          {"packings", options.packings},
+          {"models", models_json(table.spec, held_out, models, simulated)},
+          {"observables", observables(held_out, data.experiment.of, models, simulated)},
+          {"curves", curves(experiment, runs, models, options.packings)},
+          {"said", "The effect was chosen on all conditions, its amplitude and the base parameters "
+                   "on the training conditions only."}};
+}
+
+} // namespace calendem
