@@ -2,6 +2,7 @@
 #include "bank/bank_design.h"
 #include "inference/sobol_points.h"
 #include "spec/messages.h"
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -39,7 +40,19 @@ std::vector<std::string> row_of(const BankSpec &spec, const BankPoint &point, do
   return row;
 }
 
+Study filled(Study study, const std::vector<std::vector<std::string>> &rows) {
+  Mistakes mistakes(study.file, 20);
+  for (const std::string &name : study.columns)
+    check_column(name, mistakes);
+  mistakes.stop_if_any();
+  add_runs(study, rows, mistakes);
+  mistakes.stop_if_any();
+  return study;
+}
+
 } // namespace
+
+const char *const kFullCell = "full_cell";
 
 std::vector<BankPoint> bank_points(const BankSpec &spec) {
   std::vector<BankPoint> out;
@@ -76,17 +89,35 @@ Study bank_study(const BankSpec &spec, const std::vector<BankPoint> &points) {
   study.case_file = spec.case_file;
   study.keep_all = false;
   study.columns = columns_of(spec);
-  Mistakes mistakes(spec.file, 20);
-  for (const std::string &name : study.columns)
-    check_column(name, mistakes);
-  mistakes.stop_if_any();
   std::vector<std::vector<std::string>> rows;
   for (const BankPoint &p : points)
     for (const double pressure : spec.pressures)
       rows.push_back(row_of(spec, p, pressure));
-  add_runs(study, rows, mistakes);
-  mistakes.stop_if_any();
-  return study;
+  return filled(std::move(study), rows);
+}
+
+std::vector<BankPoint> full_cell_points(const BankSpec &spec) {
+  std::vector<BankPoint> out;
+  if (spec.full_cell.points > 0)
+    out = bank_points(spec);
+  out.resize(std::size_t(spec.full_cell.points));
+  for (BankPoint &p : out)
+    p.effect = kFullCell;
+  return out;
+}
+
+Study full_cell_study(const BankSpec &spec, const std::vector<BankPoint> &points) {
+  BankSpec full = spec;
+  full.name = spec.name + ", full cell";
+  full.recipe_file = spec.full_cell.recipe_file;
+  full.case_file = spec.full_cell.case_file;
+  full.effects.clear();
+  for (BankParameter &p : full.parameters)
+    p.keys.erase(
+        std::remove_if(p.keys.begin(), p.keys.end(),
+                       [](const std::string &key) { return key.rfind("recipe.", 0) == 0; }),
+        p.keys.end());
+  return bank_study(full, points);
 }
 
 } // namespace calendem

@@ -8,6 +8,9 @@
 
 namespace calendem {
 
+/// `effect` of the points that are run on the full cell.
+extern const char *const kFullCell;
+
 /// One set of parameters on one packing, run to every pressure of the bank.
 struct BankPoint {
   std::string effect;       ///< empty: base model
@@ -25,6 +28,11 @@ std::vector<BankPoint> bank_points(const BankSpec &spec);
 /// The runs of all points: for each point one per pressure, in their order. Throws Failure(2) where
 /// values are no values of their keys or contradict each other.
 Study bank_study(const BankSpec &spec, const std::vector<BankPoint> &points);
+
+/// The first base points once more, for the full cell; those parameters that are keys of the recipe
+/// are the full cell's own there. Empty if the bank has none.
+std::vector<BankPoint> full_cell_points(const BankSpec &spec);
+Study full_cell_study(const BankSpec &spec, const std::vector<BankPoint> &points);
 
 } // namespace calendem
 

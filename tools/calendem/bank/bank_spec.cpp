@@ -76,6 +76,19 @@ public:
     return p;
   }
 
+  void read_full_cell(const toml::table &t, BankSpec &out) {
+    tell_unknown(t, {"recipe", "case", "points"});
+    out.full_cell.recipe_file =
+        path(t, {"recipe", "", "", 0, 0, "", "recipe of the cell", "", true});
+    out.full_cell.case_file = path(t, {"case", "", "", 0, 0, "", "its case", "", true});
+    out.full_cell.points =
+        int(number(t, {"points", "", "", 2, 1000, "", "base points run on it", "", false, true}));
+    if (out.full_cell.points > out.base_points)
+      mistakes_.add(line_of(*t.get("points")),
+                    fmt::format("points is {}; there are {} base points.", out.full_cell.points,
+                                out.base_points));
+  }
+
 private:
   void read_effects(const toml::table &t, BankSpec &out) {
     out.effects = texts(t, "effects");
@@ -105,11 +118,13 @@ BankSpec read_bank_spec(const std::string &file) {
     else if (key.str() == "parameter" && node.is_array())
       for (const toml::node &parameter : *node.as_array())
         out.parameters.push_back(reader.read_parameter(parameter));
-    else
-      mistakes.add(line_of(node), fmt::format("unknown '{}'; a bank has a table [bank] and tables "
-                                              "[[parameter]].",
+    else if (key.str() != "full_cell" || !node.is_table())
+      mistakes.add(line_of(node), fmt::format("unknown '{}'; a bank has tables [bank], [full_cell] "
+                                              "and [[parameter]].",
                                               key.str()));
   }
+  if (const toml::table *full_cell = parsed.root["full_cell"].as_table())
+    reader.read_full_cell(*full_cell, out); // after [bank]: its points are some of the bank's
   if (parsed.whole && !parsed.root.contains("bank"))
     mistakes.add(0, "has no table [bank].");
   std::set<std::string> names;

@@ -16,6 +16,10 @@
 //   low = 100
 //   high = 300
 //   prior = "log-uniform"            # or "uniform"
+//   [full_cell]                      # optional: what the bank's small cell does to the observables
+//   recipe = "../demo/electrode.toml"
+//   case = "case.toml"
+//   points = 3                       # base points that are run on that cell too
 #ifndef CALENDEM_BANK_BANK_SPEC_H
 #define CALENDEM_BANK_BANK_SPEC_H
 
@@ -30,6 +34,12 @@ struct BankParameter {
   Spread spread = Spread::Uniform;
 };
 
+/// The cell that the bank's stands for.
+struct FullCell {
+  std::string recipe_file, case_file;
+  int points = 0; ///< 0: none
+};
+
 struct BankSpec {
   std::string file, name, recipe_file, case_file;
   std::vector<double> pressures; ///< MPa, increasing
@@ -37,6 +47,7 @@ struct BankSpec {
   unsigned long seed = 1;
   std::vector<BankParameter> parameters;
   std::vector<std::string> effects;
+  FullCell full_cell;
 };
 
 /// Throws Failure(2) with every mistake of the file. Recipe and case are read when runs are made.

@@ -42,7 +42,8 @@ BankRow row_at(const BankSpec &spec, const CsvTable &t, std::size_t k,
   row.point.packing = int(number("packing"));
   for (const BankParameter &p : spec.parameters)
     row.point.base.push_back(number(p.name));
-  row.point.value = effect[k].empty() ? 0.0 : number("value");
+  const bool base = effect[k].empty() || effect[k] == kFullCell;
+  row.point.value = base ? 0.0 : number("value");
   row.run.control = "pressure";
   for (const Number &n : kNumbers)
     row.run.*(n.field) = number(n.column);
@@ -70,7 +71,8 @@ std::string write_bank_table(const BankTable &table) {
     out += fmt::format("{},{},{}", row.point.effect, row.point.base_point, row.point.packing);
     for (const double v : row.point.base)
       out += "," + cell(v);
-    out += "," + (row.point.effect.empty() ? "" : cell(row.point.value));
+    const bool base = row.point.effect.empty() || row.point.effect == kFullCell;
+    out += "," + (base ? "" : cell(row.point.value));
     for (const Number &n : kNumbers)
       out += "," + cell(row.run.*(n.field));
     for (const double p : kGrid)
@@ -106,7 +108,7 @@ BankTable read_bank_table(const BankSpec &spec, const std::string &file) {
   BankTable out = {spec, {}};
   const std::vector<std::string> effect = t.texts("effect");
   for (std::size_t k = 0; k < t.rows(); ++k) {
-    if (!effect[k].empty())
+    if (!effect[k].empty() && effect[k] != kFullCell)
       find_effect(effect[k]);
     out.rows.push_back(row_at(spec, t, k, effect));
     for (const Number &n : kNumbers)

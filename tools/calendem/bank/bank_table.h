@@ -15,7 +15,7 @@ struct BankRow {
 
 struct BankTable {
   BankSpec spec;
-  std::vector<BankRow> rows;
+  std::vector<BankRow> rows; ///< those of the full cell too
 };
 
 /// Columns: effect, base_point, packing, the base parameters, value (of the effect's key), then the

@@ -10,39 +10,58 @@
 namespace calendem {
 namespace {
 
-/// The table of all points whose runs are there; tells how many are not.
-BankTable table_of(const BankSpec &spec, const std::vector<BankPoint> &points, const Study &study,
-                   const StudyOptions &o) {
-  BankTable table = {spec, {}};
-  const std::vector<std::string> folders = finished_runs(study, o);
-  for (std::size_t k = 0; k < folders.size(); ++k)
-    if (!folders[k].empty())
-      table.rows.push_back({points[k / spec.pressures.size()], read_simulated_run(folders[k])});
-  if (table.rows.size() < folders.size())
-    fmt::print("bank: {} of {} runs are not there yet; the table holds the others\n",
-               folders.size() - table.rows.size(), folders.size());
-  return table;
+/// A study of points and where it goes.
+struct Part {
+  std::vector<BankPoint> points;
+  Study study;
+  StudyOptions options;
+};
+
+std::vector<Part> parts_of(const BankSpec &spec, const StudyOptions &o) {
+  std::vector<Part> out = {{bank_points(spec), {}, o}};
+  out[0].study = bank_study(spec, out[0].points);
+  if (spec.full_cell.points > 0) {
+    out.push_back({full_cell_points(spec), {}, o});
+    out[1].study = full_cell_study(spec, out[1].points);
+    out[1].options.folder += "/full_cell";
+  }
+  return out;
 }
 
-void make_bank(const std::string &file, StudyOptions o) {
+/// The table of all points whose runs are there; tells how many are not.
+void write_table(const BankSpec &spec, const std::vector<Part> &parts, const std::string &folder) {
+  BankTable table = {spec, {}};
+  std::size_t missing = 0;
+  for (const Part &part : parts) {
+    const std::vector<std::string> folders = finished_runs(part.study, part.options);
+    for (std::size_t k = 0; k < folders.size(); ++k)
+      if (folders[k].empty())
+        ++missing;
+      else
+        table.rows.push_back(
+            {part.points[k / spec.pressures.size()], read_simulated_run(folders[k])});
+  }
+  if (missing > 0)
+    fmt::print("bank: {} of {} runs are not there yet; the table holds the others\n", missing,
+               missing + table.rows.size());
+  write_file(folder + "/bank.csv", write_bank_table(table));
+  fmt::print("bank: {0} rows, {1}/bank.csv\nNext: calendem diagnose EXPERIMENT.toml -o DIR "
+             "--bank {2} --table {1}/bank.csv\n",
+             table.rows.size(), folder, spec.file);
+}
+
+void make_bank(const std::string &file, const StudyOptions &o) {
   const BankSpec spec = read_bank_spec(file);
-  const std::vector<BankPoint> points = bank_points(spec);
-  const Study study = bank_study(spec, points);
-  const auto write_table = [&] {
-    const BankTable table = table_of(spec, points, study, o);
-    write_file(o.folder + "/bank.csv", write_bank_table(table));
-    fmt::print("bank: {0} rows, {1}/bank.csv\nNext: calendem diagnose EXPERIMENT.toml -o DIR "
-               "--bank {2} --table {1}/bank.csv\n",
-               table.rows.size(), o.folder, file);
-  };
+  const std::vector<Part> parts = parts_of(spec, o);
   try {
-    make_study(study, o);
+    for (const Part &part : parts)
+      make_study(part.study, part.options);
   } catch (const Failure &f) {
     if (f.exit_status() != kBadInput) // else there is nothing yet
-      write_table();
+      write_table(spec, parts, o.folder);
     throw;
   }
-  write_table();
+  write_table(spec, parts, o.folder);
 }
 
 } // namespace

@@ -22,7 +22,8 @@ using PointRuns = std::vector<const BankRow *>;
 std::vector<PointRuns> points_of(const BankTable &table, std::vector<std::string> &not_said) {
   std::map<std::pair<std::string, int>, PointRuns> points;
   for (const BankRow &row : table.rows)
-    points[{row.point.effect, row.point.base_point}].push_back(&row);
+    if (row.point.effect != kFullCell)
+      points[{row.point.effect, row.point.base_point}].push_back(&row);
   std::vector<PointRuns> out;
   const auto whole = [&](const std::string &effect, int base_point) {
     const auto at = points.find({effect, base_point});
@@ -139,6 +140,51 @@ void add_instrument(const Effect &effect, std::uint64_t seed, const std::vector<
     }
 }
 
+/// What the bank's small cell lacks to the sample's film, and how well that is known.
+struct Transfer {
+  Vector change;
+  Matrix covariance;
+};
+
+/// Runs of the same parameters on the full cell less those on the bank's. A film is more porous at
+/// its faces, in layers that do not grow with it: the change goes with 1 / loading.
+Transfer transfer_of(const Experiment &e, const BankTable &bank, const std::vector<Covered> &all,
+                     std::vector<std::string> &not_said) {
+  std::map<int, std::map<std::string, PointRuns>> runs;
+  for (const BankRow &row : bank.rows)
+    if (row.point.effect.empty() || row.point.effect == kFullCell)
+      runs[row.point.base_point][row.point.effect].push_back(&row);
+  const auto as_it_is = [](const SimulatedRun &r) { return r; };
+  std::vector<Vector> changes;
+  for (auto &[point, of] : runs)
+    if (of[kFullCell].size() == bank.spec.pressures.size() && of[kFullCell].size() == of[""].size())
+      changes.push_back(values_of(all, of[kFullCell], as_it_is) - values_of(all, of[""], as_it_is));
+  if (changes.size() < 2)
+    return {};
+  const double small = read_recipe(bank.spec.recipe_file).loading,
+               full = read_recipe(bank.spec.full_cell.recipe_file).loading;
+  const double share = (1.0 / small - 1.0 / e.recipe.loading) / (1.0 / small - 1.0 / full);
+  const double n = double(changes.size());
+  Matrix d(changes[0].size(), Eigen::Index(changes.size()));
+  for (std::size_t k = 0; k < changes.size(); ++k)
+    d.col(Eigen::Index(k)) = changes[k];
+  const Vector mean = d.rowwise().mean();
+  d.colwise() -= mean;
+  not_said.push_back(fmt::format(
+      "The bank's cell carries {:g} mg/cm2, the sample {:g}: its runs are shifted by {:.0f} % of "
+      "what {} runs of {:g} mg/cm2 differ by; how well that is known counts as uncertainty.",
+      small, e.recipe.loading, 100.0 * share, changes.size(), full));
+  return {share * mean, share * share * (1.0 + 1.0 / n) / (n - 1.0) * d * d.transpose()};
+}
+
+void shift(const Transfer &by, ExperimentData &data) {
+  if (by.change.size() == 0)
+    return;
+  for (inference::Run &run : data.bank.runs)
+    run.values += by.change;
+  data.experiment.covariance += by.covariance;
+}
+
 /// Change of each observable by one standard deviation of the press's pressure.
 Vector by_pressure(const std::vector<Covered> &all, const std::vector<PointRuns> &points) {
   std::vector<double> out;
@@ -214,6 +260,11 @@ inference::Effect inference_effect(const Effect &effect) {
 
 ExperimentData data_of(const Experiment &experiment, const BankTable &table,
                        const std::vector<std::string> &conditions) {
+  return data_of(experiment, table, conditions, table);
+}
+
+ExperimentData data_of(const Experiment &experiment, const BankTable &table,
+                       const std::vector<std::string> &conditions, const BankTable &full_cell) {
   ExperimentData data;
   const std::vector<PointRuns> points = points_of(table, data.not_said);
   const std::vector<Covered> all = covered_by(experiment, table.spec, conditions, data.not_said);
@@ -230,6 +281,7 @@ ExperimentData data_of(const Experiment &experiment, const BankTable &table,
   }
   std::vector<std::string> names;
   set_measured(all, by_pressure(all, points), data, names);
+  shift(transfer_of(experiment, full_cell, all, data.not_said), data);
   keep_known(data, names);
   return data;
 }

@@ -16,9 +16,14 @@ struct ExperimentData {
 
 /// The observables of the conditions named in `conditions` (all if it is empty). A run to a
 /// pressure between two of the bank's is interpolated; the pressure's uncertainty is common to all
-/// conditions of one press. Throws Failure(2) if nothing is left to compare.
+/// conditions of one press. Where the bank has runs on the full cell, all are shifted by what a
+/// film as thick as the sample's differs from the bank's. Throws Failure(2) if nothing is left to
+/// compare.
 ExperimentData data_of(const Experiment &experiment, const BankTable &table,
                        const std::vector<std::string> &conditions);
+/// With the runs on the full cell of another table, for runs in that table's cell.
+ExperimentData data_of(const Experiment &experiment, const BankTable &table,
+                       const std::vector<std::string> &conditions, const BankTable &full_cell);
 
 /// The effect's amplitude as a parameter of the inference.
 inference::Effect inference_effect(const Effect &effect);

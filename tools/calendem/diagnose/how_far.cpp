@@ -258,7 +258,7 @@ nlohmann::ordered_json rerun(const Experiment &experiment, const BankTable &tabl
   make_study(study, options.study);
   const BankTable runs =
       table_of(table, models, options.packings, finished_runs(study, options.study), pressures);
-  const ExperimentData data = data_of(experiment, runs, experiment.test);
+  const ExperimentData data = data_of(experiment, runs, experiment.test, table);
   const HeldOut held_out = held_out_of(data);
   std::vector<Matrix> simulated(models.size(), Matrix(held_out.measured.size(), options.packings));
   for (std::size_t k = 0; k < data.bank.runs.size(); ++k)
