@@ -16,9 +16,14 @@
 //   low = 100
 //   high = 300
 //   prior = "log-uniform"            # or "uniform"
+//   [[measurement]]                  # optional: what a further measurement costs
+//   name = "cracked_bodies"          # of usual_prices()
+//   hours = 8                        # of work for one sample
+//   sd = 0.05                        # of the result
 #ifndef CALENDEM_BANK_BANK_SPEC_H
 #define CALENDEM_BANK_BANK_SPEC_H
 
+#include "bank/measurement_price.h"
 #include "effects/effects.h"
 
 namespace calendem {
@@ -37,6 +42,7 @@ struct BankSpec {
   unsigned long seed = 1;
   std::vector<BankParameter> parameters;
   std::vector<std::string> effects;
+  std::vector<MeasurementPrice> prices = usual_prices();
 };
 
 /// Throws Failure(2) with every mistake of the file. Recipe and case are read when runs are made.

@@ -76,7 +76,7 @@ void run(Options o) {
   const ExperimentData data = data_of(experiment, table, {});
   inference::Settings settings;
   settings.model.packings_in_sample = o.cells > 0.0 ? o.cells : cells_of(experiment, table.spec);
-  const inference::Model model(data.bank, data.experiment, settings.model);
+  const inference::Model model(data.bank, data.experiment, settings.model, data.next);
   const inference::Diagnosis d =
       inference::diagnose(model, data.bank, data.experiment.values, settings);
   nlohmann::ordered_json j = nlohmann::ordered_json::parse(inference::to_json(d));

@@ -21,17 +21,30 @@ std::vector<BlockResidual> residuals_of(const Model &model, const Vector &values
   return list;
 }
 
+/// Of the parameter whose scores are this row of the posterior's draws.
+Recalibrated recalibrated(const Parameter &p, const std::string &effect, const Evidence &evidence,
+                          Eigen::Index row) {
+  std::vector<double> draws(evidence.draws.row(row).begin(), evidence.draws.row(row).end());
+  std::sort(draws.begin(), draws.end());
+  const auto at = [&](double share) {
+    return p.prior.value(draws[std::size_t(share * double(draws.size() - 1))]);
+  };
+  return {effect, p.name, p.prior.value(evidence.mode[row]), at(0.05), at(0.95)};
+}
+
 std::vector<Recalibrated> parameters_of(const std::vector<Parameter> &base, const Judged &best) {
   std::vector<Recalibrated> list;
-  for (Eigen::Index j = 0; j < Eigen::Index(base.size()); ++j) {
-    const Parameter &p = base[std::size_t(j)];
-    std::vector<double> draws(best.evidence.draws.row(j).begin(), best.evidence.draws.row(j).end());
-    std::sort(draws.begin(), draws.end());
-    const auto at = [&](double share) {
-      return p.prior.value(draws[std::size_t(share * double(draws.size() - 1))]);
-    };
-    list.push_back({p.name, p.prior.value(best.evidence.mode[j]), at(0.05), at(0.95)});
-  }
+  for (const Parameter &p : base)
+    list.push_back(recalibrated(p, "", best.evidence, Eigen::Index(list.size())));
+  return list;
+}
+
+std::vector<Recalibrated> amplitudes_of(const Problem &problem, const Judged &best) {
+  std::vector<Recalibrated> list;
+  for (const int e : best.hypothesis.on)
+    for (const Parameter &p : problem.effects[e].parameters)
+      list.push_back(recalibrated(p, problem.effects[e].name, best.evidence,
+                                  problem.base_parameters + Eigen::Index(list.size())));
   return list;
 }
 
@@ -53,6 +66,8 @@ Diagnosis diagnose(const Model &model, const Bank &bank, const Vector &values,
   d.confounding = confounding(problem, d.which, settings.confounding);
   d.next = next_measurements(d.which, model.extensions(values), settings.next);
   d.parameters = parameters_of(bank.base, d.which.judged.front());
+  d.amplitudes = amplitudes_of(problem, best_predicting(d.which));
+  d.predictions = predictions(model, problem, d.which, values);
   d.emulators = model.quality();
   d.degrees_of_freedom = model.scatter().degrees_of_freedom;
   d.shrinkage = model.scatter().shrinkage;
