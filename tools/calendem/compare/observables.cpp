@@ -140,7 +140,8 @@ void along_curve(const Experiment &e, const Condition &c, std::vector<Observable
     o.stage = "compression";
     o.unit = loading ? "" : "um";
     o.measured = displacement_at(pressure, displacement, at) / solid;
-    o.sd = loading ? o.measured * loading->sd / loading->value : 0.0;
+    o.sd = std::hypot(loading ? o.measured * loading->sd / loading->value : 0.0,
+                      c.curve_sd_um / solid);
     o.simulated = [of_run, at](const SimulatedRun &r) { return of_run(r, at); };
     o.slope = [of_run, at, relative, &c](const SimulatedRun &r) {
       return relative > 0.0 ? (of_run(r, 1.05 * at) - of_run(r, 0.95 * at)) / 0.1 * relative /

@@ -21,17 +21,31 @@ std::vector<BlockResidual> residuals_of(const Model &model, const Vector &values
   return list;
 }
 
+/// Mode and 90 % interval of one score's parameter.
+Recalibrated fitted(const Parameter &p, const Evidence &evidence, Eigen::Index score) {
+  std::vector<double> draws(evidence.draws.row(score).begin(), evidence.draws.row(score).end());
+  std::sort(draws.begin(), draws.end());
+  const auto at = [&](double share) {
+    return p.prior.value(draws[std::size_t(share * double(draws.size() - 1))]);
+  };
+  return {p.name, p.prior.value(evidence.mode[score]), at(0.05), at(0.95)};
+}
+
 std::vector<Recalibrated> parameters_of(const std::vector<Parameter> &base, const Judged &best) {
   std::vector<Recalibrated> list;
-  for (Eigen::Index j = 0; j < Eigen::Index(base.size()); ++j) {
-    const Parameter &p = base[std::size_t(j)];
-    std::vector<double> draws(best.evidence.draws.row(j).begin(), best.evidence.draws.row(j).end());
-    std::sort(draws.begin(), draws.end());
-    const auto at = [&](double share) {
-      return p.prior.value(draws[std::size_t(share * double(draws.size() - 1))]);
-    };
-    list.push_back({p.name, p.prior.value(best.evidence.mode[j]), at(0.05), at(0.95)});
-  }
+  for (Eigen::Index j = 0; j < Eigen::Index(base.size()); ++j)
+    list.push_back(fitted(base[std::size_t(j)], best.evidence, j));
+  return list;
+}
+
+std::vector<FittedEffect> effects_of(const Bank &bank, const Judged &best) {
+  std::vector<FittedEffect> list;
+  Eigen::Index score = Eigen::Index(bank.base.size());
+  for (const int which : best.hypothesis.on)
+    for (const Parameter &p : bank.effects[std::size_t(which)].parameters) {
+      const Recalibrated r = fitted(p, best.evidence, score++);
+      list.push_back({bank.effects[std::size_t(which)].name, p.name, r.mode, r.low90, r.high90});
+    }
   return list;
 }
 
@@ -53,6 +67,7 @@ Diagnosis diagnose(const Model &model, const Bank &bank, const Vector &values,
   d.confounding = confounding(problem, d.which, settings.confounding);
   d.next = next_measurements(d.which, model.extensions(values), settings.next);
   d.parameters = parameters_of(bank.base, d.which.judged.front());
+  d.effects = effects_of(bank, d.which.judged.front());
   d.emulators = model.quality();
   d.degrees_of_freedom = model.scatter().degrees_of_freedom;
   d.shrinkage = model.scatter().shrinkage;

@@ -30,6 +30,12 @@ struct Recalibrated {
   double mode = 0.0, low90 = 0.0, high90 = 0.0; ///< in its unit; under the most probable hypothesis
 };
 
+/// An amplitude or another parameter of an effect that the most probable hypothesis has.
+struct FittedEffect {
+  std::string effect, parameter;
+  double mode = 0.0, low90 = 0.0, high90 = 0.0; ///< in its unit
+};
+
 struct Diagnosis {
   Where where;
   std::vector<BlockResidual> residual; ///< by block
@@ -38,6 +44,7 @@ struct Diagnosis {
   Confounding confounding;
   std::vector<NextMeasurement> next;
   std::vector<Recalibrated> parameters;
+  std::vector<FittedEffect> effects;
   std::vector<EmulatorQuality> emulators;
   double degrees_of_freedom = 0.0, shrinkage = 0.0; ///< of the scatter between packings
 };

@@ -121,6 +121,13 @@ std::string to_json(const Diagnosis &d) {
   for (const Recalibrated &p : d.parameters)
     out["parameters"].push_back(
         {{"parameter", p.parameter}, {"mode", p.mode}, {"low90", p.low90}, {"high90", p.high90}});
+  out["fitted_effects"] = Json::array();
+  for (const FittedEffect &e : d.effects)
+    out["fitted_effects"].push_back({{"effect", e.effect},
+                                     {"parameter", e.parameter},
+                                     {"mode", e.mode},
+                                     {"low90", e.low90},
+                                     {"high90", e.high90}});
   out["emulators"] = emulators_of(d);
   out["scatter"] = {{"degrees_of_freedom", d.degrees_of_freedom}, {"shrinkage", d.shrinkage}};
   return out.dump(1) + "\n";
