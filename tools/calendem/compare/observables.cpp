@@ -114,12 +114,13 @@ void along_curve(const Experiment &e, const Condition &c, std::vector<Observable
   std::vector<double> pressure, displacement;
   read_curve(c.curve, pressure, displacement);
   const std::optional<Measured> loading = loading_of(e, c);
+  const double solid = loading ? solid_thickness_um(e, loading->value) : 1.0;
   if (!loading)
     not_said.push_back(without_loading(c, "displacements are"));
   for (Observable &o : points_of_curve(e, c, pressure.back())) {
-    o.measured = displacement_at(pressure, displacement, o.pressure) /
-                 (loading ? solid_thickness_um(e, loading->value) : 1.0);
-    o.sd = loading ? o.measured * loading->sd / loading->value : 0.0;
+    o.measured = displacement_at(pressure, displacement, o.pressure) / solid;
+    o.sd = std::hypot(loading ? o.measured * loading->sd / loading->value : 0.0,
+                      c.curve_sd_um / solid);
     out.push_back(o);
   }
 }

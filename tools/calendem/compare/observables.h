@@ -15,7 +15,7 @@ struct Observable {
   std::function<double(const SimulatedRun &)> simulated;
   /// Change of the simulated value per MPa of the condition's pressure, 0 where it does not matter.
   std::function<double(const SimulatedRun &)> slope;
-  std::string curve;       ///< of a point of a curve: the curve's name
+  std::string curve = {};  ///< of a point of a curve: the curve's name
   double coordinate = 0.0; ///< of a point: its place on the curve, 0-1
   double pressure = 0.0;   ///< of a point [MPa]
 };

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/verb.h"
-#include "diagnose/experiment_data.h"
-#include "inference/diagnosis.h"
+#include "diagnose/diagnose.h"
 #include "spec/output_folder.h"
 #include "spec/provenance.h"
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace calendem {
 namespace {
@@ -18,27 +15,6 @@ struct Options {
   std::vector<std::string> without;
   double cells = 0.0; // 0: from the sample's diameter
 };
-
-/// The table's spec without the effects that may not be named.
-BankSpec spec_of(const Options &o) {
-  BankSpec spec = read_bank_spec(o.bank);
-  for (const std::string &name : o.without) {
-    find_effect(name);
-    spec.effects.erase(std::remove(spec.effects.begin(), spec.effects.end(), name),
-                       spec.effects.end());
-  }
-  return spec;
-}
-
-BankTable table_of(const Options &o) {
-  BankTable table = read_bank_table(spec_of(o), o.table);
-  const auto excluded = [&](const BankRow &row) {
-    return std::find(o.without.begin(), o.without.end(), row.point.effect) != o.without.end();
-  };
-  table.rows.erase(std::remove_if(table.rows.begin(), table.rows.end(), excluded),
-                   table.rows.end());
-  return table;
-}
 
 void print(const inference::Diagnosis &d, const std::vector<std::string> &not_said) {
   fmt::print("claim: {}\n  {}\n", d.which.claim, d.which.why);
@@ -60,36 +36,21 @@ void print(const inference::Diagnosis &d, const std::vector<std::string> &not_sa
     fmt::print("- {}\n", text);
 }
 
-/// How many of the bank's cells the sample is as large as.
-double cells_of(const Experiment &e, const BankSpec &spec) {
-  if (!(e.sample_diameter_mm > 0.0))
-    throw Failure(kBadInput, "how large is the sample? Give sample_diameter_mm in the experiment "
-                             "file, or --cells, how many of the bank's cells it is as large as.");
-  return 1e8 * sample_area_cm2(e) / read_recipe(spec.recipe_file).area(); // um2 per cm2
-}
-
 void run(Options o) {
   if (o.table.empty())
     o.table = std::filesystem::path(o.bank).replace_extension("csv").string();
   const Experiment experiment = read_experiment(o.experiment);
-  const BankTable table = table_of(o);
-  const ExperimentData data = data_of(experiment, table, {});
-  inference::Settings settings;
-  settings.model.packings_in_sample = o.cells > 0.0 ? o.cells : cells_of(experiment, table.spec);
-  const inference::Model model(data.bank, data.experiment, settings.model, data.next);
-  const inference::Diagnosis d =
-      inference::diagnose(model, data.bank, data.experiment.values, settings);
-  nlohmann::ordered_json j = nlohmann::ordered_json::parse(inference::to_json(d));
-  j["experiment"] = experiment.name;
-  j["not_said"] = data.not_said;
-  j["provenance"] = {{"calendem", version()},
-                     {"hashes", "64-bit FNV-1a"},
-                     {"experiment_file", hash_of_file(o.experiment)},
-                     {"bank", hash_of_file(o.bank)},
-                     {"bank_table", hash_of_file(o.table)}};
+  const BankTable table =
+      without_effects(read_bank_table(read_bank_spec(o.bank), o.table), o.without);
+  SharedModels models;
+  Diagnosed d = diagnosed(experiment, table, o.cells, models);
+  nlohmann::ordered_json &provenance = d.gap["provenance"];
+  provenance["experiment_file"] = hash_of_file(o.experiment);
+  provenance["bank"] = hash_of_file(o.bank);
+  provenance["bank_table"] = hash_of_file(o.table);
   make_output_folder(o.folder);
-  write_file(o.folder + "/gap.json", j.dump(1) + "\n");
-  print(d, data.not_said);
+  write_file(o.folder + "/gap.json", d.gap.dump(1) + "\n");
+  print(d.diagnosis, d.data.not_said);
   fmt::print("data: {}/gap.json\n", o.folder);
 }
 

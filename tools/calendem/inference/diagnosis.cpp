@@ -21,30 +21,31 @@ std::vector<BlockResidual> residuals_of(const Model &model, const Vector &values
   return list;
 }
 
-/// Of the parameter whose scores are this row of the posterior's draws.
-Recalibrated recalibrated(const Parameter &p, const std::string &effect, const Evidence &evidence,
-                          Eigen::Index row) {
-  std::vector<double> draws(evidence.draws.row(row).begin(), evidence.draws.row(row).end());
+/// Mode and 90 % interval of one score's parameter.
+Recalibrated fitted(const Parameter &p, const Evidence &evidence, Eigen::Index score) {
+  std::vector<double> draws(evidence.draws.row(score).begin(), evidence.draws.row(score).end());
   std::sort(draws.begin(), draws.end());
   const auto at = [&](double share) {
     return p.prior.value(draws[std::size_t(share * double(draws.size() - 1))]);
   };
-  return {effect, p.name, p.prior.value(evidence.mode[row]), at(0.05), at(0.95)};
+  return {p.name, p.prior.value(evidence.mode[score]), at(0.05), at(0.95)};
 }
 
 std::vector<Recalibrated> parameters_of(const std::vector<Parameter> &base, const Judged &best) {
   std::vector<Recalibrated> list;
-  for (const Parameter &p : base)
-    list.push_back(recalibrated(p, "", best.evidence, Eigen::Index(list.size())));
+  for (Eigen::Index j = 0; j < Eigen::Index(base.size()); ++j)
+    list.push_back(fitted(base[std::size_t(j)], best.evidence, j));
   return list;
 }
 
-std::vector<Recalibrated> amplitudes_of(const Problem &problem, const Judged &best) {
-  std::vector<Recalibrated> list;
-  for (const int e : best.hypothesis.on)
-    for (const Parameter &p : problem.effects[e].parameters)
-      list.push_back(recalibrated(p, problem.effects[e].name, best.evidence,
-                                  problem.base_parameters + Eigen::Index(list.size())));
+std::vector<FittedEffect> effects_of(const Bank &bank, const Judged &best) {
+  std::vector<FittedEffect> list;
+  Eigen::Index score = Eigen::Index(bank.base.size());
+  for (const int which : best.hypothesis.on)
+    for (const Parameter &p : bank.effects[std::size_t(which)].parameters) {
+      const Recalibrated r = fitted(p, best.evidence, score++);
+      list.push_back({bank.effects[std::size_t(which)].name, p.name, r.mode, r.low90, r.high90});
+    }
   return list;
 }
 
@@ -66,7 +67,7 @@ Diagnosis diagnose(const Model &model, const Bank &bank, const Vector &values,
   d.confounding = confounding(problem, d.which, settings.confounding);
   d.next = next_measurements(d.which, model.extensions(values), settings.next);
   d.parameters = parameters_of(bank.base, d.which.judged.front());
-  d.amplitudes = amplitudes_of(problem, best_predicting(d.which));
+  d.effects = effects_of(bank, best_predicting(d.which));
   d.predictions = predictions(model, problem, d.which, values);
   d.emulators = model.quality();
   d.degrees_of_freedom = model.scatter().degrees_of_freedom;

@@ -27,8 +27,15 @@ struct BlockResidual {
 
 /// A parameter as the data leave it, in its unit.
 struct Recalibrated {
-  std::string effect, parameter; ///< effect: empty for a parameter of the base model
+  std::string parameter;
   double mode = 0.0, low90 = 0.0, high90 = 0.0;
+};
+
+/// An amplitude or another parameter of an effect that the most probable hypothesis with a
+/// prediction has.
+struct FittedEffect {
+  std::string effect, parameter;
+  double mode = 0.0, low90 = 0.0, high90 = 0.0; ///< in its unit
 };
 
 struct Diagnosis {
@@ -39,7 +46,7 @@ struct Diagnosis {
   Confounding confounding;
   std::vector<NextMeasurement> next;
   std::vector<Recalibrated> parameters; ///< of the base model, under the most probable hypothesis
-  std::vector<Recalibrated> amplitudes; ///< of the effects of the best that makes a prediction
+  std::vector<FittedEffect> effects;
   Predictions predictions;
   std::vector<EmulatorQuality> emulators;
   double degrees_of_freedom = 0.0, shrinkage = 0.0; ///< of the scatter between packings

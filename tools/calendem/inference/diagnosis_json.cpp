@@ -115,21 +115,6 @@ Json emulators_of(const Diagnosis &d) {
   return rows;
 }
 
-Json parameters_of(const std::vector<Recalibrated> &list) {
-  Json rows = Json::array();
-  for (const Recalibrated &p : list) {
-    Json row;
-    if (!p.effect.empty())
-      row["effect"] = p.effect;
-    row["parameter"] = p.parameter;
-    row["mode"] = p.mode;
-    row["low90"] = p.low90;
-    row["high90"] = p.high90;
-    rows.push_back(row);
-  }
-  return rows;
-}
-
 Json predictions_of(const Predictions &p) {
   Json rows = Json::array();
   for (std::size_t k = 0; k < p.of.size(); ++k) {
@@ -159,8 +144,16 @@ std::string to_json(const Diagnosis &d) {
                              {"scores", std::vector<double>(s.scores.begin(), s.scores.end())},
                              {"sd", std::vector<double>(s.sd.begin(), s.sd.end())}});
   out["confounding"] = confounding_of(d);
-  out["parameters"] = parameters_of(d.parameters);
-  out["amplitudes"] = parameters_of(d.amplitudes);
+  for (const Recalibrated &p : d.parameters)
+    out["parameters"].push_back(
+        {{"parameter", p.parameter}, {"mode", p.mode}, {"low90", p.low90}, {"high90", p.high90}});
+  out["fitted_effects"] = Json::array();
+  for (const FittedEffect &e : d.effects)
+    out["fitted_effects"].push_back({{"effect", e.effect},
+                                     {"parameter", e.parameter},
+                                     {"mode", e.mode},
+                                     {"low90", e.low90},
+                                     {"high90", e.high90}});
   out["predictions"] = predictions_of(d.predictions);
   out["emulators"] = emulators_of(d);
   out["scatter"] = {{"degrees_of_freedom", d.degrees_of_freedom}, {"shrinkage", d.shrinkage}};

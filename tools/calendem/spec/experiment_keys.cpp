@@ -8,7 +8,7 @@ const std::vector<Key> &head_keys() {
   static const std::vector<Key> keys = {
       {"name", "", "", 0, 0, "", "a name for reports", "", true},
       {"electrode", "", "", 0, 0, "", "recipe of the electrode before calendering", "", true},
-      {"sample_diameter_mm", "", "0", 1, 1000, "mm", "of the punched disc"},
+      {"sample_diameter_mm", "", "0", 1e-3, 1000, "mm", "of the punched disc"},
       {"foil_thickness_um", "", "0", 1, 100, "um", "of the current collector"},
       {"foil_density_g_cm3", "", "0", 0.5, 20, "g/cm3", "aluminium 2.70, copper 8.96"},
   };
@@ -24,6 +24,7 @@ const std::vector<Key> &condition_keys() {
       {"labels_before", "", "-", 0, 0, "", "label image before calendering", "", true},
       {"labels_after", "", "-", 0, 0, "", "label image after calendering", "", true},
       {"dwell_s", "", "0", 0, 1e6, "s", "time at the target"},
+      {"curve_sd_um", "", "0", 0, 100, "um", "of the curve's displacements, independent"},
   };
   return keys;
 }

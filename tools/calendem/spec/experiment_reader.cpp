@@ -95,6 +95,7 @@ private:
     c.labels_before = existing(*t, condition_keys()[3]);
     c.labels_after = existing(*t, condition_keys()[4]);
     c.dwell_s = number(*t, condition_keys()[5]);
+    c.curve_sd_um = number(*t, condition_keys()[6]);
     for (const Quantity &q : quantities())
       if (const toml::node *value = t->get(q.key.name))
         c.*(q.field) = measured(*value, q.key);

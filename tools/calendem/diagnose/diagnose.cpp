@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "diagnose/diagnose.h"
+#include "spec/messages.h"
+#include "spec/provenance.h"
+#include <algorithm>
+
+namespace calendem {
+namespace {
+
+template <typename Derived> void append(const Eigen::MatrixBase<Derived> &values, std::string &to) {
+  const typename Derived::PlainObject plain = values;
+  to.append(reinterpret_cast<const char *>(plain.data()), sizeof(double) * plain.size());
+}
+
+/// Bytes that are equal where a model would be.
+std::string layout_of(const ExperimentData &data, const inference::ModelSettings &settings) {
+  std::string out;
+  for (const inference::Observable &o : data.experiment.of)
+    out += key_of(o) + "\n";
+  append(data.experiment.covariance, out);
+  for (const inference::Effect &e : data.bank.effects)
+    out += e.name + "\n";
+  for (const inference::Run &run : data.bank.runs)
+    append(run.values, out);
+  append(inference::Vector::Constant(1, settings.packings_in_sample), out);
+  return out;
+}
+
+} // namespace
+
+BankTable without_effects(BankTable table, const std::vector<std::string> &names) {
+  const auto excluded = [&](const std::string &effect) {
+    return std::find(names.begin(), names.end(), effect) != names.end();
+  };
+  for (const std::string &name : names)
+    find_effect(name);
+  std::vector<std::string> &effects = table.spec.effects;
+  effects.erase(std::remove_if(effects.begin(), effects.end(), excluded), effects.end());
+  const auto of_excluded = [&](const BankRow &row) { return excluded(row.point.effect); };
+  table.rows.erase(std::remove_if(table.rows.begin(), table.rows.end(), of_excluded),
+                   table.rows.end());
+  return table;
+}
+
+double cells_of(const Experiment &e, const BankSpec &spec) {
+  if (!(e.sample_diameter_mm > 0.0))
+    throw Failure(kBadInput, "how large is the sample? Give sample_diameter_mm in the experiment "
+                             "file, or --cells, how many of the bank's cells it is as large as.");
+  return 1e8 * sample_area_cm2(e) / read_recipe(spec.recipe_file).area(); // um2 per cm2
+}
+
+std::shared_ptr<const inference::Model> SharedModels::of(const ExperimentData &data,
+                                                         const inference::ModelSettings &settings) {
+  const std::lock_guard<std::mutex> lock(guard_);
+  std::shared_ptr<const inference::Model> &model = models_[layout_of(data, settings)];
+  if (!model)
+    model = std::make_shared<inference::Model>(data.bank, data.experiment, settings, data.next);
+  return model;
+}
+
+Diagnosed diagnosed(const Experiment &experiment, const BankTable &table, double cells,
+                    SharedModels &models) {
+  Diagnosed out;
+  out.data = data_of(experiment, table, {});
+  inference::Settings settings;
+  settings.model.packings_in_sample = cells > 0.0 ? cells : cells_of(experiment, table.spec);
+  out.model = models.of(out.data, settings.model);
+  out.diagnosis =
+      inference::diagnose(*out.model, out.data.bank, out.data.experiment.values, settings);
+  out.gap = nlohmann::ordered_json::parse(inference::to_json(out.diagnosis));
+  out.gap["experiment"] = experiment.name;
+  out.gap["not_said"] = out.data.not_said;
+  out.gap["provenance"] = {{"calendem", version()}, {"hashes", "64-bit FNV-1a"}};
+  return out;
+}
+
+} // namespace calendem

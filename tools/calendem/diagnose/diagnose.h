@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The diagnosis of one experiment against a bank's table, as gap.json holds it.
+#ifndef CALENDEM_DIAGNOSE_DIAGNOSE_H
+#define CALENDEM_DIAGNOSE_DIAGNOSE_H
+
+#include "diagnose/experiment_data.h"
+#include "inference/diagnosis.h"
+#include <map>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+
+namespace calendem {
+
+/// The table without the effects that may not be named. Throws Failure(2) for names of no effect.
+BankTable without_effects(BankTable table, const std::vector<std::string> &names);
+
+/// How many of the bank's cells the sample is as large as. Throws Failure(2) if its size is not
+/// known.
+double cells_of(const Experiment &experiment, const BankSpec &bank);
+
+/// What was learnt from a bank depends on observables and their covariance, not on measured values:
+/// experiments of the same layout share it. May be used by several threads.
+class SharedModels {
+public:
+  std::shared_ptr<const inference::Model> of(const ExperimentData &data,
+                                             const inference::ModelSettings &settings);
+
+private:
+  std::mutex guard_;
+  std::map<std::string, std::shared_ptr<const inference::Model>> models_;
+};
+
+struct Diagnosed {
+  inference::Diagnosis diagnosis;
+  std::shared_ptr<const inference::Model> model;
+  ExperimentData data;
+  nlohmann::ordered_json gap; ///< gap.json without the hashes of files
+};
+
+/// `cells`: 0: from the sample's size. Throws Failure(2) if nothing can be compared.
+Diagnosed diagnosed(const Experiment &experiment, const BankTable &table, double cells,
+                    SharedModels &models);
+
+} // namespace calendem
+
+#endif
