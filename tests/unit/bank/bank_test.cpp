@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "bank/bank_table.h"
 #include "spec/messages.h"
+#include "spec/provenance.h"
 #include "support/test_folder.h"
 #include <cmath>
 #include <fstream>
@@ -65,6 +66,36 @@ TEST(Bank, EveryPointIsRunToEveryPressureWithTheEffectOnOrOff) {
     EXPECT_EQ(s.number("effects.pre_cracks.fraction"), p.effect.empty() ? 0.0 : p.value);
     EXPECT_EQ(study.runs[k].recipe.seed, static_cast<unsigned long>(p.packing));
   }
+}
+
+TEST(Bank, TheFullCellGetsTheFirstBasePointsInItsOwnRecipe) {
+  const std::string loading =
+      "[[parameter]]\nname = \"L\"\nkeys = [\"recipe.coating.loading_mg_cm2\"]\nlow = "
+      "5\nhigh = 7\n";
+  const std::string full =
+      "[full_cell]\nrecipe = \"full.toml\"\ncase = \"case.toml\"\npoints = 2\n";
+  const std::string file =
+      write_bank(kBank + "effects = [\"friction\"]\n" + kParameters + loading + full);
+  std::ofstream(std::filesystem::path(file).replace_filename("full.toml"))
+      << "[coating]\nloading_mg_cm2 = 15\n[cell]\nx_um = 14\ny_um = 14\n";
+  const BankSpec spec = read_bank_spec(file);
+  const std::vector<BankPoint> base = bank_points(spec), points = full_cell_points(spec);
+  ASSERT_EQ(points.size(), 2u);
+  const Study study = full_cell_study(spec, points);
+  ASSERT_EQ(study.runs.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(points[k / 2].effect, kFullCell);
+    EXPECT_EQ(points[k / 2].base, base[k / 2].base);
+    EXPECT_EQ(study.runs[k].recipe.loading, 15.0);
+    EXPECT_EQ(study.runs[k].recipe.cell_x, 14.0);
+    EXPECT_EQ(study.runs[k].settings.number("material.am.youngs_modulus_GPa"), base[k / 2].base[0]);
+  }
+  BankTable table = {spec, {}};
+  BankRow row = {points[1], {}};
+  row.run.target = 80.0;
+  table.rows.push_back(row);
+  write_file(file + ".csv", write_bank_table(table));
+  EXPECT_EQ(read_bank_table(spec, file + ".csv").rows[0].point.effect, kFullCell);
 }
 
 TEST(Bank, MistakesAreTold) {

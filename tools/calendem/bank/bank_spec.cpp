@@ -89,6 +89,29 @@ public:
                                 out.base_points));
   }
 
+  /// Changes the price that has this name.
+  void read_price(const toml::node &node, std::vector<MeasurementPrice> &prices) {
+    const toml::table *t = node.as_table();
+    if (!t)
+      return mistakes_.add(line_of(node), "write a measurement as a table: [[measurement]].");
+    tell_unknown(*t, {"name", "hours", "sd"});
+    std::string names;
+    for (const MeasurementPrice &p : prices)
+      names += (names.empty() ? "" : "|") + p.name;
+    const int before = mistakes_.count();
+    const std::string name = text(*t, {"name", "", "", 0, 0, "", "of the measurement", names});
+    for (MeasurementPrice &p : prices)
+      if (mistakes_.count() == before && p.name == name) {
+        p.hours = number(*t, {"hours", "", fmt::format("{}", p.hours), 0.01, 1e4, "h", "of work"});
+        if (t->contains("sd") && p.unit.empty())
+          mistakes_.add(
+              line_of(node),
+              fmt::format("'{}' takes no sd: the bank's table cannot foretell it.", name));
+        else if (t->contains("sd"))
+          p.sd = number(*t, {"sd", "", "", 1e-6, 1e3, p.unit, "of the result"});
+      }
+  }
+
 private:
   void read_effects(const toml::table &t, BankSpec &out) {
     out.effects = texts(t, "effects");
@@ -118,10 +141,14 @@ BankSpec read_bank_spec(const std::string &file) {
     else if (key.str() == "parameter" && node.is_array())
       for (const toml::node &parameter : *node.as_array())
         out.parameters.push_back(reader.read_parameter(parameter));
+    else if (key.str() == "measurement" && node.is_array())
+      for (const toml::node &measurement : *node.as_array())
+        reader.read_price(measurement, out.prices);
     else if (key.str() != "full_cell" || !node.is_table())
-      mistakes.add(line_of(node), fmt::format("unknown '{}'; a bank has tables [bank], [full_cell] "
-                                              "and [[parameter]].",
-                                              key.str()));
+      mistakes.add(line_of(node),
+                   fmt::format("unknown '{}'; a bank has tables [bank], [full_cell], "
+                               "[[parameter]] and [[measurement]].",
+                               key.str()));
   }
   if (const toml::table *full_cell = parsed.root["full_cell"].as_table())
     reader.read_full_cell(*full_cell, out); // after [bank]: its points are some of the bank's

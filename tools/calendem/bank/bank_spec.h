@@ -20,9 +20,14 @@
 //   recipe = "../demo/electrode.toml"
 //   case = "case.toml"
 //   points = 3                       # base points that are run on that cell too
+//   [[measurement]]                  # optional: what a further measurement costs
+//   name = "cracked_bodies"          # of usual_prices()
+//   hours = 8                        # of work for one sample
+//   sd = 0.05                        # of the result
 #ifndef CALENDEM_BANK_BANK_SPEC_H
 #define CALENDEM_BANK_BANK_SPEC_H
 
+#include "bank/measurement_price.h"
 #include "effects/effects.h"
 
 namespace calendem {
@@ -48,6 +53,7 @@ struct BankSpec {
   std::vector<BankParameter> parameters;
   std::vector<std::string> effects;
   FullCell full_cell;
+  std::vector<MeasurementPrice> prices = usual_prices();
 };
 
 /// Throws Failure(2) with every mistake of the file. Recipe and case are read when runs are made.

@@ -15,13 +15,6 @@ constexpr double kCurveShares[] = {0.1, 0.25, 0.5, 0.75}; // of the maximum pres
 
 double none(const SimulatedRun &) { return 0.0; }
 
-/// Loading of the sample [mg/cm2], by its mass if that is given.
-std::optional<Measured> loading_of(const Experiment &e, const Condition &c) {
-  if (c.mass_mg)
-    return Measured{coating_loading_mg_cm2(e, *c.mass_mg), c.mass_mg->sd / sample_area_cm2(e)};
-  return c.loading_mg_cm2;
-}
-
 /// h/h_solid: free of the samples' different loadings. `of`: the run's thickness.
 Observable thickness_ratio(const Experiment &e, const Measured &thickness, const Measured &loading,
                            const char *stage, double SimulatedRun::*of) {
@@ -124,30 +117,10 @@ void along_curve(const Experiment &e, const Condition &c, std::vector<Observable
   const double solid = loading ? solid_thickness_um(e, loading->value) : 1.0;
   if (!loading)
     not_said.push_back(without_loading(c, "displacements are"));
-  // a calibration error is a share of each pressure, not of the largest
-  const double relative =
-      c.max_pressure_MPa ? c.max_pressure_MPa->sd / c.max_pressure_MPa->value : 0.0;
-  for (const double share : kCurveShares) {
-    const double at = share * pressure.back();
-    const bool over_solid = loading.has_value();
-    const auto of_run = [over_solid](const SimulatedRun &r, double p) {
-      return displacement_at(r.pressure, r.displacement, p) / (over_solid ? r.solid_column : 1.0);
-    };
-    Observable o;
-    o.curve = loading ? "displacement over solid thickness" : "displacement";
-    o.coordinate = share;
-    o.name = fmt::format("{} at {:.0f} MPa", o.curve, at);
-    o.stage = "compression";
-    o.unit = loading ? "" : "um";
-    o.measured = displacement_at(pressure, displacement, at) / solid;
+  for (Observable &o : points_of_curve(e, c, pressure.back())) {
+    o.measured = displacement_at(pressure, displacement, o.pressure) / solid;
     o.sd = std::hypot(loading ? o.measured * loading->sd / loading->value : 0.0,
                       c.curve_sd_um / solid);
-    o.simulated = [of_run, at](const SimulatedRun &r) { return of_run(r, at); };
-    o.slope = [of_run, at, relative, &c](const SimulatedRun &r) {
-      return relative > 0.0 ? (of_run(r, 1.05 * at) - of_run(r, 0.95 * at)) / 0.1 * relative /
-                                  c.max_pressure_MPa->sd
-                            : 0.0;
-    };
     out.push_back(o);
   }
 }
@@ -155,6 +128,41 @@ void along_curve(const Experiment &e, const Condition &c, std::vector<Observable
 bool near(double a, double b) { return std::fabs(a - b) <= kSameTarget * std::fabs(b); }
 
 } // namespace
+
+std::optional<Measured> loading_of(const Experiment &e, const Condition &c) {
+  if (c.mass_mg)
+    return Measured{coating_loading_mg_cm2(e, *c.mass_mg), c.mass_mg->sd / sample_area_cm2(e)};
+  return c.loading_mg_cm2;
+}
+
+std::vector<Observable> points_of_curve(const Experiment &e, const Condition &c, double largest) {
+  const std::optional<Measured> loading = loading_of(e, c);
+  const bool over_solid = loading.has_value();
+  const auto of_run = [over_solid](const SimulatedRun &r, double p) {
+    return displacement_at(r.pressure, r.displacement, p) / (over_solid ? r.solid_column : 1.0);
+  };
+  // a calibration error is a share of each pressure, not of the largest
+  const double sd = c.max_pressure_MPa ? c.max_pressure_MPa->sd : 0.0;
+  const double relative = sd > 0.0 ? sd / c.max_pressure_MPa->value : 0.0;
+  std::vector<Observable> out;
+  for (const double share : kCurveShares) {
+    const double at = share * largest;
+    Observable o;
+    o.curve = over_solid ? "displacement over solid thickness" : "displacement";
+    o.coordinate = share;
+    o.pressure = at;
+    o.name = fmt::format("{} at {:.0f} MPa", o.curve, at);
+    o.stage = "compression";
+    o.unit = over_solid ? "" : "um";
+    o.simulated = [of_run, at](const SimulatedRun &r) { return of_run(r, at); };
+    o.slope = [of_run, at, relative, sd](const SimulatedRun &r) {
+      return relative > 0.0 ? (of_run(r, 1.05 * at) - of_run(r, 0.95 * at)) / 0.1 * relative / sd
+                            : 0.0;
+    };
+    out.push_back(o);
+  }
+  return out;
+}
 
 std::vector<Observable> observables_of(const Experiment &e, const Condition &c,
                                        std::vector<std::string> &not_said) {

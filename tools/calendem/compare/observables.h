@@ -15,13 +15,21 @@ struct Observable {
   std::function<double(const SimulatedRun &)> simulated;
   /// Change of the simulated value per MPa of the condition's pressure, 0 where it does not matter.
   std::function<double(const SimulatedRun &)> slope;
-  std::string curve;       ///< of a point of a curve: the curve's name
+  std::string curve = {};  ///< of a point of a curve: the curve's name
   double coordinate = 0.0; ///< of a point: its place on the curve, 0-1
+  double pressure = 0.0;   ///< of a point [MPa]
 };
 
 /// All of one condition. What a value needs and lacks is told in `not_said`.
 std::vector<Observable> observables_of(const Experiment &experiment, const Condition &condition,
                                        std::vector<std::string> &not_said);
+
+/// Of the sample [mg/cm2], by its mass if that is given.
+std::optional<Measured> loading_of(const Experiment &experiment, const Condition &condition);
+
+/// The points at which a curve of loading to `largest` MPa is compared, without measured values.
+std::vector<Observable> points_of_curve(const Experiment &experiment, const Condition &condition,
+                                        double largest);
 
 /// True if the run's platen did what the condition says, within 2 %.
 bool belongs(const SimulatedRun &run, const Condition &condition);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compare/gap.h"
+#include "compare/heat_map.h"
 #include "report/embedded.h"
 #include "report/page_template.h"
 #include "spec/provenance.h"
-#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <map>
 
 namespace calendem {
 extern const char *const kGapHtml;
@@ -14,56 +13,6 @@ namespace {
 
 nlohmann::json number_or_null(double x) {
   return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json();
-}
-
-std::string shown(const nlohmann::json &j, const char *format) {
-  return j.is_number() ? fmt::format(fmt::runtime(format), j.get<double>()) : "–";
-}
-
-/// A square of the map: how far, and which way; never by colour alone.
-std::string colour_of(double z, double threshold) {
-  if (std::fabs(z) <= threshold)
-    return "#eef1f4";
-  const bool strong = std::fabs(z) > 2.0 * threshold;
-  return z > 0.0 ? (strong ? "#e58a6f" : "#f5c9b8") : (strong ? "#6ea6d8" : "#bcd9f2");
-}
-
-/// Observable × condition, the answer to "where" at a glance.
-nlohmann::json heat_map(const nlohmann::json &gap) {
-  std::vector<std::string> conditions, observables;
-  std::map<std::pair<std::string, std::string>, nlohmann::json> cells;
-  const auto add = [](std::vector<std::string> &list, const std::string &name) {
-    if (std::find(list.begin(), list.end(), name) == list.end())
-      list.push_back(name);
-  };
-  for (const auto &row : gap["where"]) {
-    const std::string o = fmt::format("{}: {}", row["stage"].get<std::string>(),
-                                      row["observable"].get<std::string>());
-    add(observables, o);
-    add(conditions, row["condition"]);
-    cells[{o, row["condition"]}] = row;
-  }
-  std::sort(conditions.begin(), conditions.end());
-  nlohmann::json out = {{"conditions", conditions}, {"rows", nlohmann::json::array()}};
-  for (const std::string &o : observables) {
-    nlohmann::json row = {{"observable", o}, {"cells", nlohmann::json::array()}};
-    for (const std::string &c : conditions) {
-      const auto hit = cells.find({o, c});
-      if (hit == cells.end()) {
-        row["cells"].push_back({{"text", "–"}, {"colour", "#ffffff"}});
-        continue;
-      }
-      const nlohmann::json &r = hit->second;
-      const double z = r["z"].is_number() ? r["z"].get<double>() : INFINITY;
-      row["cells"].push_back(
-          {{"text", fmt::format("{}{} (z {})", shown(r["residual"], "{:+.3g}"),
-                                r["unit"] == "" ? "" : " " + r["unit"].get<std::string>(),
-                                shown(r["z"], "{:+.1f}"))},
-           {"colour", colour_of(z, gap["threshold_z"])}});
-    }
-    out["rows"].push_back(row);
-  }
-  return out;
 }
 
 nlohmann::json table(const nlohmann::json &gap) {
@@ -121,12 +70,12 @@ std::string gap_page(const nlohmann::json &gap) {
   nlohmann::json values = gap;
   values["css"] = report::embedded::kPageCss;
   values["table"] = table(gap);
-  values["map"] = heat_map(gap);
+  values["map"] = heat_map(gap["where"], gap["threshold_z"]);
   values["threshold_text"] = shown(gap["threshold_z"], "{:.2f}");
   values["chi2_text"] = shown(gap["chi2"], "{:.1f}");
   values["p_text"] = shown(gap["p_value"], "{:.2g}");
   values["rows_text"] = fmt::format("{}", gap["where"].size());
-  values["json"] = gap.dump();
+  values["json"] = report::in_script(gap.dump());
   return report::fill_template(kGapHtml, values);
 }
 

@@ -54,7 +54,7 @@ std::shared_ptr<const inference::Model> SharedModels::of(const ExperimentData &d
   const std::lock_guard<std::mutex> lock(guard_);
   std::shared_ptr<const inference::Model> &model = models_[layout_of(data, settings)];
   if (!model)
-    model = std::make_shared<inference::Model>(data.bank, data.experiment, settings);
+    model = std::make_shared<inference::Model>(data.bank, data.experiment, settings, data.next);
   return model;
 }
 

@@ -4,14 +4,22 @@
 #define CALENDEM_DIAGNOSE_EXPERIMENT_DATA_H
 
 #include "bank/bank_table.h"
-#include "inference/bank.h"
+#include "inference/model.h"
 
 namespace calendem {
 
+/// How a number is told.
+struct Told {
+  std::string name, unit; ///< of a point of a curve: "displacement at 40 MPa"
+  double pressure = 0.0;  ///< MPa: the point's, or the condition's largest
+};
+
 struct ExperimentData {
-  inference::Bank bank; ///< what each run of the table would show of the experiment
+  inference::Bank bank; ///< what each run of the table would show of the experiment, and of `next`
   inference::ObservableVector experiment;
-  std::vector<std::string> not_said; ///< what is left out or assumed, and why
+  std::vector<Told> told;                 ///< of the experiment's numbers
+  std::vector<inference::Candidate> next; ///< measurements to come that the bank can foretell
+  std::vector<std::string> not_said;      ///< what is left out or assumed, and why
 };
 
 /// The observables of the conditions named in `conditions` (all if it is empty). A run to a

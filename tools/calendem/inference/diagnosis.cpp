@@ -67,7 +67,8 @@ Diagnosis diagnose(const Model &model, const Bank &bank, const Vector &values,
   d.confounding = confounding(problem, d.which, settings.confounding);
   d.next = next_measurements(d.which, model.extensions(values), settings.next);
   d.parameters = parameters_of(bank.base, d.which.judged.front());
-  d.effects = effects_of(bank, d.which.judged.front());
+  d.effects = effects_of(bank, best_predicting(d.which));
+  d.predictions = predictions(model, problem, d.which, values);
   d.emulators = model.quality();
   d.degrees_of_freedom = model.scatter().degrees_of_freedom;
   d.shrinkage = model.scatter().shrinkage;

@@ -5,6 +5,7 @@
 
 #include "inference/confounding.h"
 #include "inference/model.h"
+#include "inference/predictions.h"
 #include "inference/where.h"
 
 namespace calendem::inference {
@@ -24,13 +25,14 @@ struct BlockResidual {
   double worst_coordinate = 0.0;   ///< where |residual| / sd is largest
 };
 
-/// A base parameter before and after.
+/// A parameter as the data leave it, in its unit.
 struct Recalibrated {
   std::string parameter;
-  double mode = 0.0, low90 = 0.0, high90 = 0.0; ///< in its unit; under the most probable hypothesis
+  double mode = 0.0, low90 = 0.0, high90 = 0.0;
 };
 
-/// An amplitude or another parameter of an effect that the most probable hypothesis has.
+/// An amplitude or another parameter of an effect that the most probable hypothesis with a
+/// prediction has.
 struct FittedEffect {
   std::string effect, parameter;
   double mode = 0.0, low90 = 0.0, high90 = 0.0; ///< in its unit
@@ -43,8 +45,9 @@ struct Diagnosis {
   Which which;
   Confounding confounding;
   std::vector<NextMeasurement> next;
-  std::vector<Recalibrated> parameters;
+  std::vector<Recalibrated> parameters; ///< of the base model, under the most probable hypothesis
   std::vector<FittedEffect> effects;
+  Predictions predictions;
   std::vector<EmulatorQuality> emulators;
   double degrees_of_freedom = 0.0, shrinkage = 0.0; ///< of the scatter between packings
 };

@@ -33,7 +33,8 @@ Json evidence_of(const Judged &j) {
           {"log_evidence_laplace", j.evidence.laplace},
           {"samples", j.evidence.samples},
           {"effective_samples", j.evidence.effective_samples},
-          {"adequacy_p", j.adequacy_p}};
+          {"adequacy_p", j.adequacy_p},
+          {"place", j.place}};
 }
 
 Json which_of(const Diagnosis &d) {
@@ -82,14 +83,21 @@ Json confounding_of(const Diagnosis &d) {
   return out;
 }
 
+std::string name_of(const Block &b) { return b.name + ", " + b.stage + ", " + b.condition; }
+
 Json conflicts_of(const Diagnosis &d) {
-  const auto name = [&](int b) {
-    return d.blocks[b].name + ", " + d.blocks[b].stage + ", " + d.blocks[b].condition;
-  };
   Json rows = Json::array();
   for (const Conflict &c : d.where.conflicts)
-    rows.push_back({{"one", name(c.one)}, {"other", name(c.other)}, {"p", c.p}});
+    rows.push_back(
+        {{"one", name_of(d.blocks[c.one])}, {"other", name_of(d.blocks[c.other])}, {"p", c.p}});
   return rows;
+}
+
+Json conflict_matrix_of(const Diagnosis &d) {
+  Json names = Json::array();
+  for (const Block &b : d.blocks)
+    names.push_back(name_of(b));
+  return {{"blocks", names}, {"p", matrix(d.where.conflict)}};
 }
 
 Json emulators_of(const Diagnosis &d) {
@@ -107,12 +115,30 @@ Json emulators_of(const Diagnosis &d) {
   return rows;
 }
 
+Json predictions_of(const Predictions &p) {
+  Json rows = Json::array();
+  for (std::size_t k = 0; k < p.of.size(); ++k) {
+    const auto i = Eigen::Index(k);
+    rows.push_back({{"observable", p.of[k].name},
+                    {"stage", p.of[k].stage},
+                    {"condition", p.of[k].condition},
+                    {"coordinate", p.of[k].coordinate},
+                    {"measured", p.measured[i]},
+                    {"sd_measurement", p.sd_measurement[i]},
+                    {"sd", p.sd[i]},
+                    {"base", p.base[i]},
+                    {"best", p.after[i]}});
+  }
+  return {{"best", p.best}, {"observables", rows}};
+}
+
 } // namespace
 
 std::string to_json(const Diagnosis &d) {
   Json out = {{"where", where_of(d)}, {"which", which_of(d)}};
   out["threshold"] = d.where.threshold;
   out["conflicts"] = conflicts_of(d);
+  out["conflict_matrix"] = conflict_matrix_of(d);
   for (const StageFit &s : d.where.stages)
     out["stages"].push_back({{"stage", s.stage},
                              {"scores", std::vector<double>(s.scores.begin(), s.scores.end())},
@@ -128,6 +154,7 @@ std::string to_json(const Diagnosis &d) {
                                      {"mode", e.mode},
                                      {"low90", e.low90},
                                      {"high90", e.high90}});
+  out["predictions"] = predictions_of(d.predictions);
   out["emulators"] = emulators_of(d);
   out["scatter"] = {{"degrees_of_freedom", d.degrees_of_freedom}, {"shrinkage", d.shrinkage}};
   return out.dump(1) + "\n";

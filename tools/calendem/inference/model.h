@@ -56,6 +56,7 @@ public:
   const Scatter &scatter() const { return scatter_; }
   const std::vector<Observable> &observables() const { return observables_; }
   const Vector &sd() const { return sd_; } ///< of the observables: measurement and packings
+  const Matrix &measurement() const { return measurement_; } ///< covariance of the observables
 
 private:
   struct Extra {

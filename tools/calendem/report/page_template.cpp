@@ -125,4 +125,10 @@ std::string fill_template(const std::string &text, const json &values) {
   return out;
 }
 
+std::string in_script(std::string json) {
+  for (auto at = json.find('<'); at != std::string::npos; at = json.find('<', at))
+    json.replace(at, 1, "\\u003c"); // JSON has it in strings only
+  return json;
+}
+
 } // namespace calendem::report

@@ -18,6 +18,9 @@ namespace calendem::report {
 /// user).
 std::string fill_template(const std::string &text, const nlohmann::json &values);
 
+/// JSON text that may stand in a <script>: no string of it can open or close an element.
+std::string in_script(std::string json);
+
 } // namespace calendem::report
 
 #endif

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "diagnose/full_cell.h"
+#include "support/test_folder.h"
+#include <fstream>
+
+namespace {
+
+using namespace calendem;
+
+/// A bank of 6 mg/cm2 and two points on a cell of 18 mg/cm2, whose porosities are 0.04 and 0.06
+/// lower.
+struct Films {
+  BankTable bank;
+  Experiment experiment;
+  std::vector<Covered> covered;
+
+  explicit Films(double loading) {
+    const auto folder = calendem_test::test_folder();
+    const auto recipe = [&](const char *name, double mg_cm2) {
+      std::ofstream(folder / name)
+          << "[coating]\nloading_mg_cm2 = " << mg_cm2 << "\n[cell]\nx_um = 12\ny_um = 12\n";
+      return (folder / name).string();
+    };
+    bank.spec.recipe_file = recipe("thin.toml", 6.0);
+    bank.spec.full_cell = {recipe("full.toml", 18.0), "", 2};
+    bank.spec.pressures = {150.0};
+    experiment.recipe = read_recipe(recipe("sample.toml", loading));
+    for (const auto &[point, effect, porosity] :
+         {std::tuple(0, "", 0.36), std::tuple(1, "", 0.38), std::tuple(0, kFullCell, 0.32),
+          std::tuple(1, kFullCell, 0.32)}) {
+      BankRow row;
+      row.point.base_point = point;
+      row.point.effect = effect;
+      row.run.target = 150.0;
+      row.run.porosity_after = porosity;
+      bank.rows.push_back(row);
+    }
+    Observable o;
+    o.simulated = [](const SimulatedRun &r) { return r.porosity_after; };
+    covered = {{Condition{}, 150.0, {o}}};
+  }
+};
+
+TEST(FullCell, AFilmOfItsLoadingIsShiftedByTheMeanDifference) {
+  std::vector<std::string> told;
+  const Films f(18.0);
+  const Transfer t = transfer_of(f.experiment, f.bank, f.covered, told);
+  ASSERT_EQ(t.change.size(), 1);
+  EXPECT_NEAR(t.change[0], -0.05, 1e-15);
+  // variance of -0.04 and -0.06 is 2e-4; that of a third about their mean 1.5 times as large
+  EXPECT_NEAR(t.covariance(0, 0), 3e-4, 1e-15);
+  EXPECT_EQ(told.size(), 1u);
+}
+
+TEST(FullCell, TheShiftGoesWithOneOverLoading) {
+  std::vector<std::string> told;
+  const Films own(6.0), between(9.0); // 1/6, 1/9 and 1/18: half way
+  EXPECT_EQ(transfer_of(own.experiment, own.bank, own.covered, told).change[0], 0.0);
+  const Transfer t = transfer_of(between.experiment, between.bank, between.covered, told);
+  EXPECT_NEAR(t.change[0], -0.025, 1e-15);
+  EXPECT_NEAR(t.covariance(0, 0), 0.25 * 3e-4, 1e-15);
+}
+
+TEST(FullCell, OnePointIsTooFew) {
+  std::vector<std::string> told;
+  Films f(18.0);
+  f.bank.rows.pop_back();
+  EXPECT_EQ(transfer_of(f.experiment, f.bank, f.covered, told).change.size(), 0);
+}
+
+} // namespace

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "diagnose/covered.h"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace calendem {
+namespace {
+
+constexpr double kSamePressure = 0.02; // of it
+
+bool near(double a, double b) { return std::fabs(a - b) <= kSamePressure * b; }
+
+/// Mean over the base model's runs to the bank's pressure next to this one.
+double usual(const BankTable &table, double pressure,
+             const std::function<double(const SimulatedRun &)> &value) {
+  double sum = 0.0, n = 0.0, apart = INFINITY;
+  for (const BankRow &row : table.rows)
+    if (row.point.effect.empty())
+      apart = std::min(apart, std::fabs(row.run.target - pressure));
+  for (const BankRow &row : table.rows)
+    if (row.point.effect.empty() && std::fabs(row.run.target - pressure) <= apart) {
+      sum += value(row.run);
+      n += 1.0;
+    }
+  return sum / n;
+}
+
+const MeasurementPrice &price_of(const BankSpec &spec, const std::string &name) {
+  return *std::find_if(spec.prices.begin(), spec.prices.end(),
+                       [&](const MeasurementPrice &p) { return p.name == name; });
+}
+
+/// What only is measured on it: the sample's loading and its pressure stay.
+Condition bare(const Condition &c) {
+  Condition out;
+  out.id = c.id;
+  out.control = c.control;
+  out.max_pressure_MPa = c.max_pressure_MPa;
+  out.loading_mg_cm2 = c.loading_mg_cm2;
+  out.mass_mg = c.mass_mg;
+  return out;
+}
+
+/// The measurements of one kind: on each condition that lacks it.
+class Kind {
+public:
+  Kind(const Experiment &e, const BankTable &table, const std::string &name)
+      : experiment_(e), table_(table), price_(price_of(table.spec, name)) {
+    out_.what = price_.what;
+  }
+  void add(const Condition &c, const std::vector<Observable> &observables) {
+    out_.of.push_back({c, c.max_pressure_MPa->value, observables});
+    out_.what += (out_.of.size() == 1 ? ": " : ", ") + c.id;
+    out_.hours += price_.hours;
+  }
+  void add(const Condition &c) {
+    std::vector<std::string> not_said;
+    add(c, observables_of(experiment_, c, not_said));
+  }
+  /// Measured to the price's deviation at what the bank usually gives.
+  Measured expected(const Condition &c,
+                    const std::function<double(const SimulatedRun &)> &value) const {
+    return {usual(table_, c.max_pressure_MPa->value, value), price_.sd};
+  }
+  double sd() const { return price_.sd; }
+  void finish(std::vector<Further> &list) const {
+    if (!out_.of.empty())
+      list.push_back(out_);
+  }
+
+private:
+  const Experiment &experiment_;
+  const BankTable &table_;
+  const MeasurementPrice &price_;
+  Further out_;
+};
+
+void add_porosity(Kind &kind, Condition c) {
+  c.porosity_after_percent =
+      kind.expected(c, [](const SimulatedRun &r) { return 100.0 * r.porosity_after; });
+  kind.add(c);
+}
+
+void add_thickness(Kind &kind, const Experiment &e, Condition c) {
+  if (const auto loading = loading_of(e, c)) {
+    c.thickness_at_max_um =
+        kind.expected(c, [](const SimulatedRun &r) { return r.thickness_at_max / r.solid_column; });
+    c.thickness_at_max_um->value *= solid_thickness_um(e, loading->value);
+  } else {
+    c.thickness_at_max_um =
+        kind.expected(c, [](const SimulatedRun &r) { return r.thickness_at_max; });
+  }
+  kind.add(c);
+}
+
+void add_curve(Kind &kind, const Experiment &e, const Condition &c) {
+  const auto loading = loading_of(e, c);
+  const double solid = loading ? solid_thickness_um(e, loading->value) : 1.0;
+  std::vector<Observable> points = points_of_curve(e, c, c.max_pressure_MPa->value);
+  for (Observable &o : points)
+    o.sd = std::hypot(kind.sd() / solid,
+                      loading ? kind.expected(c, o.simulated).value * loading->sd / loading->value
+                              : 0.0);
+  kind.add(c, points);
+}
+
+/// A condition at a pressure of the bank, read as well as those of the experiment.
+Condition at_pressure(double pressure, const std::vector<Covered> &covered) {
+  double relative = 0.0;
+  for (const Covered &c : covered)
+    relative += c.condition.max_pressure_MPa->sd / c.pressure / double(covered.size());
+  Condition out;
+  out.id = fmt::format("{:g} MPa", pressure);
+  out.control = "pressure";
+  out.max_pressure_MPa = Measured{pressure, relative * pressure};
+  return out;
+}
+
+} // namespace
+
+std::vector<Covered> covered_by(const Experiment &e, const BankSpec &spec,
+                                const std::vector<std::string> &wanted,
+                                std::vector<std::string> &not_said) {
+  std::vector<Covered> out;
+  for (const Condition &c : e.conditions) {
+    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), c.id) == wanted.end())
+      continue;
+    if (c.control != "pressure" || !c.max_pressure_MPa) {
+      not_said.push_back(fmt::format("{}: control = \"{}\" is not in the bank, whose runs go to a "
+                                     "pressure; the condition is left out.",
+                                     c.id, c.control));
+      continue;
+    }
+    const double p = c.max_pressure_MPa->value;
+    if (p < 0.98 * spec.pressures.front() || p > 1.02 * spec.pressures.back()) {
+      not_said.push_back(fmt::format("{}: {:g} MPa lies outside the bank's {:g} to {:g} MPa; the "
+                                     "condition is left out.",
+                                     c.id, p, spec.pressures.front(), spec.pressures.back()));
+      continue;
+    }
+    if (c.dwell_s > 0.0)
+      not_said.push_back(fmt::format("{}: the bank's runs do not dwell; its {:g} s at the target "
+                                     "are left out.",
+                                     c.id, c.dwell_s));
+    if (!c.labels_before.empty() || !c.labels_after.empty())
+      not_said.push_back(fmt::format("{}: label images are not looked at here; calendem measure "
+                                     "measures them.",
+                                     c.id));
+    out.push_back({c, p, observables_of(e, c, not_said)});
+  }
+  return out;
+}
+
+std::vector<Further> further_measurements(const Experiment &e, const BankTable &table,
+                                          const std::vector<Covered> &covered) {
+  Kind porosity(e, table, "porosity_after"), thickness(e, table, "thickness_at_max"),
+      cracked(e, table, "cracked_bodies"), curve(e, table, "loading_curve");
+  for (const Covered &c : covered) {
+    const Condition without = bare(c.condition);
+    if (!c.condition.porosity_after_percent && !c.condition.thickness_after_um)
+      add_porosity(porosity, without);
+    if (!c.condition.thickness_at_max_um)
+      add_thickness(thickness, e, without);
+    if (!c.condition.cracked_bodies_fraction) {
+      Condition counted = without;
+      counted.cracked_bodies_fraction =
+          cracked.expected(without, [](const SimulatedRun &r) { return r.cracked_fraction; });
+      cracked.add(counted);
+    }
+    if (c.condition.curve.empty())
+      add_curve(curve, e, without);
+  }
+  std::vector<Further> list;
+  for (const Kind *kind : {&porosity, &thickness, &cracked, &curve})
+    kind->finish(list);
+  for (const double p : table.spec.pressures) {
+    Kind other(e, table, "porosity_after");
+    if (std::none_of(covered.begin(), covered.end(),
+                     [&](const Covered &c) { return near(c.pressure, p); }))
+      add_porosity(other, at_pressure(p, covered));
+    other.finish(list);
+  }
+  return list;
+}
+
+} // namespace calendem
