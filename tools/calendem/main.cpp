@@ -15,6 +15,7 @@
 #include "study/verb.h"
 #include "tomogram/verb.h"
 #include "validate/verb.h"
+#include "withheld/verb.h"
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
@@ -32,6 +33,7 @@ int main(int argc, char **argv) {
   calendem::add_study_verb(app);
   calendem::add_bank_verb(app);
   calendem::add_diagnose_verb(app);
+  calendem::add_withheld_verb(app);
   calendem::add_effects_verb(app);
   calendem::add_tomogram_verb(app);
   calendem::add_validate_verb(app);

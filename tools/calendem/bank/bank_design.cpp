@@ -9,13 +9,6 @@
 namespace calendem {
 namespace {
 
-/// `share` (0-1) of the way from low to high; four digits, so that tables and files agree.
-double between(double low, double high, Spread spread, double share) {
-  const double v =
-      spread == Spread::LogUniform ? low * std::pow(high / low, share) : low + share * (high - low);
-  return std::stod(fmt::format("{:.4g}", v));
-}
-
 std::vector<std::string> columns_of(const BankSpec &spec) {
   std::vector<std::string> columns = {"recipe.seed"};
   for (const BankParameter &p : spec.parameters)
@@ -54,6 +47,12 @@ Study filled(Study study, const std::vector<std::vector<std::string>> &rows) {
 
 const char *const kFullCell = "full_cell";
 
+double prior_value(double low, double high, Spread spread, double share) {
+  const double v =
+      spread == Spread::LogUniform ? low * std::pow(high / low, share) : low + share * (high - low);
+  return std::stod(fmt::format("{:.4g}", v));
+}
+
 std::vector<BankPoint> bank_points(const BankSpec &spec) {
   std::vector<BankPoint> out;
   const auto shares =
@@ -73,8 +72,8 @@ std::vector<BankPoint> bank_points(const BankSpec &spec) {
     for (int k = 0; k < spec.effect_points && !effect.instrument; ++k) {
       BankPoint p = out[std::size_t(k)];
       p.effect = effect.name;
-      p.value = between(effect.parameter.low, effect.parameter.high, effect.parameter.spread,
-                        amplitudes(0, k));
+      p.value = prior_value(effect.parameter.low, effect.parameter.high, effect.parameter.spread,
+                            amplitudes(0, k));
       out.push_back(p);
     }
   }

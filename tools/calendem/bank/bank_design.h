@@ -20,6 +20,9 @@ struct BankPoint {
   double value = 0.0;       ///< of the effect's key
 };
 
+/// `share` (0-1) of the way from low to high; four digits, so that tables and files agree.
+double prior_value(double low, double high, Spread spread, double share);
+
 /// Base points first: a Sobol sequence over the priors, packings in turn. Then the points of each
 /// effect that needs runs of its own, spread over its prior, beside the first base points: these
 /// fill the priors evenly too, and stand on all packings.

@@ -8,6 +8,7 @@
 #include "spec/toml_file.h"
 #include "study/study_file.h"
 #include "tomogram/tomogram.h"
+#include "withheld/truths.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fmt/format.h>
@@ -15,7 +16,7 @@
 namespace calendem {
 namespace {
 
-enum class Kind { Recipe, Case, Tomogram, Film, Experiment, Study, Bank };
+enum class Kind { Recipe, Case, Tomogram, Film, Experiment, Study, Bank, Round };
 
 int keys_known(const toml::table &table, const std::string &prefix, const std::vector<Key> &keys) {
   int known = 0;
@@ -41,6 +42,8 @@ Kind kind_of(const std::string &file) {
     return Kind::Study;
   if (root.contains("bank"))
     return Kind::Bank;
+  if (root.contains("round"))
+    return Kind::Round;
   Kind best = Kind::Recipe;
   int most = keys_known(root, "", recipe_keys());
   const auto consider = [&](Kind kind, const std::vector<Key> &keys) {
@@ -64,6 +67,11 @@ std::string name_after_check(const std::string &file) {
   case Kind::Bank: {
     const BankSpec spec = read_bank_spec(file);
     return fmt::format("bank of {} runs", bank_study(spec, bank_points(spec)).runs.size());
+  }
+  case Kind::Round: {
+    const Round round = read_round(file);
+    const Study study = truth_study(round, draw_truths(round, "any"));
+    return fmt::format("withheld round of {} runs", study.runs.size());
   }
   case Kind::Case:
     read_case(file);
@@ -98,7 +106,7 @@ void add_validate_verb(CLI::App &app) {
   auto files = std::make_shared<std::vector<std::string>>();
   CLI::App *verb =
       app.add_subcommand("validate", "Every mistake in recipes, cases, tomograms, films, studies, "
-                                     "banks and experiment files, at once");
+                                     "banks, withheld rounds and experiment files, at once");
   verb->add_option("FILE", *files, "TOML files")->required();
   verb->footer(
       list_of_experiment_keys() +

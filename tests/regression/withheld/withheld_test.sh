@@ -1,0 +1,67 @@
+#!/usr/bin/env bash
+# withheld_test.sh BIN WORK: three truths are made, answered where none of them can be read, and scored.
+set -euo pipefail
+bin=$1 work=$2
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+fail() { echo "FAILED: $*" >&2; exit 1; }
+names() { find "$1" -mindepth 1 -maxdepth 1 -printf '%f\n' | LC_ALL=C sort | paste -sd,; } # FOLDER
+refused() { # STATUS TEXT COMMAND...: that exit status and these words
+  local status=0 want=$1 text=$2
+  shift 2
+  "$@" 2>"$work/said" || status=$?
+  cat "$work/said"
+  [ $status -eq "$want" ] || fail "exit status $status, expected $want: $*"
+  grep -qF "$text" "$work/said" || fail "no '$text' in the message"
+}
+withheld() { "$bin/calendem" withheld "$@"; }
+answer() { withheld answer "$1" -o "$2" --bank "$here/bank.toml"; }
+
+rm -rf "$work"
+mkdir -p "$work"
+cat >"$work/round.toml" <<T
+[round]
+name = "three truths"
+bank = "$here/bank.toml"
+null_packings = 1
+null_draws = 2
+amplitudes = 0
+open = ["displacement_scale"]
+faults = ["friction + noise"]
+T
+make_round() { withheld make "$work/round.toml" -o "$work/round"; }
+make_round
+[ "$(names "$work/round/handed_out")" = 001,002,003,004,commitment.json ] || fail "not the cases of the round"
+
+# What is handed out tells nothing: no name, seed, salt or hash of the truth, and of the runs.
+{ "$bin/calendem" effects | awk '/^[a-z]/ { print $1 }'
+  printf '%s\n' displacement_scale unknown noise null fault '"open"' sealed
+  grep -oE '"(packing_seed|salt|handed_out_sha256)": "?[0-9a-f]+' "$work/round/sealed/truth.json" | grep -oE '[0-9a-f]+$'
+  cat "$work/round/sealed/secret" && echo
+  find "$work/round/sealed/study" -maxdepth 2 -type d -printf '%f\n' | grep -E '^[0-9a-f]{16}$'
+} | sort -u >"$work/words"
+[ "$(wc -l <"$work/words")" -gt 30 ] || fail "the list of what may not be told is short"
+if grep -rnFf "$work/words" "$work/round/handed_out"; then fail "what is handed out tells the truth"; fi
+if find "$work/round/handed_out" -printf '%P\n' | grep -Ff "$work/words"; then fail "a name tells the truth"; fi
+
+refused 2 "truths lie within reach" answer "$work/round/handed_out" "$work/answers"
+mkdir "$work/given"
+cp -r "$work/round/handed_out" "$work/given/copy"
+mv "$work/round" "$work/away" # the truths are out of reach
+answer "$work/given/copy" "$work/answers"
+[ "$(names "$work/answers")" = 001,002,003,004,answers.json ] || fail "not every case was answered"
+mv "$work/away" "$work/round"
+answer "$work/given/copy" "$work/again" >/dev/null
+diff -r "$work/answers" "$work/again" || fail "the same data got another answer"
+
+withheld score "$work/round" "$work/answers" -o "$work/scores"
+for file in scores.json scores.md scores.html; do [ -s "$work/scores/$file" ] || fail "no $file"; done
+grep -q "false claims on nulls | .* | 2 | 1 | <= 0.03" "$work/scores/scores.md" || fail "two draws of one null packing are not told"
+
+# The same command makes nothing again, and hands out the same.
+make_round >"$work/again.log"
+grep -q "6 runs, 6 of them there" "$work/again.log" || fail "runs were made twice"
+diff -r "$work/round/handed_out" "$work/given/copy" || fail "another round was handed out"
+
+sed -i 's/"claim": "[a-z]*/&!/' "$work/answers/002/gap.json"
+refused 4 "the answer 002/gap.json is not what its hash says" \
+  withheld score "$work/round" "$work/answers" -o "$work/scores"

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A whole round on a bank of formulas: sealed, handed out, answered, scored, tampered with.
+#include "bank/bank_table.h"
+#include "spec/messages.h"
+#include "support/test_folder.h"
+#include "withheld/answer.h"
+#include "withheld/make.h"
+#include "withheld/score.h"
+#include "withheld/sealing.h"
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+namespace {
+
+using namespace calendem;
+using calendem_test::test_folder;
+namespace fs = std::filesystem;
+
+/// Stiffer particles: thicker; friction: another shape of the curve. Each packing has its own
+/// thickness.
+SimulatedRun run_by_formula(double stiffness, double friction, int packing, double target) {
+  SimulatedRun r;
+  const double own = 0.02 * std::sin(7.0 * packing);
+  r.control = "pressure";
+  r.target = r.max_pressure = target;
+  r.solid_column = 9.15;
+  r.thickness_at_max = 13.0 + 0.6 * stiffness - 0.01 * target + own;
+  r.thickness_after = r.thickness_at_max + 1.0 + 0.4 * stiffness;
+  r.porosity_at_max = 1.0 - r.solid_column / r.thickness_at_max;
+  r.porosity_after = 1.0 - r.solid_column / r.thickness_after;
+  r.cracked_fraction = 0.2;
+  for (double p = 0.25; p <= 1.2 * target; p += 0.25) {
+    r.pressure.push_back(p);
+    r.displacement.push_back((4.0 - stiffness) * std::log(1.0 + p / 5.0) / 2.0 -
+                             2.0 * friction * std::exp(-p / 10.0) + own);
+  }
+  return r;
+}
+
+const char *const kBank =
+    "[bank]\nrecipe = \"electrode.toml\"\ncase = \"case.toml\"\npressures_MPa = [30, 50]\n"
+    "packings = 4\nbase_points = 16\neffect_points = 8\neffects = [\"friction\", "
+    "\"thickness_zero\"]\n[[parameter]]\nname = \"E\"\nkeys = "
+    "[\"case.material.cbd.youngs_modulus_GPa\"]\nlow = 1\nhigh = 2\n";
+
+/// Bank, round, and what was handed out of four truths.
+class Withheld : public testing::Test {
+protected:
+  fs::path at_ = test_folder();
+  std::string round_ = (at_ / "round").string(), given_ = (at_ / "given/handed_out").string(),
+              answers_ = (at_ / "answers").string();
+
+  void SetUp() override {
+    std::ofstream(at_ / "electrode.toml") << "[cell]\nx_um = 6\ny_um = 6\n";
+    std::ofstream(at_ / "case.toml") << "electrode = \"any\"\n";
+    std::ofstream(at_ / "bank.toml") << kBank;
+    std::ofstream(at_ / "round.toml")
+        << "[round]\nbank = \"bank.toml\"\nnull_packings = 1\nnull_draws = 2\namplitudes = 0\n"
+           "faults = [\"friction\", \"thickness_zero\"]\nopen = [\"displacement_scale\"]\n";
+    const Round round = read_round((at_ / "round.toml").string());
+    write_table(round.bank);
+    std::vector<Truth> truths = draw_truths(round, "secret");
+    std::vector<std::vector<ShownRun>> shown;
+    for (Truth &t : truths) {
+      shown.emplace_back();
+      for (const double target : {30.0, 50.0})
+        shown.back().push_back(shown_of(t, target));
+    }
+    fs::create_directories(round_ + "/sealed");
+    seal_round(round_, round, truths, shown, "secret");
+    fs::create_directories(at_ / "given");
+    fs::copy(round_ + "/handed_out", given_, fs::copy_options::recursive);
+  }
+
+  static ShownRun shown_of(const Truth &t, double target) {
+    double friction = 0.0;
+    for (const auto &[name, value] : t.effects)
+      friction += name == "friction" ? value : 0.0;
+    SimulatedRun run = run_by_formula(t.base[0] - 1.0, friction, 9, target);
+    for (const auto &[name, value] : t.effects)
+      if (find_effect(name).instrument)
+        run = shown_with(find_effect(name), value, run);
+    return {run, run.pressure, run.displacement};
+  }
+
+  void write_table(const BankSpec &spec) const {
+    BankTable table = {spec, {}};
+    for (const BankPoint &p : bank_points(spec))
+      for (const double target : spec.pressures)
+        table.rows.push_back({p, run_by_formula(p.base[0] - 1.0, p.effect.empty() ? 0.0 : p.value,
+                                                p.packing, target)});
+    std::ofstream(at_ / "bank.csv") << write_bank_table(table);
+  }
+
+  void answer() const {
+    AnswerOptions o;
+    o.handed_out = given_;
+    o.folder = answers_;
+    o.bank = (at_ / "bank.toml").string();
+    o.table = (at_ / "bank.csv").string();
+    answer_round(o);
+  }
+
+  int status_of_opening() const {
+    try {
+      open_round(round_, answers_);
+      return kDone;
+    } catch (const Failure &e) {
+      return e.exit_status();
+    }
+  }
+
+  static void change(const std::string &file) {
+    std::string text = bytes_of(file);
+    text.replace(text.find_last_of("0123456789"), 1, "_");
+    std::ofstream(file) << text;
+  }
+};
+
+TEST_F(Withheld, EffectsAreFoundAndAllHashesHold) {
+  answer();
+  for (const ScoredCase &c : open_round(round_, answers_)) {
+    if (c.block == "fault") {
+      EXPECT_EQ(c.claim, c.truth);
+    }
+    EXPECT_EQ(c.baselines.at("always none"), "none");
+  }
+  const fs::path gap = answers_ + "/001/gap.json";
+  const auto before = fs::last_write_time(gap);
+  answer(); // what was answered is not answered again
+  EXPECT_EQ(fs::last_write_time(gap), before);
+}
+
+TEST_F(Withheld, ChangedTruthsAndAnswersAreNotScored) {
+  answer();
+  EXPECT_EQ(status_of_opening(), kDone);
+  for (const std::string &file :
+       {answers_ + "/002/gap.json", answers_ + "/002/baselines.json",
+        round_ + "/handed_out/003/p30.csv", round_ + "/handed_out/commitment.json"}) {
+    const std::string good = bytes_of(file);
+    change(file);
+    EXPECT_EQ(status_of_opening(), kCheckFailed) << file;
+    std::ofstream(file) << good;
+  }
+  const std::string file = round_ + "/sealed/truth.json";
+  nlohmann::json sealed = nlohmann::json::parse(bytes_of(file));
+  sealed["cases"][1]["truth"]["answer"] = "none of this";
+  std::ofstream(file) << sealed.dump();
+  EXPECT_EQ(status_of_opening(), kCheckFailed);
+}
+
+TEST_F(Withheld, WhatIsHandedOutTellsNoTruth) {
+  const nlohmann::json sealed = nlohmann::json::parse(bytes_of(round_ + "/sealed/truth.json"));
+  std::vector<std::string> secrets = {"secret", "sealed", "null", "open", "fault", "unknown"};
+  for (const Effect &e : effects())
+    secrets.push_back(e.name);
+  for (const auto &one : sealed.at("cases")) {
+    secrets.push_back(one.at("salt"));
+    secrets.push_back(one.at("truth").at("packing_seed").dump());
+    secrets.push_back(one.at("truth").at("handed_out_sha256"));
+    for (const std::string &name : one.at("truth").at("hidden"))
+      secrets.push_back(name);
+  }
+  int files = 0;
+  for (const auto &entry : fs::recursive_directory_iterator(given_)) {
+    if (!entry.is_regular_file())
+      continue;
+    const std::string text =
+        entry.path().string().substr(given_.size()) + "\n" + bytes_of(entry.path().string());
+    for (const std::string &word : secrets)
+      EXPECT_EQ(text.find(word), std::string::npos) << word << " in " << entry.path();
+    ++files;
+  }
+  EXPECT_EQ(files, 1 + 5 * 4); // commitment; experiment, recipe, two curves of each case
+}
+
+TEST_F(Withheld, TruthsWithinReachAreRefused) {
+  EXPECT_NO_THROW(check_handed_out(given_));
+  EXPECT_THROW(check_handed_out(round_ + "/handed_out"), Failure); // sealed lies beside it
+  EXPECT_THROW(check_handed_out(round_), Failure);
+  std::ofstream(given_ + "/001/truth.json") << "{}";
+  EXPECT_THROW(check_handed_out(given_), Failure);
+  fs::remove(given_ + "/001/truth.json");
+  fs::create_symlink(round_, given_ + "/more");
+  EXPECT_THROW(check_handed_out(given_), Failure);
+}
+
+TEST_F(Withheld, AnExperimentThatLeadsElsewhereIsRefused) {
+  std::ofstream(given_ + "/001/experiment.toml")
+      << "[experiment]\nname = \"x\"\nelectrode = \"../../../electrode.toml\"\n[[condition]]\nid = "
+         "\"a\"\ncontrol = \"pressure\"\nmax_pressure_MPa = 30\n";
+  try {
+    answer();
+    FAIL();
+  } catch (const Failure &e) {
+    EXPECT_NE(std::string(e.what()).find("not in its folder"), std::string::npos) << e.what();
+  }
+}
+
+} // namespace

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Draws of a round, and what of a truth is handed out.
+#include "spec/experiment.h"
+#include "spec/messages.h"
+#include "support/test_folder.h"
+#include "withheld/handed_out.h"
+#include "withheld/hidden_changes.h"
+#include "withheld/sealing.h"
+#include <cmath>
+#include <fstream>
+#include <set>
+
+namespace {
+
+using namespace calendem;
+using calendem_test::test_folder;
+
+const std::string kRound =
+    "[round]\nbank = \"bank.toml\"\nnull_packings = 2\nnull_draws = 5\namplitudes = 3\n"
+    "open = [\"cohesion\"]\npairs = [\"thickness_zero + friction\"]\nfaults = [\"noise\"]\n"
+    "other_numerics = [\"larger_cell + friction\", \"half_time_step\"]\n"
+    "[noise]\nunderstated_by = [3, 4]\nporosity_percent = 0.5\n";
+
+Round round_of(const std::string &text) {
+  const auto folder = test_folder();
+  std::ofstream(folder / "electrode.toml") << "[cell]\nx_um = 6\ny_um = 6\n";
+  std::ofstream(folder / "case.toml") << "electrode = \"any\"\n";
+  std::ofstream(folder / "bank.toml")
+      << "[bank]\nrecipe = \"electrode.toml\"\ncase = \"case.toml\"\npressures_MPa = [30, 50]\n"
+         "effects = [\"friction\", \"thickness_zero\"]\n[[parameter]]\nname = \"strength\"\nkeys = "
+         "[\"case.bond.tensile_strength_MPa\", \"case.bond.shear_strength_MPa\"]\nlow = 150\nhigh "
+         "= 400\n";
+  std::ofstream(folder / "round.toml") << text;
+  return read_round((folder / "round.toml").string());
+}
+
+std::map<std::string, std::string> answers_of(const Round &round,
+                                              const std::vector<Truth> &truths) {
+  std::map<std::string, std::string> out;
+  for (const Truth &t : truths)
+    out[t.block + (t.hidden.empty() ? "" : " " + t.hidden[0])] = right_answer(t, round.bank);
+  return out;
+}
+
+TEST(Truths, ARoundHoldsWhatItsFileAsksFor) {
+  const Round round = round_of(kRound);
+  const std::vector<Truth> truths = draw_truths(round, "secret");
+  ASSERT_EQ(truths.size(), 2u + 2 * 3 + 1 + 1 + 1 + 2);
+  EXPECT_EQ(truths[0].draws + truths[1].draws, 5);
+  std::set<unsigned long> packings;
+  for (const Truth &t : truths) {
+    EXPECT_TRUE(packings.insert(t.packing).second && t.packing > 1000);
+    EXPECT_TRUE(t.base[0] > 150 && t.base[0] < 400);
+  }
+  for (int k = 0; k < 3; ++k) // each in its third of 0.05 to 0.6
+    EXPECT_EQ(int((truths[2 + k].effects[0].second - 0.05) / 0.55 * 3), k);
+  auto answers = answers_of(round, truths);
+  EXPECT_EQ(answers["null"], "none");
+  EXPECT_EQ(answers["open cohesion"], "unknown");
+  EXPECT_EQ(answers["pair"], "friction + thickness_zero"); // in the bank's order
+  EXPECT_EQ(answers["fault"], "noise");
+  EXPECT_EQ(answers["other larger_cell"], "friction");
+  EXPECT_EQ(answers["other half_time_step"], "none");
+}
+
+TEST(Truths, TheSecretDecidesAllDraws) {
+  const Round round = round_of(kRound);
+  const auto text = [&](const std::string &secret) {
+    std::string out;
+    for (const Truth &t : draw_truths(round, secret))
+      out += to_json(t, round.bank).dump();
+    return out;
+  };
+  EXPECT_EQ(text("one"), text("one"));
+  EXPECT_NE(text("one"), text("two"));
+}
+
+TEST(Truths, RunsHaveTheTruthsSettings) {
+  const Round round = round_of(kRound);
+  const std::vector<Truth> truths = draw_truths(round, "secret");
+  const Study study = truth_study(round, truths);
+  ASSERT_EQ(study.runs.size(), 2 * truths.size());
+  for (std::size_t t = 0; t < truths.size(); ++t) {
+    const Settings &s = study.runs[2 * t + 1].settings;
+    const bool larger = !truths[t].hidden.empty() && truths[t].hidden[0] == "larger_cell";
+    EXPECT_NEAR(s.number("platen.max_pressure_MPa"), 50 * (1 + truths[t].pressure_error), 1e-3);
+    EXPECT_EQ(s.number("bond.shear_strength_MPa"), truths[t].base[0]);
+    EXPECT_NEAR(study.runs[2 * t].recipe.cell_x, larger ? 7.8 : 6.0, 1e-9);
+    EXPECT_EQ(study.runs[2 * t].recipe.seed, truths[t].packing);
+    const bool rough = !truths[t].effects.empty() && truths[t].effects.back().first == "friction";
+    EXPECT_EQ(s.number("material.am.friction"), rough ? truths[t].effects.back().second : 0.001);
+  }
+}
+
+TEST(Truths, MistakesOfARoundAreTold) {
+  try {
+    round_of("[round]\nbank = \"bank.toml\"\nnull_packings = 9\nnull_draws = 3\nopen = "
+             "[\"cohesin\"]\n[noise]\nthickness_um = -1\nunderstated_by = [4, 3]\n");
+    FAIL();
+  } catch (const Failure &e) {
+    const std::string message = e.what();
+    for (const char *part : {"null_draws is 3, null_packings 9", "Did you mean 'cohesion'",
+                             "thickness_um is -1", "[least, most]"})
+      EXPECT_NE(message.find(part), std::string::npos) << part << "\nis not in\n" << message;
+  }
+}
+
+ShownRun shown_run(double target) {
+  ShownRun s;
+  s.run.thickness_at_max = 14.0;
+  s.run.thickness_after = 16.0;
+  s.run.porosity_after = 0.43;
+  s.run.cracked_fraction = 0.5;
+  for (double p = 0.0; p <= 1.2 * target; p += 0.1) {
+    s.run.pressure.push_back(p);
+    s.run.displacement.push_back(3.0 * p / target);
+    s.release_pressure.push_back(p);
+    s.release_displacement.push_back(2.0 + p / target);
+  }
+  return s;
+}
+
+Experiment handed(const Round &round, const Truth &truth, std::uint64_t seed) {
+  const auto folder = test_folder() / "out";
+  hand_out(folder.string(), "007", round, truth, {shown_run(30), shown_run(50)}, seed);
+  return read_experiment((folder / "experiment.toml").string());
+}
+
+/// Standard deviation of (porosity handed out - true) over the stated one, of 400 draws.
+double noise_over_stated(const Round &round, const Truth &truth) {
+  double sum = 0.0;
+  for (std::uint64_t k = 0; k < 200; ++k)
+    for (const Condition &c : handed(round, truth, k).conditions)
+      sum += std::pow((c.porosity_after_percent->value - 43.0) / c.porosity_after_percent->sd, 2);
+  return std::sqrt(sum / 400);
+}
+
+TEST(HandedOut, NoiseIsWhatTheFileStatesUnlessUnderstated) {
+  const Round round = round_of(kRound);
+  Truth truth = draw_truths(round, "secret")[0];
+  const double chance = 4.0 / std::sqrt(2.0 * 400); // relative sd of a standard deviation, times 4
+  EXPECT_NEAR(noise_over_stated(round, truth), 1.0, chance);
+  truth.understated = 3.0;
+  EXPECT_NEAR(noise_over_stated(round, truth), 3.0, 3.0 * chance);
+}
+
+TEST(HandedOut, CurvesAreThoseOfThePressTrueButForItsErrors) {
+  const Round round = round_of(kRound);
+  Truth truth = draw_truths(round, "secret")[0];
+  truth.pressure_error = 0.1;
+  truth.hidden = {"displacement_scale"};
+  const Experiment e = handed(round, truth, 1);
+  std::ifstream in(e.conditions[1].curve);
+  std::string line;
+  int rows = 0;
+  for (std::getline(in, line); std::getline(in, line); ++rows) {
+    const double d = std::stod(line), p = std::stod(line.substr(line.find(',') + 1));
+    const bool down = line.find("compression") != std::string::npos;
+    const double true_d = (down ? 0.0 : 2.0) + (down ? 3.0 : 1.0) * 1.1 * p / 50;
+    EXPECT_NEAR(d, find_hidden("displacement_scale")->displacement_factor * true_d, 5 * 0.02);
+  }
+  EXPECT_EQ(rows, 40 + 39);
+  EXPECT_NEAR(sample_area_cm2(e) * 1e8, 36.0, 1e-3); // um2: the bank's cell
+}
+
+} // namespace

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Scores of answers made by hand, whose values can be counted.
+#include "withheld/metrics.h"
+#include "withheld/score.h"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using namespace calendem;
+
+ScoredCase scored(const std::string &block, int cluster, const std::string &truth,
+                  const std::string &claim, std::map<std::string, double> probability) {
+  ScoredCase c;
+  c.block = block;
+  c.cluster = cluster;
+  c.truth = truth;
+  c.claim = claim;
+  c.probability = std::move(probability);
+  c.signal_to_noise = 8.0;
+  c.baselines = {{"always none", "none"}, {"BIC", "friction"}};
+  return c;
+}
+
+/// Four nulls of two packings, four singles, one effect left out.
+std::vector<ScoredCase> round_by_hand() {
+  std::vector<ScoredCase> all;
+  for (int k = 0; k < 4; ++k)
+    all.push_back(scored("null", k / 2, "none", k == 0 ? "friction" : "none",
+                         {{"none", k == 0 ? 0.1 : 0.9}, {"friction", k == 0 ? 0.9 : 0.1}}));
+  all.push_back(scored("single", 2, "friction", "friction", {{"friction", 0.9}, {"none", 0.1}}));
+  all.push_back(scored("single", 3, "friction", "friction", {{"friction", 0.8}, {"none", 0.2}}));
+  all.push_back(scored("single", 4, "friction", "undecided", {{"friction", 0.4}, {"none", 0.6}}));
+  all.push_back(scored("single", 5, "friction", "undecided", {{"none", 0.6}, {"noise", 0.4}}));
+  all.push_back(scored("left_out", 2, "unknown", "unknown", {{"unknown", 0.9}, {"none", 0.1}}));
+  all[4].located = all[5].located = true;
+  all[4].covered = {true, false};
+  all[4].covered_amplitude = {true};
+  return all;
+}
+
+Metric named(const std::vector<Metric> &all, const std::string &begin) {
+  for (const Metric &m : all)
+    if (m.name.rfind(begin, 0) == 0)
+      return m;
+  ADD_FAILURE() << begin;
+  return {};
+}
+
+TEST(Scores, AnswersByHandGetTheNumbersThatCanBeCounted) {
+  const std::vector<Metric> m = metrics_of(round_by_hand());
+  EXPECT_DOUBLE_EQ(named(m, "where").value, 0.5);
+  EXPECT_DOUBLE_EQ(named(m, "which, top-1, effects").value, 0.5);
+  EXPECT_DOUBLE_EQ(named(m, "which, top-2, effects").value, 0.75);
+  EXPECT_DOUBLE_EQ(named(m, "wrong share").value, 0.25); // of 4 claims that name something
+  EXPECT_DOUBLE_EQ(named(m, "false claims").value, 0.25);
+  EXPECT_EQ(named(m, "false claims").clusters, 2);
+  EXPECT_DOUBLE_EQ(named(m, "unknown against known").value, 1.0);
+  EXPECT_EQ(named(m, "unknown against known").verdict, Metric::met);
+  EXPECT_EQ(named(m, "which, top-1, effects").verdict, Metric::missed);
+  EXPECT_EQ(named(m, "shrinkage").verdict, Metric::not_measured);
+  EXPECT_DOUBLE_EQ(named(m, "90 % intervals of base").value, 0.5);
+  EXPECT_DOUBLE_EQ(named(m, "90 % intervals of amplitudes").value, 1.0);
+  const double log_score =
+      (std::log(0.9) * 4 + std::log(0.1) + std::log(0.8) + std::log(0.4) + std::log(1e-6)) / -8.0;
+  EXPECT_NEAR(named(m, "log score").value, log_score, 1e-12);
+}
+
+TEST(Scores, BaselinesMustBeBeaten) {
+  const std::vector<Metric> m = metrics_of(round_by_hand());
+  const Metric ours = named(m, "told right, mean of nulls and effects: the diagnosis");
+  EXPECT_DOUBLE_EQ(ours.value, 0.5 * (0.75 + 0.5));
+  EXPECT_DOUBLE_EQ(named(m, "told right, mean of nulls and effects: always none").value, 0.5);
+  EXPECT_DOUBLE_EQ(named(m, "told right, mean of nulls and effects: BIC").value, 0.5);
+  EXPECT_EQ(ours.verdict, Metric::met);
+  std::vector<ScoredCase> worse = round_by_hand();
+  for (ScoredCase &c : worse)
+    c.baselines["oracle"] = c.truth;
+  EXPECT_EQ(
+      named(metrics_of(worse), "told right, mean of nulls and effects: the diagnosis").verdict,
+      Metric::missed);
+}
+
+// 20 draws of one packing say no more about packings than one does.
+TEST(Scores, IntervalsCountPackingsNotDraws) {
+  const auto all = [](const ScoredCase &) { return true; };
+  const auto wrong = [](const ScoredCase &c) { return c.claim != "none"; };
+  std::vector<ScoredCase> cases;
+  for (int k = 0; k < 40; ++k)
+    cases.push_back(scored("null", k / 20, "none", "none", {{"none", 1.0}}));
+  EXPECT_NEAR(share_of("", cases, all, wrong).high, 1.0 - std::sqrt(0.05), 1e-9);
+  for (int k = 0; k < 20; ++k)
+    cases[k].claim = "friction";
+  const Metric half = share_of("", cases, all, wrong);
+  EXPECT_DOUBLE_EQ(half.value, 0.5);
+  EXPECT_EQ(half.low, 0.0);
+  EXPECT_EQ(half.high, 1.0);
+}
+
+TEST(Scores, AnEffectLeftOutIsACaseOfItsOwnWhereItWasTheTruth) {
+  const nlohmann::json gap = {
+      {"where", {{{"significant", true}}}},
+      {"which",
+       {{"claim", "friction"}, {"probability", {{"friction", 0.9}}}, {"set95", {"friction"}}}},
+      {"parameters", {{{"parameter", "E"}, {"low90", 1.0}, {"high90", 2.0}}}},
+      {"fitted_effects", {{{"effect", "friction"}, {"low90", 0.1}, {"high90", 0.2}}}},
+      {"confounding", {{"detection_limit", {{{"effect", "friction"}, {"amplitude", 0.1}}}}}}};
+  nlohmann::json truth = {{"id", "001"},
+                          {"block", "single"},
+                          {"point", 7},
+                          {"answer", "friction"},
+                          {"effects", {{"friction", 0.301}}},
+                          {"parameters", {{"E", 1.5}}}};
+  nlohmann::json without = gap;
+  without["without"] = "friction";
+  const nlohmann::json baselines = {{"named", {{"BIC", "none"}}}};
+  std::vector<ScoredCase> cases;
+  add_cases(truth, gap, without, baselines, cases);
+  ASSERT_EQ(cases.size(), 2u);
+  EXPECT_EQ(cases[1].block, "left_out");
+  EXPECT_EQ(cases[1].truth, "unknown");
+  EXPECT_EQ(cases[0].covered, std::vector<bool>{true});
+  EXPECT_EQ(cases[0].covered_amplitude, std::vector<bool>{false}); // 0.3 is not in 0.1 to 0.2
+  EXPECT_NEAR(cases[0].signal_to_noise, 3.0 * std::sqrt(6.0), 1e-9);
+  without["without"] = "pre_cracks";
+  cases.clear();
+  add_cases(truth, gap, without, baselines, cases);
+  EXPECT_EQ(cases.size(), 1u);
+}
+
+} // namespace

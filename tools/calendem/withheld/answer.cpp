@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "withheld/answer.h"
+#include "diagnose/diagnose.h"
+#include "spec/messages.h"
+#include "spec/output_folder.h"
+#include "spec/provenance.h"
+#include "study/job_pool.h"
+#include "withheld/baselines.h"
+#include "withheld/sealing.h"
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <iostream>
+
+namespace calendem {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char *kFiles[] = {"gap.json", "gap_without.json", "baselines.json"};
+
+/// Of the names "001", "002", ... in commitment.json.
+std::vector<std::string> ids_of(const std::string &folder) {
+  const nlohmann::json j =
+      nlohmann::json::parse(bytes_of(folder + "/commitment.json"), nullptr, false);
+  if (!j.is_object() || !j.contains("cases") || !j["cases"].is_object())
+    throw Failure(kBadInput, fmt::format("{}/commitment.json holds no cases. Take handed_out as "
+                                         "calendem withheld make wrote it.",
+                                         folder));
+  std::vector<std::string> ids;
+  for (const auto &[id, hash] : j["cases"].items())
+    ids.push_back(id);
+  return ids;
+}
+
+/// The experiment, whose files all lie in its own folder.
+Experiment experiment_in(const std::string &folder) {
+  sha256_of_files(folder); // plain files only
+  const Experiment e = read_experiment(folder + "/experiment.toml");
+  std::vector<std::string> paths = {e.electrode};
+  for (const Condition &c : e.conditions)
+    paths.insert(paths.end(), {c.curve, c.labels_before, c.labels_after});
+  for (const std::string &path : paths)
+    if (!path.empty() && fs::path(path).parent_path() != fs::path(folder))
+      throw Failure(kBadInput, fmt::format("{}/experiment.toml names {}, which is not in its "
+                                           "folder. Take handed_out as it was made.",
+                                           folder, path));
+  return e;
+}
+
+/// The effect that the diagnosis finds most probable, alone or in a pair.
+std::string most_probable_effect(const inference::Which &which) {
+  std::string name;
+  double most = -1.0;
+  for (const auto &[effect, probability] : which.inclusion)
+    if (probability > most) {
+      most = probability;
+      name = effect;
+    }
+  return name;
+}
+
+class Answering {
+public:
+  explicit Answering(const AnswerOptions &o)
+      : o_(o), table_(read_bank_table(read_bank_spec(o.bank), o.table)), ids_(ids_of(o.handed_out)),
+        of_bank_(sha256(bytes_of(o.bank) + bytes_of(o.table))) {
+    for (const std::string &name : table_.spec.effects)
+      without_[name] = without_effects(table_, {name});
+  }
+
+  int cases() const { return int(ids_.size()); }
+
+  void answer(int k) {
+    const std::string &id = ids_[std::size_t(k)], from = o_.handed_out + "/" + id;
+    const std::string identity = sha256(of_bank_ + sha256_of_files(from) + version());
+    if (is_answered(id, identity))
+      return;
+    fs::create_directories(o_.folder + "/" + id);
+    const Experiment experiment = experiment_in(from);
+    Diagnosed full = diagnosed(experiment, table_, 0.0, models_);
+    write(id, kFiles[0], full.gap, identity);
+    nlohmann::ordered_json simple, less;
+    simple["named"] = baselines(full.model->problem(full.data.experiment.values), full.diagnosis);
+    const std::string name = most_probable_effect(full.diagnosis.which);
+    if (!name.empty())
+      less = diagnosed(experiment, without_.at(name), 0.0, models_).gap;
+    less["without"] = name;
+    write(id, kFiles[1], less, identity);
+    write(id, kFiles[2], simple, identity);
+    fmt::print("withheld: case {}: {}\n", id, full.diagnosis.which.claim);
+    std::cout << std::flush;
+  }
+
+  void write_list() const {
+    nlohmann::ordered_json j = {
+        {"commitment_sha256", sha256(bytes_of(o_.handed_out + "/commitment.json"))}};
+    for (const std::string &id : ids_)
+      for (const char *file : kFiles)
+        j["sha256"][id + "/" + file] = sha256(bytes_of(o_.folder + "/" + id + "/" + file));
+    j["provenance"] = {{"calendem", version()},
+                       {"bank_sha256", sha256(bytes_of(o_.bank))},
+                       {"bank_table_sha256", sha256(bytes_of(o_.table))}};
+    write_file(o_.folder + "/answers.json", j.dump(1) + "\n");
+  }
+
+private:
+  const AnswerOptions &o_;
+  BankTable table_;
+  std::map<std::string, BankTable> without_;
+  std::vector<std::string> ids_;
+  std::string of_bank_;
+  SharedModels models_;
+
+  bool is_answered(const std::string &id, const std::string &identity) const {
+    return std::all_of(std::begin(kFiles), std::end(kFiles), [&](const char *file) {
+      return made_of(o_.folder + "/" + id + "/" + file, identity);
+    });
+  }
+
+  void write(const std::string &id, const char *file, nlohmann::ordered_json &j,
+             const std::string &identity) const {
+    j["identity"] = identity;
+    write_file(o_.folder + "/" + id + "/" + file, j.dump(1) + "\n");
+  }
+};
+
+} // namespace
+
+void check_handed_out(const std::string &folder) {
+  const fs::path at = fs::canonical(folder);
+  const auto refuse = [](const fs::path &found) {
+    throw Failure(kBadInput, fmt::format("truths lie within reach: {}. Copy handed_out to a folder "
+                                         "of its own and answer that.",
+                                         found.string()));
+  };
+  const auto tells = [](const fs::path &p) {
+    return p.filename() == "sealed" || p.filename() == "truth.json";
+  };
+  for (const auto &entry : fs::directory_iterator(at.parent_path()))
+    if (tells(entry.path()))
+      refuse(entry.path());
+  for (const auto &entry : fs::recursive_directory_iterator(at))
+    if (tells(entry.path()) || entry.is_symlink())
+      refuse(entry.path());
+}
+
+void answer_round(const AnswerOptions &given) {
+  AnswerOptions o = given;
+  if (!fs::is_directory(o.handed_out))
+    throw Failure(kBadInput, fmt::format("there is no folder '{}'. Give handed_out as calendem "
+                                         "withheld make wrote it.",
+                                         o.handed_out));
+  o.handed_out = fs::canonical(o.handed_out).string();
+  check_handed_out(o.handed_out);
+  Answering answering(o);
+  make_output_folder(o.folder);
+  in_parallel(answering.cases(), o.jobs, [&](int k) { answering.answer(k); });
+  if (asked_to_stop())
+    throw Failure(kSimulationFailed,
+                  "withheld: stopped on request. The answers given are kept; the "
+                  "same command goes on.");
+  answering.write_list();
+  fmt::print("withheld: {} answers, {}/answers.json\nNext, where the truths are: calendem withheld "
+             "score DIR {}\n",
+             answering.cases(), o.folder, o.folder);
+}
+
+} // namespace calendem

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// calendem withheld answer: a diagnosis of every case that was handed out.
+#ifndef CALENDEM_WITHHELD_ANSWER_H
+#define CALENDEM_WITHHELD_ANSWER_H
+
+#include <string>
+#include <vector>
+
+namespace calendem {
+
+struct AnswerOptions {
+  std::string handed_out, folder, bank, table;
+  int jobs = 1;
+};
+
+/// Throws Failure(2) if truths lie in the folder or beside it, or if its files lead out of it.
+void check_handed_out(const std::string &folder);
+
+/// Writes for every case NNN/gap.json, NNN/gap_without.json (the same without the effect that was
+/// the most probable) and NNN/baselines.json, and last answers.json with their hashes: without
+/// each case's own effect the right answer is "unknown", and leaving out what the diagnosis itself
+/// names gives nothing away. Reads nothing but `handed_out`, the bank and its table. Cases that
+/// are answered from the same files are not answered again.
+void answer_round(const AnswerOptions &options);
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "withheld/handed_out.h"
+#include "pack/random.h"
+#include "spec/csv_table.h"
+#include "spec/messages.h"
+#include "spec/pi.h"
+#include "spec/provenance.h"
+#include "withheld/hidden_changes.h"
+#include "withheld/sealing.h"
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace calendem {
+namespace {
+
+constexpr int kRows = 40; // of a curve's branch, even in pressure
+constexpr std::uint64_t kPurpose = 0x401;
+
+/// Displacements of one sample as its press shows them.
+class Press {
+public:
+  Press(const Round &round, const Truth &truth, std::uint64_t seed)
+      : noise_(round.noise), factor_(truth.understated), error_(1.0 + truth.pressure_error),
+        random_(seed, kPurpose) {
+    for (const std::string &name : truth.hidden)
+      scale_ *= find_hidden(name)->displacement_factor;
+  }
+
+  double with_noise(double value, double sd) { return value + factor_ * sd * random_.normal(); }
+
+  std::string curve(const ShownRun &shown, double target) {
+    std::string out = "displacement_um,pressure_MPa,stage\n";
+    for (int k = 1; k <= kRows; ++k)
+      add(shown.run.pressure, shown.run.displacement, target * k / kRows, "compression", out);
+    for (int k = kRows - 1; k > 0; --k)
+      add(shown.release_pressure, shown.release_displacement, target * k / kRows, "relaxation",
+          out);
+    return out;
+  }
+
+private:
+  const MeasurementNoise &noise_;
+  double factor_, error_, scale_ = 1.0;
+  Random random_;
+
+  void add(const std::vector<double> &pressures, const std::vector<double> &displacements,
+           double shown_pressure, const char *stage, std::string &out) {
+    const double d = displacement_at(pressures, displacements, shown_pressure * error_);
+    const double measured = with_noise(scale_ * d, noise_.displacement_um);
+    if (std::isfinite(d))
+      out += fmt::format("{:.4f},{:.6g},{}\n", measured, shown_pressure, stage);
+  }
+};
+
+std::string condition(const Round &round, const ShownRun &shown, double target,
+                      const std::string &curve, Press &press) {
+  const MeasurementNoise &n = round.noise;
+  const double cracked = press.with_noise(shown.run.cracked_fraction, n.cracked_fraction);
+  std::string out =
+      fmt::format("\n[[condition]]\nid = \"p{:g}\"\ncontrol = \"pressure\"\n", target);
+  out += fmt::format("max_pressure_MPa = {{ value = {:g}, sd_relative = {:g} }}\n", target,
+                     0.01 * n.pressure_percent);
+  const auto add = [&](const char *key, double value, double sd) {
+    out += fmt::format("{} = {{ value = {:.5f}, sd = {:g} }}\n", key, value, sd);
+  };
+  add("porosity_after_percent",
+      press.with_noise(100.0 * shown.run.porosity_after, n.porosity_percent), n.porosity_percent);
+  add("thickness_at_max_um", press.with_noise(shown.run.thickness_at_max, n.thickness_um),
+      n.thickness_um);
+  add("thickness_after_um", press.with_noise(shown.run.thickness_after, n.thickness_um),
+      n.thickness_um);
+  add("cracked_bodies_fraction", std::clamp(cracked, 0.0, 1.0), n.cracked_fraction);
+  return out + fmt::format("curve = \"{}\"\ncurve_sd_um = {:g}\n", curve, n.displacement_um);
+}
+
+/// Area of the truth's own cell [um2].
+double area_of(const Round &round, const Truth &truth) {
+  double area = read_recipe(round.bank.recipe_file).area();
+  for (const std::string &name : truth.hidden)
+    for (const ChangedKey &c : find_hidden(name)->keys)
+      if (c.key == "recipe.cell.x_um" || c.key == "recipe.cell.y_um")
+        area *= c.factor;
+  return area;
+}
+
+} // namespace
+
+ShownRun read_shown_run(const std::string &folder) {
+  ShownRun out{read_simulated_run(folder), {}, {}};
+  const CsvTable table = CsvTable::parse(bytes_of(folder + "/curve.csv"));
+  const auto stage = table.texts("stage");
+  const auto d = table.numbers("displacement_shown_um"), p = table.numbers("pressure_shown_MPa");
+  for (std::size_t k = stage.size(); k-- > 0 && stage[k] == "relaxation";)
+    if (out.release_pressure.empty() || p[k] > out.release_pressure.back()) {
+      out.release_pressure.push_back(p[k]);
+      out.release_displacement.push_back(d[k]);
+    }
+  return out;
+}
+
+void hand_out(const std::string &folder, const std::string &id, const Round &round,
+              const Truth &truth, const std::vector<ShownRun> &shown, std::uint64_t seed) {
+  std::filesystem::create_directories(folder);
+  Press press(round, truth, seed);
+  const double diameter = 2.0 * std::sqrt(area_of(round, truth) / kPi); // um
+  std::string text = fmt::format("# a sample as large as a simulated cell\n[experiment]\nname = "
+                                 "\"case {}\"\nelectrode = \"electrode.toml\"\n"
+                                 "sample_diameter_mm = {:.6g}\n",
+                                 id, 1e-3 * diameter);
+  for (std::size_t k = 0; k < shown.size(); ++k) {
+    const double target = round.bank.pressures[k];
+    const std::string curve = fmt::format("p{:g}.csv", target);
+    text += condition(round, shown[k], target, curve, press);
+    write_file(folder + "/" + curve, press.curve(shown[k], target));
+  }
+  write_file(folder + "/experiment.toml", text);
+  write_file(folder + "/electrode.toml", bytes_of(round.bank.recipe_file));
+}
+
+} // namespace calendem

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// How good the answers of a round are. Pure: cases in, numbers with intervals out.
+#ifndef CALENDEM_WITHHELD_METRICS_H
+#define CALENDEM_WITHHELD_METRICS_H
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace calendem {
+
+/// One answered case beside its truth.
+struct ScoredCase {
+  std::string id, block; ///< of the truth; left_out: the answer without the case's own effect
+  int cluster = 0;       ///< number of the truth: cases of one packing share it
+  std::string truth;     ///< what should be said
+  std::string claim;
+  std::map<std::string, double> probability; ///< of hypotheses
+  std::vector<std::string> set95;
+  bool located = false;         ///< some block lies beyond the threshold
+  double signal_to_noise = 0.0; ///< of a single effect; 0: not known
+  std::vector<bool> covered;    ///< base parameters inside their 90 % intervals
+  std::vector<bool> covered_amplitude;
+  std::map<std::string, std::string> baselines;
+
+  /// The n-th most probable hypothesis, from 0; empty beyond the last.
+  std::string ranked(int n) const;
+};
+
+/// One number of the score, with a 90 % interval.
+struct Metric {
+  std::string name;
+  double value = 0.0, low = 0.0, high = 0.0; ///< NaN: no case for it
+  int cases = 0, clusters = 0;
+  std::string gate; ///< ">= 0.85"; empty: reported only
+  enum Verdict { none, met, missed, not_measured } verdict = none;
+};
+
+/// Every gate and what is reported beside it, then the baselines.
+std::vector<Metric> metrics_of(const std::vector<ScoredCase> &cases);
+
+/// truth -> claim -> cases.
+std::map<std::string, std::map<std::string, int>>
+confusion_of(const std::vector<ScoredCase> &cases);
+
+/// Share of the cases chosen for which `hit` holds. Interval by drawing whole clusters; where all
+/// cases agree, the exact one of a proportion of clusters, since no draw could differ.
+Metric share_of(const std::string &name, const std::vector<ScoredCase> &cases,
+                const std::function<bool(const ScoredCase &)> &chosen,
+                const std::function<bool(const ScoredCase &)> &hit);
+
+/// Signal-to-noise from which the gates of `where` and `which` count.
+constexpr double kLoudEnough = 6.0;
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A round of the sealed check (round.toml): how many truths of which kind, how well they are
+// measured.
+//   [round]
+//   name = "round 1"
+//   bank = "../bank/bank.toml"       # relative to this file
+//   null_packings = 12               # nothing is left out of the base model
+//   null_draws = 100                 # of noise, over these packings
+//   amplitudes = 3                   # truths of every effect of the bank, each in its own part of
+//                                    # the prior
+//   open = ["cohesion"]              # changes that are no effect of the table (hidden_changes.cpp)
+//   pairs = ["friction + pre_cracks"]
+//   faults = ["thickness_zero", "noise"]          # noise: the errors stated are too small
+//   other_numerics = ["half_time_step + friction"] # truths from another resolution
+//   [noise]                          # standard deviations of what is handed out
+//   pressure_percent = 1             # of the press's calibration, one for all pressures
+//   displacement_um = 0.02
+//   thickness_um = 0.05
+//   porosity_percent = 0.3
+//   cracked_fraction = 0.03
+//   understated_by = [2.5, 4]        # in the fault "noise"
+#ifndef CALENDEM_WITHHELD_ROUND_FILE_H
+#define CALENDEM_WITHHELD_ROUND_FILE_H
+
+#include "bank/bank_spec.h"
+
+namespace calendem {
+
+/// Standard deviations of the measurement.
+struct MeasurementNoise {
+  double pressure_percent = 1.0, displacement_um = 0.02, thickness_um = 0.05;
+  double porosity_percent = 0.3, cracked_fraction = 0.03;
+  double least_understated = 2.5, most_understated = 4.0; ///< factors
+};
+
+struct Round {
+  std::string file, name;
+  BankSpec bank;
+  int null_packings = 12, null_draws = 100, amplitudes = 3;
+  /// Each a list of names: effects of the bank, hidden changes, "noise".
+  std::vector<std::vector<std::string>> open, pairs, faults, other_numerics;
+  MeasurementNoise noise;
+};
+
+/// Throws Failure(2) with every mistake of the file, or of the bank that it names.
+Round read_round(const std::string &file);
+
+/// "a + b" as a list of names, and back.
+std::vector<std::string> names_in(const std::string &joined);
+std::string joined(const std::vector<std::string> &names);
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "withheld/score.h"
+#include "effects/effects.h"
+#include "spec/messages.h"
+#include "spec/output_folder.h"
+#include "withheld/sealing.h"
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace calendem {
+namespace {
+
+using Json = nlohmann::json;
+
+Json json_of(const std::string &file) {
+  const Json j = Json::parse(bytes_of(file), nullptr, false);
+  if (!j.is_object())
+    throw Failure(kBadInput, fmt::format("{} is cut or damaged: it holds no JSON object.", file));
+  return j;
+}
+
+void must_be(const std::string &is, const std::string &should, const std::string &what) {
+  if (is != should)
+    throw Failure(kCheckFailed, fmt::format("{} is not what its hash says: SHA-256 {}, written "
+                                            "down is {}. Nothing is scored.",
+                                            what, is, should.empty() ? "none" : should));
+}
+
+/// Signal-to-noise of a single effect: log-odds grow with the square of the amplitude and are 3,
+/// half of a squared distance of 6, at the detection limit.
+double signal_to_noise(const Json &gap, const std::string &effect, double amplitude) {
+  for (const Json &limit : gap.at("confounding").value("detection_limit", Json::array()))
+    if (limit.at("effect") == effect && limit.at("amplitude").is_number())
+      return std::sqrt(6.0) * std::fabs(amplitude) / limit.at("amplitude").get<double>();
+  return 0.0;
+}
+
+std::vector<bool> covered_parameters(const Json &truth, const Json &gap) {
+  std::vector<bool> out;
+  for (const Json &p : gap.at("parameters")) {
+    const double v = truth.at("parameters").at(p.at("parameter").get<std::string>());
+    out.push_back(v >= p.at("low90").get<double>() && v <= p.at("high90").get<double>());
+  }
+  return out;
+}
+
+std::vector<bool> covered_amplitudes(const Json &truth, const Json &gap) {
+  std::vector<bool> out;
+  for (const Json &e : gap.value("fitted_effects", Json::array()))
+    if (const std::string name = e.at("effect"); truth.at("effects").contains(name)) {
+      const double a = find_effect(name).parameter.amplitude(truth.at("effects").at(name));
+      out.push_back(a >= e.at("low90").get<double>() && a <= e.at("high90").get<double>());
+    }
+  return out;
+}
+
+ScoredCase case_of(const Json &truth, const Json &gap) {
+  ScoredCase c;
+  c.id = truth.at("id");
+  c.block = truth.at("block");
+  c.cluster = truth.at("point");
+  c.truth = truth.at("answer");
+  const Json &which = gap.at("which");
+  c.claim = which.at("claim");
+  c.probability = which.at("probability").get<std::map<std::string, double>>();
+  c.set95 = which.at("set95").get<std::vector<std::string>>();
+  for (const Json &row : gap.at("where"))
+    c.located = c.located || row.at("significant").get<bool>();
+  if (const Json &effects = truth.at("effects"); effects.size() == 1) {
+    const std::string name = effects.begin().key();
+    const double value = effects.begin().value();
+    c.signal_to_noise = signal_to_noise(gap, name, find_effect(name).parameter.amplitude(value));
+  }
+  return c;
+}
+
+} // namespace
+
+void add_cases(const Json &truth, const Json &gap, const Json &without, const Json &baselines,
+               std::vector<ScoredCase> &out) {
+  ScoredCase c = case_of(truth, gap);
+  c.covered = covered_parameters(truth, gap);
+  c.covered_amplitude = covered_amplitudes(truth, gap);
+  c.baselines = baselines.at("named").get<std::map<std::string, std::string>>();
+  out.push_back(c);
+  if (c.block != "single" || without.value("without", "") != c.truth)
+    return;
+  ScoredCase less = case_of(truth, without);
+  less.signal_to_noise = c.signal_to_noise;
+  less.block = "left_out";
+  less.truth = "unknown";
+  out.push_back(less);
+}
+
+std::vector<ScoredCase> open_round(const std::string &folder, const std::string &answers) {
+  const Json sealed = json_of(folder + "/sealed/truth.json");
+  const std::string open = folder + "/handed_out/commitment.json";
+  const Json committed = json_of(open).at("cases"), list = json_of(answers + "/answers.json");
+  must_be(sha256(bytes_of(open)), list.value("commitment_sha256", ""),
+          open + ", which was answered,");
+  if (sealed.at("cases").size() != committed.size())
+    throw Failure(kCheckFailed, fmt::format("{} truths are sealed, {} were committed to. Nothing "
+                                            "is scored.",
+                                            sealed.at("cases").size(), committed.size()));
+  std::vector<ScoredCase> out;
+  for (const Json &one : sealed.at("cases")) {
+    const Json &truth = one.at("truth");
+    const std::string id = truth.at("id");
+    must_be(commitment(one.at("salt"), truth), committed.value(id, ""), "the truth of case " + id);
+    must_be(sha256_of_files(folder + "/handed_out/" + id), truth.at("handed_out_sha256"),
+            "what was handed out of case " + id);
+    Json answer[3];
+    const char *const files[] = {"gap.json", "gap_without.json", "baselines.json"};
+    for (int k = 0; k < 3; ++k) {
+      const std::string name = id + "/" + files[k];
+      must_be(sha256(bytes_of(answers + "/" + name)), list.at("sha256").value(name, ""),
+              "the answer " + name);
+      answer[k] = json_of(answers + "/" + name);
+    }
+    add_cases(truth, answer[0], answer[1], answer[2], out);
+  }
+  return out;
+}
+
+void score_round(const std::string &round, const std::string &answers, const std::string &folder) {
+  const std::vector<ScoredCase> cases = open_round(round, answers);
+  make_output_folder(folder);
+  write_scores(cases, json_of(round + "/sealed/truth.json").value("round", ""), folder);
+}
+
+} // namespace calendem

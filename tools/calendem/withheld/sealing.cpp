@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "withheld/sealing.h"
+#include "spec/messages.h"
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <openssl/sha.h>
+
+namespace calendem {
+namespace {
+
+std::string hex(const unsigned char *bytes, std::size_t n) {
+  std::string out;
+  for (std::size_t k = 0; k < n; ++k)
+    out += fmt::format("{:02x}", bytes[k]);
+  return out;
+}
+
+} // namespace
+
+std::string sha256(const std::string &bytes) {
+  unsigned char digest[SHA256_DIGEST_LENGTH];
+  SHA256(reinterpret_cast<const unsigned char *>(bytes.data()), bytes.size(), digest);
+  return hex(digest, sizeof digest);
+}
+
+std::string bytes_of(const std::string &file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in)
+    throw Failure(kBadInput, fmt::format("{} cannot be read. Is the folder complete?", file));
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::string sha256_of_files(const std::string &folder) {
+  std::map<std::string, std::string> hashes;
+  for (const auto &entry : std::filesystem::directory_iterator(folder)) {
+    if (!entry.is_regular_file() || entry.is_symlink())
+      throw Failure(kBadInput, fmt::format("{} is no plain file; what was handed out holds nothing "
+                                           "else. Take it as it was made.",
+                                           entry.path().string()));
+    hashes[entry.path().filename().string()] = sha256(bytes_of(entry.path().string()));
+  }
+  std::string all;
+  for (const auto &[name, hash] : hashes)
+    all += name + " " + hash + "\n";
+  return sha256(all);
+}
+
+std::string random_secret() {
+  std::ifstream in("/dev/urandom", std::ios::binary);
+  unsigned char bytes[32];
+  if (!in.read(reinterpret_cast<char *>(bytes), sizeof bytes))
+    throw Failure(kBadInput, "/dev/urandom cannot be read: there is no secret to seal truths with. "
+                             "Give --seed for a round that is not sealed.");
+  return hex(bytes, sizeof bytes);
+}
+
+std::string derived(const std::string &secret, const std::string &purpose) {
+  return sha256(secret + "\n" + purpose);
+}
+
+std::uint64_t derived_seed(const std::string &secret, const std::string &purpose) {
+  return std::stoull(derived(secret, purpose).substr(0, 16), nullptr, 16);
+}
+
+std::string commitment(const std::string &salt, const nlohmann::json &truth) {
+  return sha256(salt + "\n" + truth.dump());
+}
+
+} // namespace calendem

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Seals: hashes that commit to a text without telling it.
+#ifndef CALENDEM_WITHHELD_SEALING_H
+#define CALENDEM_WITHHELD_SEALING_H
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace calendem {
+
+/// SHA-256 (FIPS 180-4) as 64 hex digits; by OpenSSL's libcrypto.
+std::string sha256(const std::string &bytes);
+
+/// Of the files of a folder (no folders in it), by name and bytes, in the order of their names.
+/// Throws Failure(2) for anything that is no plain file: a link may lead elsewhere.
+std::string sha256_of_files(const std::string &folder);
+
+/// The bytes of a file. Throws Failure(2) if it cannot be read.
+std::string bytes_of(const std::string &file);
+
+/// 32 bytes of the system's random device as hex digits. Throws Failure(2) if there is none.
+std::string random_secret();
+
+/// What is derived from a secret for one purpose: 64 hex digits, or a seed.
+std::string derived(const std::string &secret, const std::string &purpose);
+std::uint64_t derived_seed(const std::string &secret, const std::string &purpose);
+
+/// SHA-256 of the salt, a line's end and the truth as JSON with sorted keys and no spaces.
+std::string commitment(const std::string &salt, const nlohmann::json &truth);
+
+} // namespace calendem
+
+#endif

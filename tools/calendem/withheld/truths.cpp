@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "withheld/truths.h"
+#include "bank/bank_design.h"
+#include "pack/random.h"
+#include "spec/case.h"
+#include "withheld/hidden_changes.h"
+#include "withheld/sealing.h"
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+
+namespace calendem {
+namespace {
+
+/// Draws one truth after the other.
+class Drawing {
+public:
+  Drawing(const Round &round, const std::string &secret)
+      : round_(round), random_(derived_seed(secret, "truths"), 0) {}
+
+  Truth truth(const std::string &block, const std::vector<std::string> &names, double low = 0.0,
+              double high = 1.0) {
+    Truth t;
+    t.block = block;
+    // far from the bank's own seeds, which count from 1
+    t.packing = static_cast<unsigned long>(1e6 + 4e9 * 0.99 * random_.uniform());
+    for (const BankParameter &p : round_.bank.parameters)
+      t.base.push_back(prior_value(p.low, p.high, p.spread, 0.05 + 0.9 * random_.uniform()));
+    for (const std::string &name : names)
+      if (name == "noise")
+        t.understated =
+            round_.noise.least_understated +
+            random_.uniform() * (round_.noise.most_understated - round_.noise.least_understated);
+      else if (find_hidden(name))
+        t.hidden.push_back(name);
+      else
+        t.effects.emplace_back(name, value(find_effect(name).parameter, low, high));
+    t.pressure_error = 0.01 * round_.noise.pressure_percent * t.understated * random_.normal();
+    return t;
+  }
+
+private:
+  const Round &round_;
+  Random random_;
+
+  double value(const EffectParameter &p, double low, double high) {
+    return prior_value(p.low, p.high, p.spread, low + (high - low) * random_.uniform());
+  }
+};
+
+/// Keys that the truth changes beyond the bank's own, with their values.
+std::map<std::string, std::string> changed_keys(const Round &round, const Truth &t,
+                                                const std::map<std::string, std::string> &usual) {
+  std::map<std::string, std::string> out = usual;
+  for (std::size_t k = 0; k < round.bank.parameters.size(); ++k)
+    for (const std::string &key : round.bank.parameters[k].keys)
+      out[key] = fmt::format("{}", t.base[k]);
+  for (const auto &[name, value] : t.effects)
+    for (const std::string &key : find_effect(name).parameter.keys)
+      out["case." + key] = fmt::format("{}", value);
+  for (const std::string &name : t.hidden)
+    for (const ChangedKey &c : find_hidden(name)->keys)
+      out[c.key] =
+          c.value.empty() ? fmt::format("{:.6g}", c.factor * std::stod(out.at(c.key))) : c.value;
+  out["recipe.seed"] = fmt::format("{}", t.packing);
+  return out;
+}
+
+/// Every key that some truth moves, with the value of the bank's recipe and case.
+std::map<std::string, std::string> usual_values(const Round &round,
+                                                const std::vector<Truth> &truths) {
+  const Settings recipe = read_recipe(round.bank.recipe_file).settings;
+  const Settings settings = read_case(round.bank.case_file);
+  std::map<std::string, std::string> out;
+  const auto add = [&](const std::string &key) {
+    const std::string bare = key.substr(key.find('.') + 1);
+    out[key] = key[0] == 'r' ? recipe.text(bare) : settings.text(bare);
+  };
+  for (const BankParameter &p : round.bank.parameters)
+    std::for_each(p.keys.begin(), p.keys.end(), add);
+  for (const Truth &t : truths) {
+    for (const auto &effect : t.effects)
+      for (const std::string &key : find_effect(effect.first).parameter.keys)
+        add("case." + key);
+    for (const std::string &name : t.hidden)
+      for (const ChangedKey &c : find_hidden(name)->keys)
+        add(c.key);
+  }
+  add("recipe.seed");
+  return out;
+}
+
+} // namespace
+
+std::string right_answer(const Truth &t, const BankSpec &bank) {
+  for (const std::string &name : t.hidden)
+    if (!find_hidden(name)->numerics)
+      return "unknown";
+  std::vector<std::string> names;
+  for (const std::string &name : bank.effects)
+    for (const auto &effect : t.effects)
+      if (effect.first == name)
+        names.push_back(name);
+  if (names.empty())
+    return t.understated > 1.0 ? "noise" : "none";
+  return joined(names);
+}
+
+std::vector<Truth> draw_truths(const Round &round, const std::string &secret) {
+  Drawing drawing(round, secret);
+  std::vector<Truth> out;
+  for (int k = 0; k < round.null_packings; ++k) {
+    out.push_back(drawing.truth("null", {}));
+    out.back().draws = round.null_draws / round.null_packings +
+                       (k < round.null_draws % round.null_packings ? 1 : 0);
+  }
+  for (const std::string &name : round.bank.effects)
+    for (int k = 0; k < round.amplitudes; ++k)
+      out.push_back(drawing.truth("single", {name}, double(k) / round.amplitudes,
+                                  double(k + 1) / round.amplitudes));
+  const auto add = [&](const char *block, const std::vector<std::vector<std::string>> &list) {
+    for (const auto &names : list)
+      out.push_back(drawing.truth(block, names));
+  };
+  add("open", round.open);
+  add("pair", round.pairs);
+  add("fault", round.faults);
+  add("other", round.other_numerics);
+  return out;
+}
+
+Study truth_study(const Round &round, const std::vector<Truth> &truths) {
+  Study study;
+  study.file = round.file;
+  study.name = round.name;
+  study.recipe_file = round.bank.recipe_file;
+  study.case_file = round.bank.case_file;
+  study.keep_all = false;
+  const auto usual = usual_values(round, truths);
+  for (const auto &[key, value] : usual)
+    study.columns.push_back(key);
+  study.columns.push_back("case.platen.max_pressure_MPa");
+  std::vector<std::vector<std::string>> rows;
+  for (const Truth &t : truths)
+    for (const double pressure : round.bank.pressures) {
+      rows.emplace_back();
+      for (const auto &[key, value] : changed_keys(round, t, usual))
+        rows.back().push_back(value);
+      rows.back().push_back(fmt::format("{:.6g}", pressure * (1.0 + t.pressure_error)));
+    }
+  Mistakes mistakes(round.file, 20);
+  add_runs(study, rows, mistakes);
+  mistakes.stop_if_any();
+  return study;
+}
+
+nlohmann::json to_json(const Truth &t, const BankSpec &bank) {
+  nlohmann::json effects = nlohmann::json::object(), base = nlohmann::json::object();
+  for (const auto &[name, value] : t.effects)
+    effects[name] = value;
+  for (std::size_t k = 0; k < bank.parameters.size(); ++k)
+    base[bank.parameters[k].name] = t.base[k];
+  return {{"block", t.block},          {"answer", right_answer(t, bank)},
+          {"effects", effects},        {"hidden", t.hidden},
+          {"parameters", base},        {"understated", t.understated},
+          {"packing_seed", t.packing}, {"pressure_error", t.pressure_error}};
+}
+
+} // namespace calendem
