@@ -49,10 +49,21 @@ until_file() { # FILE PID: waits for the file, written by PID, and some rows of 
   fail "no $1"
 }
 ranks_of_run() { pgrep -f "^[^ ]*/liggghts .*-var out $work/run " || true; }
+nothing_runs_below() { # FOLDER
+  ! pgrep -af "^[^ ]*/(liggghts|calendem) .*$1/" || fail "that goes on, nobody waits for it"
+}
 begin() { # OPTION...: a run in the background; its id is in $running
   "$bin/calendem" run "$work/case.toml" -o "$work/run" "$@" >"$work/run.log" 2>&1 </dev/null &
   running=$!
 }
+at_terminal() { # COMMAND...: begins it on a terminal of its own (bash ignores SIGINT in what it begins by &)
+  mkfifo "$work/keys"
+  SHELL=/bin/bash command script -qec "exec env --default-signal=INT $(printf '%q ' "$@")" "$work/run.log" <"$work/keys" >/dev/null 2>&1 &
+  running=$!
+  exec 3>"$work/keys"
+  trap '' PIPE
+}
+ctrl_c() { printf '\003' >&3; }
 ended_with() { # STATUS: of the run in the background; its messages count as said
   local status=0
   wait "$running" || status=$?
@@ -420,6 +431,44 @@ stopped_by_signal() {
   is_kept
   [ -z "$(ranks_of_run)" ] || fail "LIGGGHTS goes on: $(ranks_of_run)"
   expect 0 run --resume
+}
+ctrl_c_at_terminal() { # of a user in a hurry: several times
+  a_case "$electrode" "${quick[@]}"
+  at_terminal "$bin/calendem" run "$work/case.toml" -o "$work/run" --ranks 1
+  until_file "$work/run/running.restart" "$running"
+  for _ in 1 2 3; do
+    ctrl_c || true # it may have ended
+    sleep 0.1
+  done
+  ended_with 3
+  says "stopped on request (signal 2)" "What was computed is kept" "--resume"
+  is_kept
+  nothing_runs_below "$work"
+  expect 0 run --resume
+}
+ctrl_c_of_study() { # two runs at once, of the electrode that is there
+  printf '%s\n' '[study]' 'name = "stopped"' 'recipe = "../packing/recipe.toml"' 'case = "case.toml"' \
+    'at_pressure_MPa = [3]' '[[vary]]' 'keys = ["case.platen.max_pressure_MPa"]' 'values = [4, 5]' | file study.toml
+  a_case "$electrode" "${quick[@]}"
+  local study=("$bin/calendem" study "$work/study.toml" -o "$work/out" --jobs 2) run runs
+  expect 0 "${study[@]}" --table
+  mapfile -t runs < <(awk -F, 'NR > 1 { print $3 }' "$work/out/study.csv")
+  cp -r "$electrode" "$work/out/packings/$(awk -F, 'NR == 2 { print $4 }' "$work/out/study.csv")"
+  at_terminal "${study[@]}"
+  for run in "${runs[@]}"; do
+    ln -sfn "$work/out/runs/$run" "$work/run"
+    until_file "$work/run/running.restart" "$running"
+  done
+  ctrl_c
+  ended_with 3
+  says "stopped on request" "What was computed is kept" "the same command goes on"
+  nothing_runs_below "$work"
+  for run in "${runs[@]}"; do
+    ln -sfn "$work/out/runs/$run" "$work/run"
+    is_kept
+  done
+  expect 0 "${study[@]}"
+  says "2 of 2 runs done"
 }
 stopped_run() { # a run that was stopped after two restart files
   a_case "$electrode" "${quick[@]}"

@@ -1,26 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "run/process.h"
+#include "run/child.h"
 #include "spec/messages.h"
 #include "spec/output_folder.h"
 #include <chrono>
-#include <csignal>
-#include <cstring>
-#include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
 
-extern char **environ;
-
 namespace calendem {
 namespace {
-
-volatile sig_atomic_t asked_to_stop = 0;
-void on_signal(int number) { asked_to_stop = number; }
 
 std::vector<std::string> command_line(const LiggghtsJob &job) {
   std::vector<std::string> words = {"mpirun", "-np", std::to_string(job.ranks)};
@@ -41,35 +33,19 @@ std::vector<std::string> command_line(const LiggghtsJob &job) {
 }
 
 pid_t start(const LiggghtsJob &job) {
-  std::vector<std::string> words = command_line(job);
-  std::vector<char *> argv;
-  for (std::string &w : words)
-    argv.push_back(w.data());
-  argv.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, 1, job.screen.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
-                                   0644);
-  posix_spawn_file_actions_adddup2(&actions, 1, 2);
-  // the host writes a forced restart file into its working folder when it is told to stop
-  const std::string folder = std::filesystem::path(job.log).parent_path().string();
-  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
   if (geteuid() == 0) {
     setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
     setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
   }
   // OpenMPI would tie the ranks of every run to the same first cores.
   setenv("OMPI_MCA_hwloc_base_binding_policy", "none", 0);
-  pid_t pid = 0;
-  const int error = posix_spawnp(&pid, "mpirun", &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0)
-    throw Failure(kBadInput,
-                  fmt::format("cannot start mpirun: {}. Install OpenMPI (openmpi-bin) or load "
-                              "its module",
-                              std::strerror(error)));
-  return pid;
+  ChildProgram mpirun;
+  mpirun.words = command_line(job);
+  mpirun.output = job.screen;
+  // the host writes a forced restart file into its working folder when it is told to stop
+  mpirun.folder = std::filesystem::path(job.log).parent_path().string();
+  mpirun.remedy = "Install OpenMPI (openmpi-bin) or load its module";
+  return start_child(mpirun);
 }
 
 /// The lines that say why: LIGGGHTS's own errors, else mpirun's report of a rank that was killed,
@@ -96,8 +72,8 @@ std::string folder_of(const LiggghtsJob &job) {
 
 /// Why the job must be stopped, empty if it may go on.
 std::string reason_to_stop(const LiggghtsJob &job) {
-  if (asked_to_stop)
-    return fmt::format("stopped on request (signal {})", asked_to_stop);
+  if (const int signal = stop_requested())
+    return fmt::format("stopped on request (signal {})", signal);
   const std::uintmax_t left = room_on_disk(folder_of(job));
   if (left < job.room)
     return fmt::format(
@@ -142,12 +118,9 @@ std::string wrong_program(const std::string &program) {
 void run_liggghts(const LiggghtsJob &job, const std::function<void()> &tick) {
   if (const std::string wrong = wrong_program(job.program); !wrong.empty())
     throw Failure(kBadInput, wrong);
-  asked_to_stop = 0;
-  const auto old_int = std::signal(SIGINT, on_signal), old_term = std::signal(SIGTERM, on_signal);
+  const StopRequests while_it_runs;
   int status = 0;
   const std::string stopped = wait_for(start(job), job, status, tick);
-  std::signal(SIGINT, old_int);
-  std::signal(SIGTERM, old_term);
   if (!stopped.empty())
     throw Failure(kSimulationFailed, stopped);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)

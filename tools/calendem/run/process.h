@@ -25,9 +25,9 @@ struct LiggghtsJob {
 /// What is wrong with the program, what to do; empty if it can be started.
 std::string wrong_program(const std::string &program);
 
-/// Runs the job; calls `tick` about twice a second meanwhile. SIGINT and SIGTERM are passed on.
-/// Throws Failure(3) with LIGGGHTS's own error if it fails or is stopped, Failure(2) if it cannot
-/// be started.
+/// Runs the job; calls `tick` about twice a second meanwhile. SIGINT, SIGTERM and SIGHUP are passed
+/// on. Throws Failure(3) with LIGGGHTS's own error if it fails or is stopped, Failure(2) if it
+/// cannot be started.
 void run_liggghts(const LiggghtsJob &job, const std::function<void()> &tick);
 
 } // namespace calendem

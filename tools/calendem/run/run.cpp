@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "run/run.h"
+#include "run/child.h"
 #include "run/collect.h"
 #include "run/process.h"
 #include "run/run_folder.h"
@@ -218,6 +219,7 @@ void run_case(const Settings &settings, RunOptions o) {
   try {
     run_liggghts(job_of(settings, electrode, o, folder, resume), [&] { progress(); });
   } catch (const Failure &f) {
+    const StopRequests not_now; // a second Ctrl-C would lose what is being collected
     stop_watch();
     facts.stopped_because = f.what();
     throw Failure(f.exit_status(), std::string(f.what()) + "\n" +

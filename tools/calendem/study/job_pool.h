@@ -9,12 +9,9 @@
 
 namespace calendem {
 
-/// Runs a program, its output to the end of `log`; waits. SIGINT and SIGTERM are passed on. Returns
+/// Runs a program, its output to the end of `log`; waits. A request to stop is passed on. Returns
 /// its exit status; 128 + signal if it was killed. Throws Failure(2) if it cannot be started.
 int run_program(const std::vector<std::string> &words, const std::string &log);
-
-/// True after SIGINT or SIGTERM inside `in_parallel`.
-bool asked_to_stop();
 
 /// Calls `work(0)` .. `work(n - 1)`, `jobs` at a time, in order; begins no more once asked to stop.
 void in_parallel(int n, int jobs, const std::function<void(int)> &work);

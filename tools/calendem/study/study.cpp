@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "study/study.h"
 #include "pack/pack.h"
+#include "run/child.h"
 #include "run/process.h"
 #include "run/run.h"
 #include "spec/case.h"
@@ -200,7 +201,7 @@ private:
   }
 
   std::string ended(int status) const {
-    if (asked_to_stop())
+    if (stop_requested())
       return "stopped";
     return status == 0 ? "" : status == kCheckFailed ? kChecksFailed : "failed";
   }
@@ -277,7 +278,7 @@ void make_study(const Study &study, StudyOptions o) {
     in_parallel(n, o.jobs, [&](int k) { making.make(k); });
   making.write_table();
   fmt::print("study: {} of {} runs done, {}/study.csv\n", making.count("done"), n, o.folder);
-  if (asked_to_stop())
+  if (stop_requested())
     throw Failure(kSimulationFailed, "study: stopped on request. What was computed is kept; the "
                                      "same command goes on.");
   if (const std::string failures = making.failures(); !failures.empty())
