@@ -62,8 +62,8 @@ std::vector<BankPoint> bank_points(const BankSpec &spec) {
     p.base_point = k;
     p.packing = 1 + k % spec.packings;
     for (std::size_t d = 0; d < spec.parameters.size(); ++d)
-      p.base.push_back(between(spec.parameters[d].low, spec.parameters[d].high,
-                               spec.parameters[d].spread, shares(int(d), k)));
+      p.base.push_back(prior_value(spec.parameters[d].low, spec.parameters[d].high,
+                                   spec.parameters[d].spread, shares(int(d), k)));
     out.push_back(p);
   }
   for (std::size_t e = 0; e < spec.effects.size(); ++e) {

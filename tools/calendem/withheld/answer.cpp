@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/answer.h"
 #include "diagnose/diagnose.h"
+#include "run/child.h"
 #include "spec/messages.h"
 #include "spec/output_folder.h"
 #include "spec/provenance.h"
