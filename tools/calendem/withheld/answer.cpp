@@ -156,7 +156,7 @@ void answer_round(const AnswerOptions &given) {
   Answering answering(o);
   make_output_folder(o.folder);
   in_parallel(answering.cases(), o.jobs, [&](int k) { answering.answer(k); });
-  if (asked_to_stop())
+  if (stop_requested() != 0)
     throw Failure(kSimulationFailed,
                   "withheld: stopped on request. The answers given are kept; the "
                   "same command goes on.");

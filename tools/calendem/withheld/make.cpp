@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/make.h"
 #include "pack/random.h"
+#include "run/child.h"
 #include "spec/messages.h"
 #include "spec/output_folder.h"
 #include "spec/provenance.h"
@@ -41,7 +42,7 @@ void run_truths(const Study &study, const StudyOptions &options) {
   try {
     make_study(study, options);
   } catch (const Failure &f) {
-    if (f.exit_status() == kBadInput || asked_to_stop())
+    if (f.exit_status() == kBadInput || stop_requested() != 0)
       throw;
     fmt::print("withheld: {}\nTruths with such runs are left out.\n", f.what());
   }
