@@ -97,6 +97,20 @@ TEST_F(WriteReport, IsReproducible) {
   EXPECT_EQ(first, contents(path("r.html")));
 }
 
+// Requirement: every plot can be had as a file that stands alone.
+TEST_F(WriteReport, DrawsEveryPlotAsAFile) {
+  make_run(path("run"), small_);
+  ASSERT_EQ(write_report({path("run")}, path("r.html"), path("figures")), 0);
+  std::size_t files = 0;
+  for (const auto &file : std::filesystem::directory_iterator(path("figures"))) {
+    const std::string svg = contents(file.path().string());
+    EXPECT_EQ(svg.rfind("<svg xmlns=", 0), 0u) << file.path();
+    EXPECT_NE(svg.find(".grid"), std::string::npos) << "no style in " << file.path();
+    ++files;
+  }
+  EXPECT_EQ(files, twin("r.json")["charts"].size());
+}
+
 // Requirement: the comparison stands beside the paper's numbers, for every run.
 TEST_F(WriteReport, ComparesWithThePaper) {
   make_run(path("a"), small_);

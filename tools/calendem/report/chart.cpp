@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "report/chart_axis.h"
+#include "report/embedded.h"
 
 namespace calendem::report {
 namespace {
@@ -303,6 +304,15 @@ private:
 } // namespace
 
 std::string to_svg(const Chart &chart) { return Drawing(chart).svg(); }
+
+std::string to_svg_file(const Chart &chart) {
+  const std::string svg = to_svg(chart);
+  const std::size_t end = svg.find('>');
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"640\" " + svg.substr(5, end - 5) +
+         "><style><![CDATA[" + embedded::kPageCss +
+         "]]></style><rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>" +
+         svg.substr(end + 1) + "\n";
+}
 
 nlohmann::json to_json(const Chart &chart) {
   nlohmann::json series = nlohmann::json::array();

@@ -46,6 +46,9 @@ struct Chart {
 /// The drawing; sizes in CSS pixels, text in the font of the page.
 std::string to_svg(const Chart &chart);
 
+/// The drawing as a file of its own, with the page's style.
+std::string to_svg_file(const Chart &chart);
+
 /// The same chart as data, for report.json.
 nlohmann::json to_json(const Chart &chart);
 

@@ -44,7 +44,8 @@ std::string command_line(const std::vector<std::string> &directories, const std:
 
 } // namespace
 
-int write_report(const std::vector<std::string> &directories, std::string page) {
+int write_report(const std::vector<std::string> &directories, std::string page,
+                 const std::string &figures) {
   Problems problems;
   std::vector<Run> runs;
   for (const auto &directory : directories)
@@ -68,6 +69,11 @@ int write_report(const std::vector<std::string> &directories, std::string page) 
   const fs::path twin = fs::path(page).replace_extension(".json");
   if (!write(twin, to_json(report).dump(1) + "\n") || !write(page, to_html(report)))
     return kBadInput;
+  if (!figures.empty())
+    fs::create_directories(figures);
+  for (const Chart &chart : report.charts)
+    if (!figures.empty() && !write(figures + "/" + chart.id + ".svg", to_svg_file(chart)))
+      return kBadInput;
   std::cout << comparison_text(report.comparison) << "report: " << page
             << "\ndata:   " << twin.string() << '\n';
   return kDone;
@@ -78,7 +84,7 @@ int write_report(const std::vector<std::string> &directories, std::string page) 
 void add_report_verb(CLI::App &app) {
   struct Options {
     std::vector<std::string> directories;
-    std::string page;
+    std::string page, figures;
   };
   const auto options = std::make_shared<Options>();
   CLI::App *verb = app.add_subcommand(
@@ -90,8 +96,10 @@ void add_report_verb(CLI::App &app) {
                    "Page to write; its data go to the same name with .json. Default: report.html "
                    "in the run's directory, or here if there are several")
       ->type_name("FILE.html");
+  verb->add_option("--figures", options->figures, "Folder for every plot as a file (SVG) too")
+      ->type_name("FOLDER");
   verb->callback([options] {
-    const int status = report::write_report(options->directories, options->page);
+    const int status = report::write_report(options->directories, options->page, options->figures);
     if (status != 0)
       throw Failure(status, "calendem report: nothing was written");
   });

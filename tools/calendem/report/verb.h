@@ -17,9 +17,11 @@ void add_report_verb(CLI::App &app);
 
 namespace report {
 
-/// Writes `page` (HTML) and, beside it with the ending .json, its twin. Exit status of the program:
+/// Writes `page` (HTML), its twin beside it with the ending .json and, if a folder is given, every
+/// plot as `figures`/ID.svg. Exit status of the program:
 /// 0 done, 2 bad input (all mistakes are on stderr and nothing is written).
-int write_report(const std::vector<std::string> &directories, std::string page);
+int write_report(const std::vector<std::string> &directories, std::string page,
+                 const std::string &figures = "");
 
 } // namespace report
 } // namespace calendem

@@ -51,16 +51,6 @@ nlohmann::json row_of(const StudyTable &table, const StudyGroup &group) {
   return {{"cells", cells}};
 }
 
-/// The chart as a file of its own, with the page's style.
-std::string drawing(const report::Chart &chart) {
-  std::string svg = report::to_svg(chart);
-  const std::size_t end = svg.find('>');
-  return fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"640\" {}><style><![CDATA[{}]]>"
-      "</style><rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>{}\n",
-      svg.substr(5, end - 5), report::embedded::kPageCss, svg.substr(end + 1));
-}
-
 nlohmann::json head(const StudyTable &table) {
   nlohmann::json out = nlohmann::json::array();
   for (const std::string &column : table.settings())
@@ -130,7 +120,7 @@ void draw_study(const std::vector<std::string> &columns, const std::string &fold
   const std::vector<report::Chart> charts = study_charts(table, curve);
   std::filesystem::create_directories(folder + "/figures");
   for (const report::Chart &chart : charts)
-    write_file(folder + "/figures/" + chart.id + ".svg", drawing(chart));
+    write_file(folder + "/figures/" + chart.id + ".svg", report::to_svg_file(chart));
   write_file(folder + "/study.html", study_page(table, charts, description));
   fmt::print("page: {}/study.html\n", folder);
 }
