@@ -17,14 +17,15 @@ mkdir -p "$tree"
 echo "name,caught" >"$work/mutants.csv"
 missed=0 all=0
 while IFS='|' read -r name file expression tests <&3; do
-  name=$(trim "$name") file=$tree/src_plugin/$(trim "$file") expression=$(trim "$expression") tests=$(trim "$tests")
+  name=$(trim "$name") file=$(trim "$file") expression=$(trim "$expression") tests=$(trim "$tests")
   case $name in "" | "#"*) continue ;; esac
   [ $# -eq 0 ] || [[ " $* " == *" $name "* ]] || continue
+  case $file in tools/*) file=$tree/$file ;; *) file=$tree/src_plugin/$file ;; esac
   cp "$file" "$work/original"
   sed -i "$expression" "$file"
   if cmp -s "$file" "$work/original"; then echo "FAILED: $name changes nothing" >&2; missed=$((missed + 1)); continue; fi
-  target=all
-  [[ $file == */physics/* ]] && target=physics_test
+  target=all unit=${tests%%.*}
+  [ ! -d "$tree/tests/unit/$unit" ] || target=${unit}_test
   caught=no
   if ! cmake --build "$tree/build" --target "$target" >"$work/build.log" 2>&1; then caught="does not compile"
   elif ! ctest --test-dir "$tree/build" -R "^${tests//./\\.}" --no-tests=error --stop-on-failure >"$work/$name.log" 2>&1; then caught=yes; fi
