@@ -49,10 +49,10 @@ public:
     const char *other = std::getenv("CALENDEM_LIGGGHTS");
     setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
     setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
-    // One rank needs no launcher; all such share a folder of OpenMPI's and take it from each other.
-    const std::string start =
-        ranks == 1 ? "OMPI_MCA_orte_tmpdir_base='" + folder_.string() +
-                         "' OMPI_MCA_ess_singleton_isolated=1 OMPI_MCA_pml=ob1 OMPI_MCA_btl=self "
+    // OpenMPI's files of a run: shared, one that ends removes the folder of another that starts
+    setenv("OMPI_MCA_orte_tmpdir_base", folder_.c_str(), 1);
+    const std::string start = // one rank needs no launcher
+        ranks == 1 ? "OMPI_MCA_ess_singleton_isolated=1 OMPI_MCA_pml=ob1 OMPI_MCA_btl=self "
                    : "mpirun --oversubscribe -np " + std::to_string(ranks) + " ";
     std::string
         command = // no `-screen none`: the host's meshes write to a screen that is not there
