@@ -3,15 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
-
-#include "spec/csv_table.h"
 
 namespace calendem::report {
 namespace {
 
-namespace fs = std::filesystem;
 using Columns = std::map<std::string, Column>;
 
 constexpr double kPercent = 100;
@@ -19,24 +15,13 @@ constexpr double kPercent = 100;
 const char *const kRunColours[] = {"#0064b0", "#c8500a", "#00845a",
                                    "#a8508c", "#8a6d00", "#222222"};
 
-/// The table's numbers, if it has all `columns`.
-Columns read_columns(const fs::path &file, const std::vector<std::string> &columns, Run &run) {
-  Columns out;
-  if (!fs::exists(file))
-    return out;
-  std::ifstream in(file, std::ios::binary);
-  const auto table =
-      CsvTable::parse({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
-  const bool all = std::all_of(columns.begin(), columns.end(),
-                               [&](const std::string &c) { return table.has(c); });
-  if (!all || !table.bad_lines().empty()) {
-    run.notes.push_back({file.string(), "it lacks columns or is cut: no charts of it",
-                         "collect the run again: calendem collect " + run.directory});
-    return out;
-  }
-  for (const std::string &column : columns)
-    out[column] = table.numbers(column);
-  return out;
+Chart axes(const char *id, const std::string &title, const char *x_label, const char *y_label) {
+  Chart chart;
+  chart.id = id;
+  chart.title = title;
+  chart.x_label = x_label;
+  chart.y_label = y_label;
+  return chart;
 }
 
 Series points(const std::string &name, const char *colour, Symbol symbol) {
@@ -106,32 +91,9 @@ template <typename X, typename Y> std::vector<Series> body_points(const Run &run
 
 } // namespace
 
-void read_fracture(const fs::path &directory, Run &run) {
-  FractureTables &f = run.fracture;
-  f.cracks =
-      read_columns(directory / "cracks.csv",
-                   {"time_us", "pressure_MPa", "bodies_with_bonds", "bodies_apart",
-                    "bodies_cracked", "bodies_split", "crack_surface_um2", "parted_surface_um2"},
-                   run);
-  if (f.cracks.empty()) // a run of an earlier version
-    return;
-  f.bodies = read_columns(
-      directory / "bodies.csv",
-      {"body", "bonds", "broken", "broken_fraction", "fragments", "largest_fragment", "depth_um"},
-      run);
-  f.thresholds = read_columns(directory / "thresholds.csv",
-                              {"threshold_percent", "above_apart", "above_whole", "below_apart",
-                               "below_whole", "above_split", "below_split"},
-                              run);
-  f.breaks = read_columns(directory / "breaks.csv", {"time_us", "body"}, run);
-}
-
 Chart cracked_by_pressure(const std::vector<Run> &runs) {
-  Chart chart;
-  chart.id = "cracked-pressure";
-  chart.title = "Cracked particles against pressure";
-  chart.x_label = "Pressure on the platen (MPa)";
-  chart.y_label = "Secondary particles (%)";
+  Chart chart = axes("cracked-pressure", "Cracked particles against pressure",
+                     "Pressure on the platen (MPa)", "Secondary particles (%)");
   chart.series =
       against_pressure(runs,
                        {{"bodies_apart", "apart: more than one fragment", "#00845a", "2 3"},
@@ -145,11 +107,8 @@ Chart cracked_by_pressure(const std::vector<Run> &runs) {
 }
 
 Chart crack_surface(const std::vector<Run> &runs) {
-  Chart chart;
-  chart.id = "crack-surface";
-  chart.title = "Surface of cracks against pressure";
-  chart.x_label = "Pressure on the platen (MPa)";
-  chart.y_label = "Surface (µm²)";
+  Chart chart = axes("crack-surface", "Surface of cracks against pressure",
+                     "Pressure on the platen (MPa)", "Surface (µm²)");
   chart.series =
       against_pressure(runs,
                        {{"crack_surface_um2", "all broken bonds", "#c8321e", ""},
@@ -161,11 +120,9 @@ Chart crack_surface(const std::vector<Run> &runs) {
 }
 
 Chart thresholds(const Run &run, bool single) {
-  Chart chart;
-  chart.id = "thresholds";
-  chart.title = titled("Does a share of broken bonds tell a crack?", run, single);
-  chart.x_label = "Threshold (% of a particle's bonds)";
-  chart.y_label = "Secondary particles (%)";
+  Chart chart =
+      axes("thresholds", titled("Does a share of broken bonds tell a crack?", run, single),
+           "Threshold (% of a particle's bonds)", "Secondary particles (%)");
   const Columns &t = run.fracture.thresholds;
   if (t.empty())
     return chart;
@@ -200,11 +157,8 @@ Chart thresholds(const Run &run, bool single) {
 }
 
 Chart fragments(const Run &run, bool single) {
-  Chart chart;
-  chart.id = "fragments";
-  chart.title = titled("Largest fragment of each particle", run, single);
-  chart.x_label = "Broken bonds of the particle (%)";
-  chart.y_label = "Largest fragment (% of the primaries)";
+  Chart chart = axes("fragments", titled("Largest fragment of each particle", run, single),
+                     "Broken bonds of the particle (%)", "Largest fragment (% of the primaries)");
   chart.series = body_points(
       run, [](const Columns &b, std::size_t i) { return kPercent * b.at("broken_fraction")[i]; },
       [](const Columns &b, std::size_t i) { return kPercent * b.at("largest_fragment")[i]; });
@@ -212,34 +166,21 @@ Chart fragments(const Run &run, bool single) {
 }
 
 Chart broken_by_depth(const Run &run, bool single) {
-  Chart chart;
-  chart.id = "depth";
-  chart.title = titled("Broken bonds of each particle by depth", run, single);
-  chart.x_label = "Depth of its centre below the film's surface, before (µm)";
-  chart.y_label = "Broken bonds of the particle (%)";
+  Chart chart = axes("depth", titled("Broken bonds of each particle by depth", run, single),
+                     "Depth of its centre below the film's surface, before (µm)",
+                     "Broken bonds of the particle (%)");
   chart.series = body_points(
       run, [](const Columns &b, std::size_t i) { return b.at("depth_um")[i]; },
       [](const Columns &b, std::size_t i) { return kPercent * b.at("broken_fraction")[i]; });
   return chart;
 }
 
-int studied_body(const Run &run) {
-  const Columns &b = run.fracture.bodies;
-  if (b.empty() || b.at("broken").empty())
-    return 0;
-  const Column &broken = b.at("broken");
-  const auto most = std::max_element(broken.begin(), broken.end());
-  return *most > 0 ? static_cast<int>(b.at("body")[most - broken.begin()]) : 0;
-}
-
 Chart one_body(const Run &run, bool single) {
-  Chart chart;
-  chart.id = "one-body";
   const int body = studied_body(run);
-  chart.title =
-      titled("Particle " + std::to_string(body) + ": pressure and broken bonds", run, single);
-  chart.x_label = "Displacement of the platen (µm)";
-  chart.y_label = "Pressure on the platen (MPa)";
+  Chart chart =
+      axes("one-body",
+           titled("Particle " + std::to_string(body) + ": pressure and broken bonds", run, single),
+           "Displacement of the platen (µm)", "Pressure on the platen (MPa)");
   chart.right_label = "Broken bonds of the particle";
   if (body == 0 || run.fracture.breaks.empty())
     return chart;

@@ -2,6 +2,7 @@
 #include "report/fracture_pictures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -30,6 +31,13 @@ struct Stage {
   const FrameFile *file;
 };
 
+/// How bonds are seen. Those longer than `longest` [um] lead through a periodic face.
+struct View {
+  Camera camera;
+  Tags fated; ///< bonds that are broken in the last frame
+  double longest;
+};
+
 std::vector<Stage> read_stages(Run &run) {
   std::vector<Stage> out;
   for (const Moment &moment : stages_of(run)) {
@@ -55,21 +63,20 @@ Tags broken_at_end(Run &run) {
   return out;
 }
 
-/// Intact bonds. Those longer than `longest` lead through a periodic face: counted, not drawn.
-std::string draw_fate(const BondFrame &frame, const Tags &fated, const Camera &camera,
-                      double longest, std::size_t &skipped) {
-  Raster raster(camera);
+/// Intact bonds; those through a periodic face are counted, not drawn.
+std::string draw_fate(const BondFrame &frame, const View &view, std::size_t &skipped) {
+  Raster raster(view.camera);
   for (std::size_t i = 0; i < frame.from.size(); ++i) {
     const Point &a = frame.from[i], &b = frame.to[i];
     if (!frame.intact[i])
       continue;
-    if (std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) > longest)
+    if (std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) > view.longest)
       ++skipped;
     else
       raster.rod(a, b, kRodRadius,
-                 i < frame.tags.size() && fated.count(frame.tags[i]) ? kWillBreak : kStays);
+                 i < frame.tags.size() && view.fated.count(frame.tags[i]) ? kWillBreak : kStays);
   }
-  return png_of(raster, camera);
+  return png_of(raster, view.camera);
 }
 
 std::string draw_spheres(const ParticleFrame &frame, const Camera &camera) {
@@ -77,6 +84,18 @@ std::string draw_spheres(const ParticleFrame &frame, const Camera &camera) {
   for (std::size_t i = 0; i < frame.centre.size(); ++i)
     raster.sphere(frame.centre[i], frame.radius[i], colour_of(frame.body[i]));
   return png_of(raster, camera);
+}
+
+/// A stage's spheres, as the subject `solid`, and its bonds.
+std::array<Picture, 2> draw_stage(const Stage &s, const char *solid, const View &view,
+                                  const Curve &curve) {
+  std::array<Picture, 2> out = {framed(s.moment, solid, *s.file, view.camera, s.platen),
+                                framed(s.moment, "bonds", *s.file, view.camera, s.platen)};
+  out[0].png = draw_spheres(s.particles, view.camera);
+  out[1].png = draw_fate(s.bonds, view, out[1].across_faces);
+  for (Picture &p : out)
+    add_state(curve, p);
+  return out;
 }
 
 std::string draw_place(const ParticleFrame &frame, int body, const Camera &camera) {
@@ -172,18 +191,11 @@ std::vector<Picture> draw_stages(Run &run) {
   const Box box = box_of(run);
   if (box.low[0] > box.high[0])
     return pictures;
-  const Camera camera = camera_for(box, kStageTall, kStageWide);
-  const double longest = 0.5 * std::min(box.high[0] - box.low[0], box.high[1] - box.low[1]);
-  const Tags fated = broken_at_end(run);
+  const View view = {camera_for(box, kStageTall, kStageWide), broken_at_end(run),
+                     0.5 * std::min(box.high[0] - box.low[0], box.high[1] - box.low[1])};
   for (const Stage &s : read_stages(run))
-    for (const char *subject : {"electrode", "bonds"}) {
-      pictures.push_back(framed(s.moment, subject, *s.file, camera, s.platen));
-      Picture &p = pictures.back();
-      p.png = subject == std::string("bonds")
-                  ? draw_fate(s.bonds, fated, camera, longest, p.across_faces)
-                  : draw_spheres(s.particles, camera);
-      add_state(run.curve, p);
-    }
+    for (Picture &p : draw_stage(s, "electrode", view, run.curve))
+      pictures.push_back(std::move(p));
   return pictures;
 }
 
@@ -208,17 +220,11 @@ std::vector<Picture> draw_one_body(Run &run) {
   }
   if (box.low[0] > box.high[0]) // bodies.csv names one that the frames have not
     return {};
-  const Camera camera = camera_for(box, kBodyTall, kBodyWide);
-  const Tags fated = broken_at_end(run);
+  const View view = {camera_for(box, kBodyTall, kBodyWide), broken_at_end(run), HUGE_VAL};
   for (const Stage &s : stages)
-    for (const char *subject : {"shape", "bonds"}) {
-      pictures.push_back(framed(s.moment, subject, *s.file, camera, s.platen));
-      Picture &p = pictures.back();
-      p.png = subject == std::string("bonds")
-                  ? draw_fate(s.bonds, fated, camera, HUGE_VAL, p.across_faces)
-                  : draw_spheres(s.particles, camera);
-      add_state(run.curve, p);
+    for (Picture &p : draw_stage(s, "shape", view, run.curve)) {
       p.broken_fraction = broken_share(s.bonds);
+      pictures.push_back(std::move(p));
     }
   return pictures;
 }
