@@ -5,6 +5,7 @@
 #include "support/test_folder.h"
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <set>
 
 namespace {
@@ -148,6 +149,33 @@ TEST(Bank, TheTableReadsBackAsWritten) {
               20.0, 1e-6);
   std::ofstream(file) << text.substr(0, text.size() - 40);
   EXPECT_THROW(read_bank_table(spec, file), Failure);
+}
+
+// Each in a row of its own; the fuzzer found that a parameter could be no number.
+TEST(Bank, RowsThatAreNoPointAreTold) {
+  BankSpec spec;
+  spec.parameters = {{"E", {}, 100.0, 300.0}};
+  const BankTable table = {spec, {{{"", 3, 1, {200}, 0.0}, some_run(80, 1)}}};
+  const std::string text = write_bank_table(table), file = (test_folder() / "bank.csv").string();
+  ASSERT_NE(text.find("\n,3,1,200,,"), std::string::npos) << text;
+  for (const auto &[row, told] : std::map<std::string, std::string>{
+           {"\n,,1,200,,", "'base_point' is no number"},
+           {"\n,3,1e99,200,,", "'packing' is 1e+99; it is a whole number from 1 to 10000"},
+           {"\n,2.5,1,200,,", "'base_point' is 2.5; it is a whole number from 0"},
+           {"\n,3,1,,,", "'E' is no number"},
+           {"\nfriction,3,1,200,,", "'value' is no number"},
+           {"\nfricton,3,1,200,1,", "Did you mean 'friction'"}}) {
+    std::string wrong = text;
+    wrong.replace(wrong.find("\n,3,1,200,,"), 11, row);
+    std::ofstream(file) << wrong;
+    try {
+      read_bank_table(spec, file);
+      ADD_FAILURE() << row;
+    } catch (const Failure &f) {
+      EXPECT_EQ(f.exit_status(), kBadInput);
+      EXPECT_NE(std::string(f.what()).find(told), std::string::npos) << f.what();
+    }
+  }
 }
 
 TEST(Bank, BetweenTwoPressuresRunsAreLinear) {

@@ -7,11 +7,14 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 namespace calendem {
 namespace {
 
 constexpr double kGrid[] = {1, 2, 4, 6, 8, 12, 16, 20, 30, 40, 50, 60, 75, 90, 110, 130, 150, 180};
+
+constexpr int kMostCounted = 10000; // base points that a bank may have
 
 struct Number {
   const char *column;
@@ -33,16 +36,27 @@ std::string grid_column(double pressure) {
   return fmt::format("displacement_um_at_{:g}_MPa", pressure);
 }
 
-BankRow row_at(const BankSpec &spec, const CsvTable &t, std::size_t k,
-               const std::vector<std::string> &effect) {
+/// Columns that hold a number in every row.
+std::vector<std::string> due_columns(const BankSpec &spec) {
+  std::vector<std::string> due = {"base_point", "packing"};
+  for (const BankParameter &p : spec.parameters)
+    due.push_back(p.name);
+  for (const Number &n : kNumbers)
+    due.push_back(n.column);
+  return due;
+}
+
+using Columns = std::map<std::string, std::vector<double>>;
+
+BankRow row_at(const BankSpec &spec, const Columns &t, std::size_t k, const std::string &effect) {
   BankRow row;
-  const auto number = [&](const std::string &column) { return t.numbers(column)[k]; };
-  row.point.effect = effect[k];
+  const auto number = [&](const std::string &column) { return t.at(column)[k]; };
+  row.point.effect = effect;
   row.point.base_point = int(number("base_point"));
   row.point.packing = int(number("packing"));
   for (const BankParameter &p : spec.parameters)
     row.point.base.push_back(number(p.name));
-  const bool base = effect[k].empty() || effect[k] == kFullCell;
+  const bool base = effect.empty() || effect == kFullCell;
   row.point.value = base ? 0.0 : number("value");
   row.run.control = "pressure";
   for (const Number &n : kNumbers)
@@ -53,6 +67,30 @@ BankRow row_at(const BankSpec &spec, const CsvTable &t, std::size_t k,
       row.run.displacement.push_back(d);
     }
   return row;
+}
+
+/// What row k must hold: numbers in the columns `due`, points and packings that can be counted, an
+/// effect that is known.
+void check_row(const Columns &t, std::size_t k, const std::string &effect,
+               const std::vector<std::string> &due, Mistakes &mistakes) {
+  const int line = int(k) + 2;
+  for (const std::string &column : due)
+    if (!std::isfinite(t.at(column)[k]))
+      mistakes.add(line, fmt::format("'{}' is no number.", column));
+  const bool on = !effect.empty() && effect != kFullCell;
+  if (on && !std::isfinite(t.at("value")[k]))
+    mistakes.add(line, "'value' is no number; it is the effect's.");
+  for (const auto &[column, lowest] : {std::pair("base_point", 0), std::pair("packing", 1)})
+    if (const double v = t.at(column)[k];
+        std::isfinite(v) && (v != std::floor(v) || v < lowest || v > kMostCounted))
+      mistakes.add(line, fmt::format("'{}' is {}; it is a whole number from {} to {}.", column, v,
+                                     lowest, kMostCounted));
+  try {
+    if (on)
+      find_effect(effect);
+  } catch (const Failure &e) {
+    mistakes.add(line, e.what());
+  }
 }
 
 } // namespace
@@ -91,11 +129,9 @@ BankTable read_bank_table(const BankSpec &spec, const std::string &file) {
                                 spec.file));
   const CsvTable t =
       CsvTable::parse({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
-  std::vector<std::string> wanted = {"effect", "base_point", "packing", "value"};
-  for (const BankParameter &p : spec.parameters)
-    wanted.push_back(p.name);
-  for (const Number &n : kNumbers)
-    wanted.push_back(n.column);
+  const std::vector<std::string> due = due_columns(spec);
+  std::vector<std::string> wanted = due;
+  wanted.insert(wanted.end(), {"effect", "value"});
   for (const double p : kGrid)
     wanted.push_back(grid_column(p));
   for (const std::string &column : wanted)
@@ -105,17 +141,16 @@ BankTable read_bank_table(const BankSpec &spec, const std::string &file) {
   for (const int line : t.bad_lines())
     mistakes.add(line, "the row has another number of cells than the header.");
   mistakes.stop_if_any();
-  BankTable out = {spec, {}};
+  Columns numbers;
+  for (const std::string &column : wanted)
+    numbers[column] = t.numbers(column);
   const std::vector<std::string> effect = t.texts("effect");
-  for (std::size_t k = 0; k < t.rows(); ++k) {
-    if (!effect[k].empty() && effect[k] != kFullCell)
-      find_effect(effect[k]);
-    out.rows.push_back(row_at(spec, t, k, effect));
-    for (const Number &n : kNumbers)
-      if (!std::isfinite(out.rows.back().run.*(n.field)))
-        mistakes.add(int(k) + 2, fmt::format("'{}' is no number.", n.column));
-  }
+  for (std::size_t k = 0; k < t.rows(); ++k)
+    check_row(numbers, k, effect[k], due, mistakes);
   mistakes.stop_if_any();
+  BankTable out = {spec, {}};
+  for (std::size_t k = 0; k < t.rows(); ++k)
+    out.rows.push_back(row_at(spec, numbers, k, effect[k]));
   return out;
 }
 
