@@ -28,6 +28,10 @@ struct ScoredCase {
   std::string ranked(int n) const;
 };
 
+using CaseTest = std::function<bool(const ScoredCase &)>;
+/// Some of the cases of a round, which outlives the list.
+using Cases = std::vector<const ScoredCase *>;
+
 /// One number of the score, with a 90 % interval.
 struct Metric {
   std::string name;
@@ -47,8 +51,21 @@ confusion_of(const std::vector<ScoredCase> &cases);
 /// Share of the cases chosen for which `hit` holds. Interval by drawing whole clusters; where all
 /// cases agree, the exact one of a proportion of clusters, since no draw could differ.
 Metric share_of(const std::string &name, const std::vector<ScoredCase> &cases,
-                const std::function<bool(const ScoredCase &)> &chosen,
-                const std::function<bool(const ScoredCase &)> &hit);
+                const CaseTest &chosen, const CaseTest &hit);
+
+/// Any statistic of the cases, which are not none; the interval by drawing whole clusters. NaN
+/// without cases.
+Metric statistic_of(const std::string &name, const Cases &cases,
+                    const std::function<double(const Cases &)> &statistic);
+
+Cases chosen_of(const std::vector<ScoredCase> &cases, const CaseTest &chosen);
+
+/// Mean of -ln of the probability given to the truth, 1e-6 at least.
+double log_score_of(const Cases &cases);
+/// Against always giving the round's own frequencies: the best that knows nothing of the data.
+double brier_skill_of(const Cases &cases);
+/// Of the probability given to "unknown", where that is the truth against where it is not.
+double auroc_of_unknown(const Cases &cases);
 
 /// Signal-to-noise from which the gates of `where` and `which` count.
 constexpr double kLoudEnough = 6.0;
