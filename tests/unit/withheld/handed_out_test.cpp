@@ -121,7 +121,7 @@ ShownRun shown_run(double target) {
 }
 
 Experiment handed(const Round &round, const Truth &truth, std::uint64_t seed) {
-  const auto folder = test_folder() / "out";
+  const auto folder = std::filesystem::path(round.file).parent_path() / "out";
   hand_out(folder.string(), "007", round, truth, {shown_run(30), shown_run(50)}, seed);
   return read_experiment((folder / "experiment.toml").string());
 }
