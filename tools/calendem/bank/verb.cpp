@@ -4,11 +4,17 @@
 #include "spec/messages.h"
 #include "spec/provenance.h"
 #include "study/study.h"
+#include "study/verb.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace calendem {
 namespace {
+
+struct Options {
+  StudyOptions study;
+  bool full_cell = false;
+};
 
 /// A study of points and where it goes.
 struct Part {
@@ -24,6 +30,7 @@ std::vector<Part> parts_of(const BankSpec &spec, const StudyOptions &o) {
     out.push_back({full_cell_points(spec), {}, o});
     out[1].study = full_cell_study(spec, out[1].points);
     out[1].options.folder += "/full_cell";
+    out[1].options.further = {"--full-cell"};
   }
   return out;
 }
@@ -50,39 +57,40 @@ void write_table(const BankSpec &spec, const std::vector<Part> &parts, const std
              table.rows.size(), folder, spec.file);
 }
 
-void make_bank(const std::string &file, const StudyOptions &o) {
-  const BankSpec spec = read_bank_spec(file);
-  const std::vector<Part> parts = parts_of(spec, o);
+void make_bank(const Options &o) {
+  const BankSpec spec = read_bank_spec(o.study.file);
+  std::vector<Part> parts = parts_of(spec, o.study);
+  if (o.full_cell) {
+    if (parts.size() < 2)
+      throw Failure(kBadInput, spec.file + " has no table [full_cell].");
+    parts[1].options.folder = o.study.folder;
+    return make_study(parts[1].study, parts[1].options);
+  }
+  if (o.study.step != StudyStep::All || o.study.only > 0) // a task among many: the table is not its
+    return make_study(parts[0].study, o.study);
   try {
     for (const Part &part : parts)
       make_study(part.study, part.options);
+    if (o.study.slurm.dry_run)
+      return;
   } catch (const Failure &f) {
     if (f.exit_status() != kBadInput) // else there is nothing yet
-      write_table(spec, parts, o.folder);
+      write_table(spec, parts, o.study.folder);
     throw;
   }
-  write_table(spec, parts, o.folder);
+  write_table(spec, parts, o.study.folder);
 }
 
 } // namespace
 
 void add_bank_verb(CLI::App &app) {
-  struct Arguments {
-    std::string spec;
-    StudyOptions options;
-  };
-  auto a = std::make_shared<Arguments>();
-  a->options.liggghts = liggghts_program();
+  auto o = std::make_shared<Options>();
   CLI::App *verb = app.add_subcommand(
       "bank", "The simulations that the diagnosis learns from, with and without each effect");
-  verb->add_option("BANK", a->spec, "bank (TOML)")->required();
-  verb->add_option("-o,--output", a->options.folder, "folder of the bank")->required();
-  verb->add_option("--jobs", a->options.jobs, "runs at a time")->check(CLI::Range(1, 4096));
-  verb->add_option("--only", a->options.only, "make the run of this number and no other")
-      ->check(CLI::Range(1, 1000000));
-  verb->add_flag("--table", a->options.table, "make no run, only the table of what there is");
-  verb->add_option("--liggghts", a->options.liggghts, "program with the plugin");
-  verb->callback([a] { make_bank(a->spec, a->options); });
+  verb->add_option("BANK", o->study.file, "bank (TOML)")->required();
+  add_study_options(*verb, o->study);
+  verb->add_flag("--full-cell", o->full_cell, "only the runs on the full cell, in that folder");
+  verb->callback([o] { make_bank(*o); });
 }
 
 } // namespace calendem

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <fmt/format.h>
 #include <spawn.h>
 
@@ -35,6 +36,8 @@ StopRequests::~StopRequests() {
 }
 
 int stop_requested() { return received; }
+
+std::string this_program() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
 
 pid_t start_child(const ChildProgram &child) {
   std::vector<char *> argv;
