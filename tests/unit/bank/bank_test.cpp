@@ -114,6 +114,33 @@ TEST(Bank, MistakesAreTold) {
   }
 }
 
+TEST(Bank, PricesOfMeasurementsAreTheUsualOnesUnlessGiven) {
+  const BankSpec spec = spec_of(kBank + kParameters +
+                                "[[measurement]]\nname = \"cracked_bodies\"\nhours = 3\nsd = "
+                                "0.02\n[[measurement]]\nname = \"dwell\"\nhours = 0.5\n");
+  ASSERT_EQ(spec.prices.size(), usual_prices().size());
+  for (std::size_t k = 0; k < spec.prices.size(); ++k) {
+    const MeasurementPrice &p = spec.prices[k];
+    const bool given = p.name == "cracked_bodies", dwell = p.name == "dwell";
+    EXPECT_EQ(p.hours, given ? 3.0 : dwell ? 0.5 : usual_prices()[k].hours) << p.name;
+    EXPECT_EQ(p.sd, given ? 0.02 : usual_prices()[k].sd) << p.name;
+  }
+}
+
+TEST(Bank, MistakesOfMeasurementsAreTold) {
+  try {
+    spec_of(kBank + kParameters +
+            "[[measurement]]\nname = \"cracks\"\n[[measurement]]\nname = \"dwell\"\nsd = "
+            "1\n[[measurement]]\nname = \"loading_curve\"\nhours = -1\nprice = 3\n");
+    FAIL();
+  } catch (const Failure &e) {
+    const std::string message = e.what();
+    for (const char *part :
+         {"cracks", "loading_curve", "'dwell' takes no sd", "hours is -1", "unknown key 'price'"})
+      EXPECT_NE(message.find(part), std::string::npos) << part << "\nis not in\n" << message;
+  }
+}
+
 SimulatedRun some_run(double target, double factor) {
   SimulatedRun r;
   r.control = "pressure";

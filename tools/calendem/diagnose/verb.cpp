@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/verb.h"
 #include "diagnose/how_far.h"
+#include "diagnose/page.h"
 #include "spec/output_folder.h"
 #include "spec/provenance.h"
 #include <CLI/CLI.hpp>
@@ -38,6 +39,11 @@ void print(const inference::Diagnosis &d, const std::vector<std::string> &not_sa
     fmt::print("- {}\n", text);
 }
 
+void write_gap(const nlohmann::ordered_json &gap, const std::string &folder) {
+  write_file(folder + "/gap.json", gap.dump(1) + "\n");
+  write_file(folder + "/gap.html", diagnosis_page(gap));
+}
+
 std::string shown(const Estimate &e) {
   return fmt::format("{:.1f} ({:.1f} to {:.1f})", e.value, e.low90, e.high90);
 }
@@ -57,7 +63,7 @@ void how_far(Options &o, const Experiment &experiment, const BankTable &table, D
     fmt::print("  {:<10} {:<32} {}\n", m.role, m.hypothesis, shown(m.predicted));
   o.rerun.study.folder = o.folder + "/rerun";
   d.gap["shrink"] = rerun(experiment, table, models, o.rerun);
-  write_file(o.folder + "/gap.json", d.gap.dump(1) + "\n");
+  write_gap(d.gap, o.folder);
   fmt::print("how far: as run again on {} packings that the bank has not\n", o.rerun.packings);
   for (const auto &m : d.gap["shrink"]["models"])
     fmt::print("  {:<10} {:<32} {:.1f}\n", m["role"].get<std::string>(),
@@ -77,9 +83,9 @@ void run(Options o) {
   provenance["bank"] = hash_of_file(o.bank);
   provenance["bank_table"] = hash_of_file(o.table);
   make_output_folder(o.folder);
-  write_file(o.folder + "/gap.json", d.gap.dump(1) + "\n");
+  write_gap(d.gap, o.folder);
   print(d.diagnosis, d.data.not_said);
-  fmt::print("data: {}/gap.json\n", o.folder);
+  fmt::print("page: {0}/gap.html\ndata: {0}/gap.json\n", o.folder);
   how_far(o, experiment, table, d);
 }
 

@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# diagnose_test.sh BIN WORK: gap.json and gap.html of a small experiment; the same bytes twice; mistakes are told.
+set -euo pipefail
+bin=$1 work=$2
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+fail() { echo "FAILED: $*" >&2; exit 1; }
+rm -rf "$work"
+mkdir -p "$work/regression"
+cp -r "$here" "$here/../calendering" "$work/regression"
+cd "$work/regression/diagnose"
+diagnose() { "$bin/calendem" diagnose "$@"; }
+
+diagnose experiment.toml -o one --bank bank.toml >one.log || fail "exit status $?"
+diagnose experiment.toml -o two --bank bank.toml --table bank.csv >/dev/null
+for file in gap.json gap.html; do
+  cmp one/$file two/$file || fail "the same input gave another $file"
+done
+
+claim=$(sed -n 's/^  "claim": "\(.*\)",/\1/p' one/gap.json)
+headline=$(sed -n 's/^  "headline": "\(.*\)",/\1/p' one/gap.json)
+[ -n "$claim" ] || fail "no claim in gap.json"
+[ -n "$headline" ] || fail "no headline in gap.json"
+echo "$claim: $headline"
+grep -q "^claim: $claim\$" one.log || fail "the terminal says another claim"
+grep -qF "<h2 id=\"claim\">$headline</h2>" one/gap.html || fail "the page lacks the claim"
+for field in where which threshold conflicts conflict_matrix stages confounding parameters fitted_effects \
+  predictions emulators experiment said not_said provenance; do
+  grep -q "^ \"$field\": " one/gap.json || fail "gap.json has no '$field'"
+done
+for words in '"what": "share of cracked particles in a cross-section: p30, p40"' '"cost": 10.0' '"unit": "%"' \
+  '"what": "X-ray tomogram before and after"' "p40: the bank's runs do not dwell" \
+  'p30: displacement at 22 MPa: not every run of the bank has it'; do
+  grep -qF -- "$words" one/gap.json || fail "gap.json lacks $words"
+done
+grep -q '{{\|https\?:\| src=\|<link rel="stylesheet' one/gap.html && fail "the page is not whole or not by itself"
+
+refuses() { # WORDS ARGUMENTS...
+  local words=$1 status=0
+  shift
+  diagnose -o bad "$@" >bad.log 2>&1 || status=$?
+  [ $status = 2 ] || fail "exit status $status for: $*"
+  grep -qF -- "$words" bad.log || { cat bad.log; fail "'$words' is not said for: $*"; }
+  [ ! -e bad ] || fail "something was written for: $*"
+}
+refuses "Did you mean 'friction'" experiment.toml --bank bank.toml --without frction
+refuses "no such file" experiment.toml --bank bank.toml --table other.csv
+cut -d, -f1-9 bank.csv >short.csv
+refuses "column 'porosity_initial' is missing" experiment.toml --bank bank.toml --table short.csv
+sed '5s/,[^,]*$//' bank.csv >cut.csv
+refuses "cut.csv:5: the row has another number of cells" experiment.toml --bank bank.toml --table cut.csv
+sed 's/^sample_diameter_mm.*//' experiment.toml >no_size.toml
+refuses "or --cells" no_size.toml --bank bank.toml
+sed 's/value = [345]0, sd_relative/value = 90, sd_relative/' experiment.toml >beyond.toml
+refuses "nothing that was measured can be compared" beyond.toml --bank bank.toml
+sed 's/^hours = 5/hours = -5/' bank.toml >price.toml
+refuses "hours is -5" experiment.toml --bank price.toml --table bank.csv

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "diagnose/experiment_data.h"
+#include "support/made_bank.h"
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace calendem;
+using namespace calendem_test;
+
+const BankPoint kTruth = {"", 0, 99, {1.5, 250.0}, 0.0};
+
+bool told(const ExperimentData &data, const std::string &part) {
+  return std::any_of(data.not_said.begin(), data.not_said.end(),
+                     [&](const std::string &s) { return s.find(part) != std::string::npos; });
+}
+
+/// One condition with its porosity only.
+Experiment with_pressure(double pressure, double sd = 0.0) {
+  Experiment e;
+  Condition c;
+  c.id = "one";
+  c.control = "pressure";
+  c.max_pressure_MPa = Measured{pressure, sd};
+  c.porosity_after_percent = Measured{40.0, 0.5};
+  e.conditions = {c};
+  return e;
+}
+
+TEST(ExperimentData, PressureOfTheBankTakesItsRunAndOneBetweenIsInterpolated) {
+  const BankTable table = made_bank();
+  const auto porosity = [&](double pressure) {
+    return data_of(with_pressure(pressure), table, {}).bank.runs[0].values[0];
+  };
+  const double low = 100.0 * table.rows[0].run.porosity_after;
+  const double high = 100.0 * table.rows[1].run.porosity_after;
+  EXPECT_EQ(porosity(30.0), low);
+  EXPECT_EQ(porosity(29.5), low); // within 2 %
+  EXPECT_EQ(porosity(60.0), high);
+  EXPECT_NEAR(porosity(40.0), low + (high - low) / 3.0, 1e-12);
+}
+
+TEST(ExperimentData, ConditionsThatTheBankLacksAreTold) {
+  Experiment e = made_experiment(kTruth);
+  e.conditions[1].dwell_s = 5.0;
+  e.conditions[1].labels_after = "after.mhd";
+  Condition other = e.conditions[0];
+  other.id = "p90";
+  other.max_pressure_MPa = Measured{90.0, 0.0};
+  e.conditions.push_back(other);
+  other.id = "gap";
+  other.control = "roll_gap";
+  e.conditions.push_back(other);
+  const ExperimentData data = data_of(e, made_bank(), {});
+  EXPECT_EQ(data.experiment.of.size(), 6u);
+  for (const char *part :
+       {"p60: the bank's runs do not dwell; its 5 s", "p60: label images",
+        "p90: 90 MPa lies outside the bank's 30 to 60 MPa", "gap: control = \"roll_gap\""})
+    EXPECT_TRUE(told(data, part)) << part;
+}
+
+TEST(ExperimentData, OnlyTheConditionsThatAreWanted) {
+  const ExperimentData data = data_of(made_experiment(kTruth), made_bank(), {"p60"});
+  for (const inference::Observable &o : data.experiment.of)
+    EXPECT_EQ(o.condition, "p60");
+}
+
+TEST(ExperimentData, PointsThatLackARunAreLeftOutWithTheirEffect) {
+  BankTable table = made_bank();
+  const std::size_t whole = data_of(made_experiment(kTruth), table, {}).bank.runs.size();
+  table.rows.erase(table.rows.begin()); // base point 0 to 30 MPa; friction stands beside it
+  const ExperimentData data = data_of(made_experiment(kTruth), table, {});
+  EXPECT_TRUE(told(data, "2 of the bank's 36 points lack a run"));
+  EXPECT_EQ(data.bank.runs.size(), whole - 3); // base, friction, and what thickness_zero made of it
+}
+
+// The press's error is common to all: covariance = sd^2 on the diagonal + slope slope^T sd_P^2.
+TEST(ExperimentData, PressureErrorIsCommonToAllObservables) {
+  const BankTable table = made_bank();
+  Experiment e = made_experiment(kTruth);
+  e.conditions.resize(1);
+  e.conditions[0].cracked_bodies_fraction.reset();
+  e.conditions[0].max_pressure_MPa->sd = 3.0;
+  const ExperimentData data = data_of(e, table, {});
+  double porosity = 0.0, thickness = 0.0, n = 0.0;
+  for (const BankRow &row : table.rows)
+    if (row.point.effect.empty() && row.run.target == 30.0) {
+      const SimulatedRun &r = row.run;
+      porosity += 100.0 * r.porosity_slope;
+      thickness += r.porosity_slope * r.thickness_at_max / (1.0 - r.porosity_at_max);
+      n += 1.0;
+    }
+  const double s0 = 3.0 * porosity / n, s1 = 3.0 * thickness / n;
+  ASSERT_EQ(data.experiment.of.size(), 2u);
+  EXPECT_NEAR(data.experiment.covariance(0, 1), s0 * s1, 1e-12);
+  EXPECT_NEAR(data.experiment.covariance(0, 0), 0.1 * 0.1 + s0 * s0, 1e-12);
+  EXPECT_NEAR(data.experiment.covariance(1, 1), 0.03 * 0.03 + s1 * s1, 1e-12);
+}
+
+TEST(ExperimentData, InstrumentsAreAppliedToTheRunsOfTheBaseModel) {
+  const BankTable table = made_bank();
+  const ExperimentData data = data_of(made_experiment(kTruth), table, {});
+  int shown = 0;
+  for (const inference::Run &run : data.bank.runs)
+    if (run.effect == "thickness_zero") {
+      const SimulatedRun &base = table.rows[std::size_t(2 * shown)].run; // 30 MPa
+      const double after = base.thickness_after + run.amplitudes[0];
+      EXPECT_NEAR(run.values[0], 100.0 * (1.0 - kSolidColumn / after), 1e-9);
+      EXPECT_NEAR(run.values[1], base.thickness_at_max + run.amplitudes[0], 1e-9);
+      ++shown;
+    }
+  EXPECT_EQ(shown, 24);
+}
+
+TEST(ExperimentData, NumbersAreToldWithUnitAndPressure) {
+  const ExperimentData data = data_of(made_experiment(kTruth), made_bank(), {});
+  ASSERT_EQ(data.told.size(), data.experiment.of.size());
+  EXPECT_EQ(data.told[0].name, "total porosity");
+  EXPECT_EQ(data.told[0].unit, "%");
+  EXPECT_EQ(data.told.back().pressure, 60.0);
+}
+
+TEST(ExperimentData, NothingToCompareIsBadInput) {
+  try {
+    data_of(with_pressure(90.0), made_bank(), {});
+    FAIL();
+  } catch (const Failure &f) {
+    EXPECT_EQ(f.exit_status(), kBadInput);
+    EXPECT_NE(std::string(f.what()).find("control = \"pressure\""), std::string::npos);
+  }
+}
+
+} // namespace

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The whole way on a table from formulas: an effect is named, and the page says so.
+#include "diagnose/diagnose.h"
+#include "diagnose/page.h"
+#include "support/made_bank.h"
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace calendem;
+using namespace calendem_test;
+
+/// Friction of 0.4 on a packing that the bank does not have, a large sample.
+const Diagnosed &friction() {
+  static const Diagnosed d = [] {
+    SharedModels models;
+    Experiment e = made_experiment({"friction", 0, 99, {1.4, 260.0}, 0.4});
+    e.name = "friction </script><b>";
+    return diagnosed(e, made_bank(), 1e4, models);
+  }();
+  return d;
+}
+
+TEST(DiagnosisPage, TheEffectIsNamedWithItsValueInTheKeysUnit) {
+  const nlohmann::ordered_json &gap = friction().gap;
+  EXPECT_EQ(gap["which"]["claim"], "friction") << gap["which"].dump(1);
+  EXPECT_EQ(gap["said"]["headline"], "friction explains the gap");
+  const auto &fitted = gap["fitted_effects"][0];
+  EXPECT_EQ(fitted["keys"][0], "material.am.friction");
+  EXPECT_LT(fitted["value_low90"], 0.4);
+  EXPECT_GT(fitted["value_high90"], 0.4);
+}
+
+// After is the better of the two; both are in the observables' units, as measured is.
+TEST(DiagnosisPage, PredictionsStandBesideWhatWasMeasured) {
+  double before = 0.0, after = 0.0;
+  const auto &predictions = friction().gap["predictions"];
+  EXPECT_EQ(predictions["best"], "friction");
+  for (const auto &o : predictions["observables"]) {
+    const double measured = o["measured"], sd = o["sd"];
+    before += std::pow((o["base"].get<double>() - measured) / sd, 2);
+    after += std::pow((o["best"].get<double>() - measured) / sd, 2);
+    EXPECT_NEAR(o["best"].get<double>(), measured, 3.0 * sd) << o.dump();
+  }
+  EXPECT_GT(before, 4.0 * after);
+  EXPECT_EQ(predictions["observables"][0]["unit"], "%");
+}
+
+TEST(DiagnosisPage, WhereHasUnitsAndTheListOfWhatTheBankCannotForetell) {
+  for (const auto &row : friction().gap["where"])
+    EXPECT_TRUE(row.contains("unit")) << row.dump();
+  EXPECT_EQ(friction().gap["which"]["not_in_bank"].size(), 6u);
+}
+
+TEST(DiagnosisPage, HoldsTheClaimAndNothingFromElsewhere) {
+  const std::string page = diagnosis_page(friction().gap);
+  for (const char *part :
+       {"friction explains the gap", "Switch it on", "p60: cracked bodies", "thickness_zero",
+        "displacement while the pressure rises: p30, p60", "X-ray tomogram", "Q²"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  for (const char *part : {"{{", "http:", "https:", " src=", "<b>", "How far"})
+    EXPECT_EQ(page.find(part), std::string::npos) << part;
+}
+
+TEST(DiagnosisPage, SameBytesTwice) {
+  SharedModels models;
+  const Experiment e = made_experiment({"", 0, 99, {1.4, 260.0}, 0.0});
+  const Diagnosed one = diagnosed(e, made_bank(), 1e4, models);
+  SharedModels others;
+  const Diagnosed two = diagnosed(e, made_bank(), 1e4, others);
+  EXPECT_EQ(one.gap.dump(), two.gap.dump());
+  EXPECT_EQ(diagnosis_page(one.gap), diagnosis_page(two.gap));
+}
+
+TEST(RankingPart, BarsAreProbabilitiesAndTheRestIsCounted) {
+  nlohmann::json which = {{"claim", "b"}, {"evidence", nlohmann::json::array()}};
+  for (const auto &[name, p] : std::vector<std::pair<std::string, double>>{
+           {"b", 0.9}, {"none", 0.06}, {"unknown", 0.03}, {"c", 0.006}, {"d", 0.003}, {"e", 0.001}})
+    which["evidence"].push_back({{"hypothesis", name},
+                                 {"probability", p},
+                                 {"prior", 0.1},
+                                 {"adequacy_p", 0.5},
+                                 {"place", name == "unknown" ? "dwell" : ""}});
+  which["sensitivity"] = {
+      {{"priors", "none halved"}, {"claim", "b"}, {"probability", 0.93}},
+      {{"priors", "none doubled"}, {"claim", "undecided"}, {"probability", 0.7}}};
+  const nlohmann::json part = ranking_part({{"which", which}});
+  ASSERT_EQ(part["bars"].size(), 4u);
+  EXPECT_EQ(part["bars"][0]["kind"], "claimed");
+  EXPECT_EQ(part["bars"][0]["width"], "90.0");
+  EXPECT_EQ(part["bars"][2]["name"], "unknown: dwell");
+  EXPECT_EQ(part["bars"][2]["fit"], "–");
+  EXPECT_EQ(part["rest"], "2 more share 0.4 %.");
+  EXPECT_EQ(part["steadiness"], "Other priors, other claims: none doubled: undecided.");
+}
+
+TEST(PredictionsPart, StripsAreScaledToTheFarthestAndCurvesAreCharts) {
+  const auto row = [](double coordinate, const char *name, double measured) {
+    return nlohmann::json{{"observable", name},
+                          {"stage", "compression"},
+                          {"condition", "p30"},
+                          {"name", name},
+                          {"unit", "um"},
+                          {"coordinate", coordinate},
+                          {"measured", measured},
+                          {"sd_measurement", 1.0},
+                          {"base", measured + 4.0},
+                          {"best", measured - 1.0},
+                          {"pressure_MPa", 10.0 + coordinate}};
+  };
+  nlohmann::json gap = {
+      {"predictions",
+       {{"best", "friction"},
+        {"observables", {row(0, "thickness", 50), row(0, "curve", 1), row(1, "curve", 2)}}}}};
+  nlohmann::json part = predictions_part(gap);
+  ASSERT_EQ(part["strips"].size(), 1u);
+  EXPECT_EQ(part["strips"][0]["at_base"], "250.0"); // 4 of 4 to the right of the middle, 130
+  EXPECT_EQ(part["strips"][0]["at_best"], "100.0"); // 1 of 4 to the left
+  EXPECT_EQ(part["strips"][0]["wide1"], "60.0");    // two standard deviations, 1 of 4 each
+  ASSERT_EQ(part["charts"].size(), 1u);
+  EXPECT_NE(part["charts"][0]["svg"].get<std::string>().find("friction"), std::string::npos);
+  gap["predictions"]["best"] = "none";
+  part = predictions_part(gap);
+  EXPECT_FALSE(part["has_best"]);
+  EXPECT_TRUE(part["strips"][0]["at_best"].is_null());
+}
+
+TEST(DriftPart, StagesThatAskForOtherParametersAreApart) {
+  const nlohmann::json gap = {
+      {"parameters", {{{"parameter", "E"}}, {{"parameter", "s"}}}},
+      {"stages",
+       {{{"stage", "compression"}, {"scores", {1.5, 0.5}}, {"sd", {0.4, 0.4}}},
+        {{"stage", "relaxation"}, {"scores", {0.0, 0.0}}, {"sd", {0.3, 0.3}}}}}};
+  const nlohmann::json part = drift_part(gap); // 1.5 and 0.5 over 0.5
+  EXPECT_EQ(part["rows"][0]["verdict"], "apart");
+  EXPECT_EQ(part["rows"][1]["verdict"], "agree");
+}
+
+TEST(ConfoundingPart, AnEffectThatNoAmplitudeShowsIsInvisible) {
+  const nlohmann::json gap = {
+      {"which",
+       {{"indistinguishable", nlohmann::json::array({nlohmann::json::array({"a", "b"})})}}},
+      {"confounding",
+       {{"effects", nlohmann::json::array({"a"})},
+        {"cosine", nlohmann::json::array({nlohmann::json::array({1.0})})},
+        {"absorbed", nlohmann::json::array({0.25})},
+        {"detection_limit", nlohmann::json::array({{{"effect", "a"},
+                                                    {"rival", "none"},
+                                                    {"keys", nlohmann::json::array({"k"})},
+                                                    {"value", nullptr}}})}}}};
+  const nlohmann::json part = confounding_part(gap);
+  EXPECT_EQ(part["limits"][0]["value"], "invisible here");
+  EXPECT_EQ(part["limits"][0]["absorbed"], "25");
+  EXPECT_EQ(part["alike"][0], "a, b");
+}
+
+} // namespace

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "diagnose/tell.h"
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace calendem;
+using Json = nlohmann::ordered_json;
+
+Json claimed(const std::string &claim) {
+  return {{"which",
+           {{"claim", claim},
+            {"why", "Because."},
+            {"set95", {"friction", "none"}},
+            {"next_measurement",
+             {{"what", "cracks of p30"}, {"now", 0.5}, {"expected_probability", 0.83}}},
+            {"evidence", Json::array({{{"hypothesis", "unknown"}, {"place", "relaxation"}}})}}},
+          {"fitted_effects", Json::array()}};
+}
+
+Json fitted(const std::string &effect, const std::string &key) {
+  return {{"effect", effect},
+          {"keys", Json::array({key})},
+          {"value", 0.3},
+          {"value_low90", 0.2},
+          {"value_high90", 0.45}};
+}
+
+std::string all_of(const Json &words) { return words.dump(); }
+
+void expect_parts(const Json &gap, const std::vector<std::string> &parts) {
+  const std::string text = all_of(claim_in_words(gap));
+  for (const std::string &part : parts)
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\nis not in\n" << text;
+}
+
+TEST(ClaimInWords, EveryClaimSaysWhatItMeansAndWhatToDo) {
+  expect_parts(claimed("none"), {"No gap beyond noise", "not excluded"});
+  expect_parts(claimed("noise"), {"errors of the measurement are understated", "Measure again"});
+  expect_parts(claimed("unknown"), {"no known effect", "here: relaxation", "Do not recalibrate"});
+  expect_parts(claimed("undecided"), {"friction; none", "Measure: cracks of p30", "83 %", "50 %"});
+}
+
+TEST(ClaimInWords, AMeasurementThatTellsNothingIsNotAskedFor) {
+  Json gap = claimed("undecided");
+  gap["which"]["next_measurement"]["expected_probability"] = 0.505;
+  EXPECT_EQ(all_of(claim_in_words(gap)).find("Measure: "), std::string::npos);
+  gap["which"]["next_measurement"] = {{"what", ""}, {"expected_probability", 0.0}};
+  EXPECT_EQ(all_of(claim_in_words(gap)).find("Measure: "), std::string::npos);
+}
+
+TEST(ClaimInWords, AnEffectIsSwitchedOnAndAnInstrumentIsChecked) {
+  Json gap = claimed("friction");
+  gap["fitted_effects"] = Json::array({fitted("friction", "material.am.friction")});
+  expect_parts(gap, {"friction explains the gap", "Coulomb friction", "Switch it on",
+                     "material.am.friction = 0.3 (90 %: 0.2 to 0.45)"});
+  gap["which"]["claim"] = "thickness_zero";
+  gap["fitted_effects"] =
+      Json::array({fitted("thickness_zero", "effects.thickness_zero.offset_um")});
+  expect_parts(gap, {"Check the instrument: effects.thickness_zero.offset_um = 0.3"});
+  gap["which"]["claim"] = "friction + thickness_zero";
+  gap["fitted_effects"].push_back(fitted("friction", "material.am.friction"));
+  expect_parts(gap, {"explain the gap together", "Switch it on"});
+}
+
+} // namespace

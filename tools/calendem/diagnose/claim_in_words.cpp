@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "compare/heat_map.h"
+#include "diagnose/tell.h"
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace calendem {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Words {
+  std::string headline, meaning;
+  std::vector<std::string> next;
+};
+
+/// "effects.x.y = 0.3 (0.2 to 0.4)"
+std::string setting_of(const Json &fitted) {
+  return fmt::format("{} = {} (90 %: {} to {})",
+                     fmt::join(fitted["keys"].get<std::vector<std::string>>(), ", "),
+                     shown(fitted["value"], "{:.3g}"), shown(fitted["value_low90"], "{:.3g}"),
+                     shown(fitted["value_high90"], "{:.3g}"));
+}
+
+/// The measurement that is worth most, if it is worth anything.
+std::string measurement_of(const Json &which) {
+  const Json &best = which["next_measurement"];
+  if (!best.contains("now") ||
+      best["expected_probability"].get<double>() < best["now"].get<double>() + 0.01)
+    return "No measurement that the bank can foretell would tell more; see the list of those that "
+           "it cannot.";
+  return fmt::format("Measure: {}. The right hypothesis would then have a probability of {:.0f} % "
+                     "on average, instead of {:.0f} %.",
+                     best["what"].get<std::string>(),
+                     100.0 * best["expected_probability"].get<double>(),
+                     100.0 * best["now"].get<double>());
+}
+
+std::string place_of_unknown(const Json &gap) {
+  for (const Json &row : gap["which"]["evidence"])
+    if (row["hypothesis"] == "unknown" && row.value("place", "") != "")
+      return row["place"];
+  return "everywhere";
+}
+
+Words none() {
+  return {"No gap beyond noise: the base model suffices",
+          "With its parameters recalibrated the base model fits all that was measured.",
+          {"Use the recalibrated parameters below.",
+           "Effects below their detection limits, listed below, are not excluded."}};
+}
+
+Words noise() {
+  return {"The errors of the measurement are understated",
+          "The base model would fit if the measured values scattered more than is stated. No "
+          "effect is needed, and none is excluded.",
+          {"Measure again on other samples and state the scatter that you find.",
+           "Look for a sample or a reading that stands out: see where."}};
+}
+
+Words unknown(const Json &gap) {
+  return {"A gap that no known effect explains",
+          fmt::format("Neither the base model nor any effect of the bank fits. The discrepancy "
+                      "sits most likely here: {}.",
+                      place_of_unknown(gap)),
+          {"Do not recalibrate it away: parameters fitted now would carry it.",
+           "Check the reading at that place first, then look for physics that the table of "
+           "effects lacks (calendem effects)."}};
+}
+
+Words undecided(const Json &gap) {
+  const auto set = gap["which"]["set95"].get<std::vector<std::string>>();
+  return {"Undecided: the data do not tell the explanations apart",
+          fmt::format("With 95 % it is one of these: {}. {}", fmt::join(set, "; "),
+                      gap["which"]["why"].get<std::string>()),
+          {measurement_of(gap["which"])}};
+}
+
+Words named(const Json &gap) {
+  const std::string claim = gap["which"]["claim"];
+  Words w{claim + (claim.find(" + ") == std::string::npos ? " explains the gap"
+                                                          : " explain the gap together"),
+          "",
+          {}};
+  bool instrument = true;
+  std::string settings;
+  for (const Json &fitted : gap["fitted_effects"]) {
+    const Effect &e = find_effect(fitted["effect"]);
+    w.meaning += (w.meaning.empty() ? "" : "; ") + e.name + ": " + e.what;
+    settings += (settings.empty() ? "" : "; ") + setting_of(fitted);
+    instrument = instrument && e.layer == "measurement";
+  }
+  w.meaning += ".";
+  w.next = {instrument ? "Check the instrument: " + settings +
+                             ". The model needs no change; correct the data and diagnose again."
+                       : "Switch it on in the case: " + settings + ".",
+            "Recalibrate with it, run conditions that were not used here on new packings, and "
+            "compare before with after."};
+  return w;
+}
+
+} // namespace
+
+Json claim_in_words(const Json &gap) {
+  const std::string claim = gap["which"]["claim"];
+  const Words w = claim == "none"        ? none()
+                  : claim == "noise"     ? noise()
+                  : claim == "unknown"   ? unknown(gap)
+                  : claim == "undecided" ? undecided(gap)
+                                         : named(gap);
+  return {{"headline", w.headline}, {"meaning", w.meaning}, {"next", w.next}};
+}
+
+} // namespace calendem

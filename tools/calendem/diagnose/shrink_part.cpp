@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "compare/heat_map.h"
+#include "diagnose/page.h"
+#include "report/chart.h"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace calendem {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kBar = 420.0;  // px of the longest bar
+constexpr double kMissed = 2.0; // standard deviations beyond which an observable is not met
+
+double number(const json &object, const char *key) {
+  return object.contains(key) && object[key].is_number() ? object[key].get<double>() : std::nan("");
+}
+
+std::string interval(const json &gap) {
+  return fmt::format("{} (90 %: {} to {})", shown(gap["value"], "{:.3g}"),
+                     shown(gap.value("low90", json()), "{:.3g}"),
+                     shown(gap.value("high90", json()), "{:.3g}"));
+}
+
+const json *model_of(const json &shrink, const std::string &role) {
+  for (const json &m : shrink["models"])
+    if (m["role"] == role)
+      return &m;
+  return nullptr;
+}
+
+/// Largest number that a bar must hold.
+double largest(const json &models) {
+  double most = 1e-300;
+  for (const json &m : models)
+    for (const char *of : {"gap", "predicted_gap"})
+      for (const char *key : {"value", "high90"})
+        if (const double v = m.contains(of) ? number(m[of], key) : 0.0; v > most)
+          most = v;
+  return most;
+}
+
+json bar_of(const json &m, double most) {
+  const auto px = [&](double v) {
+    return std::isfinite(v) ? json(fmt::format("{:.1f}", std::max(v, 0.0) / most * kBar)) : json();
+  };
+  std::string parameters;
+  for (const auto &[name, value] : m["parameters"].items())
+    parameters +=
+        fmt::format("{}{} = {}", parameters.empty() ? "" : ", ", name, shown(value, "{:.3g}"));
+  json bar = {{"role", m["role"]},
+              {"hypothesis", m["hypothesis"]},
+              {"parameters", parameters},
+              {"gap", interval(m["gap"])},
+              {"width", px(number(m["gap"], "value"))}};
+  const double low = number(m["gap"], "low90"), high = number(m["gap"], "high90");
+  if (std::isfinite(low) && std::isfinite(high))
+    bar["whisker"] = {{"low", px(low)}, {"high", px(high)}};
+  if (m.contains("predicted_gap"))
+    bar["predicted"] = px(number(m["predicted_gap"], "value"));
+  return bar;
+}
+
+json observable_of(const json &o) {
+  const double sd = o["sd"];
+  const auto off = [&](const char *key) {
+    return fmt::format("{:+.1f}", (number(o, key) - number(o, "measured")) / sd);
+  };
+  return {{"condition", o["condition"]},
+          {"name", o["name"]},
+          {"measured", shown(o["measured"], "{:.4g}")},
+          {"sd", shown(o["sd"], "{:.2g}")},
+          {"before", shown(o["before"], "{:.4g}")},
+          {"after", shown(o["after"], "{:.4g}")},
+          {"before_off", off("before")},
+          {"after_off", off("after")}};
+}
+
+report::Series series_of(const json &curve) {
+  using namespace report;
+  const std::string role = curve["role"];
+  Series s{role, curve["displacement_um"], curve["pressure_MPa"]};
+  if (role == "measured") {
+    s.mark = Mark::points;
+    s.symbol = Symbol::circle;
+  } else if (role == "before") {
+    s.colour = "#b4481c", s.dash = "7 4", s.symbol = Symbol::square;
+  } else if (role == "after") {
+    s.colour = "#0b62a8", s.symbol = Symbol::triangle;
+  } else {
+    s.colour = "#6b6f76", s.dash = role == "placebo" ? "2 4" : "10 3 2 3";
+    s.symbol = role == "placebo" ? Symbol::none : Symbol::diamond;
+  }
+  return s;
+}
+
+/// One chart for each condition, in their order.
+json charts_of(const json &curves) {
+  std::vector<report::Chart> charts;
+  for (const json &curve : curves) {
+    const std::string condition = curve["condition"];
+    auto at = std::find_if(charts.begin(), charts.end(),
+                           [&](const report::Chart &c) { return c.title == condition; });
+    if (at == charts.end()) {
+      report::Chart c;
+      c.id = fmt::format("held_out{}", charts.size());
+      c.title = condition;
+      c.x_label = "Displacement, µm";
+      c.y_label = "Pressure, MPa";
+      at = charts.insert(charts.end(), c);
+    }
+    at->series.push_back(series_of(curve));
+  }
+  json out = json::array();
+  for (const report::Chart &c : charts)
+    out.push_back({{"title", c.title}, {"svg", to_svg(c)}});
+  return out;
+}
+
+/// What stays, and whether another effect or none would have done as well.
+json words_of(const json &shrink) {
+  json words = json::array();
+  const json *before = model_of(shrink, "before"), *after = model_of(shrink, "after");
+  if (before && after)
+    words.push_back(
+        fmt::format("Still unexplained: {:.0f} % of the gap that the recalibrated base "
+                    "model leaves.",
+                    100.0 * number((*after)["gap"], "value") / number((*before)["gap"], "value")));
+  for (const char *role : {"runner-up", "placebo"})
+    if (const json *other = model_of(shrink, role); other && after) {
+      const bool worse = number((*other)["gap"], "value") > number((*after)["gap"], "high90");
+      words.push_back(fmt::format(
+          "The {} ({}) leaves {}{}.", role, (*other)["hypothesis"].get<std::string>(),
+          shown((*other)["gap"]["value"], "{:.3g}"),
+          worse ? "" : ": not clearly more, so this shrinking does not single the effect out"));
+    }
+  std::string missed;
+  for (const json &o : shrink.value("observables", json::array()))
+    if (std::fabs(number(o, "after") - number(o, "measured")) > kMissed * number(o, "sd"))
+      missed += fmt::format("{}{}: {}", missed.empty() ? "" : "; ",
+                            o["condition"].get<std::string>(), o["name"].get<std::string>());
+  words.push_back(missed.empty() ? "Every observable is met within two standard deviations."
+                                 : "Not met within two standard deviations: " + missed + ".");
+  return words;
+}
+
+} // namespace
+
+json shrink_part(const json &gap) {
+  if (!gap.contains("shrink") || !gap["shrink"].is_object() || !gap["shrink"].contains("models"))
+    return nullptr;
+  const json &shrink = gap["shrink"];
+  json bars = json::array(), observables = json::array();
+  for (const json &m : shrink["models"])
+    bars.push_back(bar_of(m, largest(shrink["models"])));
+  for (const json &o : shrink.value("observables", json::array()))
+    observables.push_back(observable_of(o));
+  const json charts = charts_of(shrink.value("curves", json::array()));
+  json part = {{"bars", bars},
+               {"words", words_of(shrink)},
+               {"observables", observables},
+               {"has_observables", !observables.empty()},
+               {"charts", charts}};
+  for (const char *ids : {"train", "held_out"})
+    part[ids] = fmt::format("{}", fmt::join(shrink.value(ids, std::vector<std::string>()), ", "));
+  const json &s = shrink.value("shrinkage", json::object());
+  const auto percent = [&](const char *key) {
+    return fmt::format("{:.0f}", 100.0 * number(s, key));
+  };
+  if (s.contains("value"))
+    part["shrinkage"] = {
+        {"value", percent("value")},
+        {"low", percent("low90")},
+        {"high", percent("high90")},
+        {"predicted", s.contains("predicted") ? json(percent("predicted")) : json()}};
+  return part;
+}
+
+} // namespace calendem
