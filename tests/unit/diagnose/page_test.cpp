@@ -114,9 +114,9 @@ TEST(PredictionsPart, StripsAreScaledToTheFarthestAndCurvesAreCharts) {
         {"observables", {row(0, "thickness", 50), row(0, "curve", 1), row(1, "curve", 2)}}}}};
   nlohmann::json part = predictions_part(gap);
   ASSERT_EQ(part["strips"].size(), 1u);
-  EXPECT_EQ(part["strips"][0]["at_base"], "250.0"); // 4 of 4 to the right of the middle, 130
-  EXPECT_EQ(part["strips"][0]["at_best"], "100.0"); // 1 of 4 to the left
-  EXPECT_EQ(part["strips"][0]["wide1"], "60.0");    // two standard deviations, 1 of 4 each
+  EXPECT_EQ(part["strips"][0]["at_base"], "190.0"); // 4 of 4 to the right of the middle, 100
+  EXPECT_EQ(part["strips"][0]["at_best"], "77.5");  // 1 of 4 to the left
+  EXPECT_EQ(part["strips"][0]["wide1"], "45.0");    // two standard deviations, 1 of 4 each
   ASSERT_EQ(part["charts"].size(), 1u);
   EXPECT_NE(part["charts"][0]["svg"].get<std::string>().find("friction"), std::string::npos);
   gap["predictions"]["best"] = "none";

@@ -4,6 +4,7 @@
 #include "report/embedded.h"
 #include "report/page_template.h"
 #include "report/tables.h"
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace calendem {
@@ -16,7 +17,8 @@ using nlohmann::json;
 std::vector<std::string> conditions_of(const json &gap) {
   std::vector<std::string> ids;
   for (const json &row : gap["predictions"]["observables"])
-    ids.push_back(row["condition"]);
+    if (std::find(ids.begin(), ids.end(), row["condition"]) == ids.end())
+      ids.push_back(row["condition"]);
   return ids;
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kHalf = 120.0, kMargin = 10.0; // px: half a strip, and what is left beside it
+constexpr double kHalf = 90.0, kMargin = 10.0; // px: half a strip, and what is left beside it
 
 /// The rows of one observable, stage and condition.
 using Block = std::vector<json>;
@@ -72,16 +72,22 @@ json chart(const Block &rows, const std::string &best, std::size_t number) {
   c.id = fmt::format("curve{}", number);
   c.title = fmt::format("{}: {}", rows[0]["condition"].get<std::string>(), name);
   c.x_label = "Pressure, MPa";
-  c.y_label = unit.empty() ? name : name + ", " + unit;
-  const std::vector<double> pressure = column(rows, "pressure_MPa");
-  Series measured{"measured ± sd", pressure, column(rows, "measured"), Mark::points};
-  measured.symbol = Symbol::circle;
-  measured.y_error = column(rows, "sd_measurement");
-  Series base{"base", pressure, column(rows, "base"), Mark::line, "#b4481c", "7 4", Symbol::square};
-  c.series = {base, measured};
+  c.y_label = unit.empty() ? name : name + ", " + (unit == "um" ? "µm" : unit);
+  const auto add = [&](const std::string &legend, const char *key, Symbol symbol) -> Series & {
+    c.series.push_back({});
+    Series &s = c.series.back();
+    s.name = legend;
+    s.x = column(rows, "pressure_MPa");
+    s.y = column(rows, key);
+    s.symbol = symbol;
+    return s;
+  };
+  Series &base = add("base", "base", Symbol::square);
+  base.colour = "#b4481c", base.dash = "7 4";
   if (best != "none")
-    c.series.push_back(
-        {best, pressure, column(rows, "best"), Mark::line, "#0b62a8", "", Symbol::triangle});
+    add(best, "best", Symbol::triangle).colour = "#0b62a8";
+  Series &measured = add("measured ± sd", "measured", Symbol::circle);
+  measured.mark = Mark::points, measured.y_error = column(rows, "sd_measurement");
   return {{"title", c.title}, {"svg", to_svg(c)}};
 }
 

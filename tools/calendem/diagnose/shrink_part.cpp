@@ -81,7 +81,10 @@ json observable_of(const json &o) {
 report::Series series_of(const json &curve) {
   using namespace report;
   const std::string role = curve["role"];
-  Series s{role, curve["displacement_um"], curve["pressure_MPa"]};
+  Series s;
+  s.name = role;
+  s.x = curve["displacement_um"].get<std::vector<double>>();
+  s.y = curve["pressure_MPa"].get<std::vector<double>>();
   if (role == "measured") {
     s.mark = Mark::points;
     s.symbol = Symbol::circle;
