@@ -10,12 +10,14 @@
 # ELECTRODE: folder made by `calendem pack`. OUT: output folder on a file system that all nodes see.
 # Submit from the folder of the repository; it was built on the login node with
 #   tools/build --no-install-dependencies --source LIGGGHTS [--portable]
-# Adapt the #SBATCH lines and the module line. The chain ends when OUT/final.restart is there, after
+# Adapt the #SBATCH lines and the module line; the successors know only these, not sbatch's command line.
+# mpirun takes ranks and nodes from the job; CALENDEM_LAUNCH="srun --mpi=pmix" takes Slurm's own launcher, where it
+# was built for this MPI (a plain srun often is not). The chain ends when OUT/final.restart is there, after
 # CALENDEM_MAX_JOBS jobs (default 20), or when a job made no progress (no new restart file). The relaxation
 # always begins at OUT/compressed.restart: one job must be long enough for it.
 set -euo pipefail
-if [ "${1:-}" = --help ]; then sed -n '7,16s/^# \{0,1\}//p' "$0"; exit 0; fi
-if [ $# -lt 2 ]; then sed -n '7,16s/^# \{0,1\}//p' "$0" >&2; exit 1; fi
+if [ "${1:-}" = --help ]; then sed -n '7,18s/^# \{0,1\}//p' "$0"; exit 0; fi
+if [ $# -lt 2 ]; then sed -n '7,18s/^# \{0,1\}//p' "$0" >&2; exit 1; fi
 electrode=$1 out=$2
 shift 2
 # module load openmpi vtk
@@ -25,6 +27,7 @@ shift 2
 [ -x build/bin/liggghts ] || { echo "slurm: no build/bin/liggghts in '$PWD'; submit from the repository" >&2; exit 2; }
 [ ! -f "$out/final.restart" ] || { echo "slurm: '$out' is finished"; exit 0; }
 
+read -ra launch <<<"${CALENDEM_LAUNCH:-mpirun}"
 job=${CALENDEM_JOB:-1}
 [ "$job" -le "${CALENDEM_MAX_JOBS:-20}" ] || { echo "slurm: $((job - 1)) jobs were not enough; submit again" >&2; exit 3; }
 progress=$(cat "$out"/running.restart "$out"/compressed.restart 2>/dev/null | cksum || true)
@@ -39,7 +42,7 @@ echo "slurm: job $job of the chain is $SLURM_JOB_ID, its successor is $successor
 liggghts() { # SCRIPT [-var NAME VALUE]...
   local script=$1 status=0
   shift
-  srun build/bin/liggghts -in "input_scripts/$script" -log "$out/log.$script.$job" \
+  "${launch[@]}" build/bin/liggghts -in "input_scripts/$script" -var scripts input_scripts -log "$out/log.$script.$job" \
     -var electrode "$electrode" -var out "$out" "$@" || status=$?
   [ $status -eq 0 ] || { echo "slurm: $script ended with status $status; the successor goes on" >&2; exit 3; }
 }

@@ -84,7 +84,7 @@ status=0
 wait $client || status=$?
 cat "$work/said"
 [ $status -eq 3 ] || fail "exit status $status after a run that failed, expected 3"
-says "tasks are in the queue already" "2 of 3 runs done" "run 2: failed, task" "ended as FAILED" \
+says "3 runs in the queue already" "2 of 3 runs done" "run 2: failed, task" "ended as FAILED" \
   "slurm/runs.2.log; see $work/out/runs/${runs[1]}.log"
 if grep -q submitted "$work/said"; then fail "what was in the queue was submitted again"; fi
 grep -q "exited on signal 9" "$work/out/runs/${runs[1]}.log" || fail "the log does not tell why"
@@ -101,4 +101,7 @@ if grep -q submitted "$work/said"; then fail "a second call submitted something"
 mkdir "$work/local"
 cp -r "$work/out/packings" "$work/local/"
 expect 0 "$bin/calendem" study "$work/study.toml" -o "$work/local" --jobs 2
-cmp "$work/out/study.csv" "$work/local/study.csv" || fail "Slurm's table differs from that of local processes"
+results() { # FOLDER: its table without what the clock says
+  awk -F, -v OFS=, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "wall_clock_s") c = k } { $c = ""; print }' "$1/study.csv"
+}
+[ "$(results "$work/out")" = "$(results "$work/local")" ] || fail "Slurm's table differs from that of local processes"

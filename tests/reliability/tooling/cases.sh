@@ -148,7 +148,7 @@ batch_script_chains_jobs() {
 echo "$CALENDEM_JOB $CALENDEM_PROGRESS" >>"$WORK/queue"
 echo "20$CALENDEM_JOB"
 END
-  cat >"$work/bin/srun" <<'END'
+  cat >"$work/bin/mpirun" <<'END'
 #!/bin/sh
 echo "$*" >>"$WORK/runs"
 case $(wc -l <"$WORK/runs") in

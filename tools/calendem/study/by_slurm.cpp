@@ -61,8 +61,8 @@ public:
     for (const auto &[number, task] : packing_tasks_)
       if (task.live() && std::find(before.begin(), before.end(), task.job) == before.end())
         before.push_back(task.job);
-    packings_.tasks = not_in_queue(making_.packings_to_make(), packing_tasks_);
-    runs_.tasks = not_in_queue(making_.runs_to_make(), run_tasks_);
+    packings_.tasks = not_in_queue(making_.packings_to_make(), packing_tasks_, packings_.file);
+    runs_.tasks = not_in_queue(making_.runs_to_make(), run_tasks_, runs_.file);
     if (const long job = send(packings_, {}))
       before.push_back(job);
     send(runs_, before);
@@ -98,13 +98,14 @@ private:
     return found != tasks.end() && found->second.live();
   }
 
-  std::vector<int> not_in_queue(const std::vector<int> &runs, const Tasks &tasks) const {
+  std::vector<int> not_in_queue(const std::vector<int> &runs, const Tasks &tasks,
+                                const std::string &what) const {
     std::vector<int> out;
     for (const int k : runs)
       if (!live(tasks, k))
         out.push_back(number(k));
     if (out.size() < runs.size())
-      say(fmt::format("{} tasks are in the queue already", runs.size() - out.size()));
+      say(fmt::format("{} {} in the queue already", runs.size() - out.size(), what));
     return out;
   }
 

@@ -20,19 +20,24 @@ struct Answer {
   std::string text;
 };
 
+struct Scratch {
+  std::string file;
+  ~Scratch() { std::filesystem::remove(file); }
+};
+
 /// What one of Slurm's commands says.
 Answer ask(const std::vector<std::string> &words, const std::string &folder) {
   ChildProgram command;
   command.words = words;
-  command.output = fmt::format("{}/.{}.{}", folder, words[0], getpid());
+  const Scratch said = {fmt::format("{}/.{}.{}", folder, words[0], getpid())};
+  command.output = said.file;
   command.folder = folder;
   command.remedy = "--slurm needs Slurm's commands: call it on a login node of the cluster. For "
                    "another scheduler --slurm-dry-run writes the scripts and submits nothing.";
   int status = 0;
   waitpid(start_child(command), &status, 0);
   std::ostringstream text;
-  text << std::ifstream(command.output).rdbuf();
-  std::filesystem::remove(command.output);
+  text << std::ifstream(said.file).rdbuf();
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text.str()};
 }
 
