@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compare/gap.h"
+#include "compare/heat_map.h"
 #include "compare/observables.h"
 #include <cmath>
 #include <filesystem>
@@ -130,6 +131,26 @@ TEST(Observables, CurveIsComparedAtSharesOfItsLargestPressure) {
 TEST(DisplacementAt, IsLinearBetweenPointsAndNothingBeyond) {
   EXPECT_NEAR(displacement_at({0, 10, 20}, {0, 4, 6}, 15), 5.0, 1e-12);
   EXPECT_TRUE(std::isnan(displacement_at({0, 10, 20}, {0, 4, 6}, 21)));
+}
+
+TEST(HeatMap, ConditionsStandOnceInTheOrderGiven) {
+  const auto row = [](const char *observable, const char *condition, double z) {
+    return nlohmann::json{{"observable", observable},
+                          {"stage", "relaxation"},
+                          {"condition", condition},
+                          {"residual", 0.5 * z},
+                          {"z", z},
+                          {"unit", "%"}};
+  };
+  const nlohmann::json map = heat_map(
+      {row("a", "p50", 7.0), row("a", "p150", -4.0), row("b", "p50", 2.0)}, 3.0, {"p50", "p150"});
+  EXPECT_EQ(map["conditions"], (std::vector<std::string>{"p50", "p150"}));
+  ASSERT_EQ(map["rows"].size(), 2u);
+  const nlohmann::json &first = map["rows"][0]["cells"], &second = map["rows"][1]["cells"];
+  EXPECT_EQ(first[0]["text"], "+3.5 % (z +7.0)");
+  EXPECT_NE(first[0]["colour"], second[0]["colour"]); // beyond twice the threshold, within
+  EXPECT_NE(first[0]["colour"], first[1]["colour"]);  // too high, too low
+  EXPECT_EQ(second[1]["text"], "–");
 }
 
 TEST(GapPage, HoldsItsNumbers) {

@@ -64,10 +64,10 @@ TEST(ShrinkPart, IsDrawnOnlyWhereRerunsWereMade) {
 TEST(ShrinkPart, BarsShareOneScaleWithTheirIntervals) {
   const json part = shrink_part(made_shrink());
   ASSERT_EQ(part["bars"].size(), 4u); // the scale ends at 10, of what was predicted
-  EXPECT_EQ(part["bars"][0]["width"], "336.0");
-  EXPECT_EQ(part["bars"][1]["width"], "84.0");
-  EXPECT_EQ(part["bars"][1]["whisker"]["low"], "42.0");
-  EXPECT_EQ(part["bars"][1]["predicted"], "42.0");
+  EXPECT_EQ(part["bars"][0]["width"], "192.0");
+  EXPECT_EQ(part["bars"][1]["width"], "48.0");
+  EXPECT_EQ(part["bars"][1]["whisker"]["low"], "24.0");
+  EXPECT_EQ(part["bars"][1]["predicted"], "24.0");
   EXPECT_FALSE(part["bars"][0].contains("predicted"));
   EXPECT_EQ(part["bars"][0]["parameters"], "E_cbd = 2.5");
   EXPECT_EQ(part["shrinkage"]["value"], "75");

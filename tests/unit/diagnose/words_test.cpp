@@ -15,6 +15,7 @@ Json claimed(const std::string &claim) {
             {"next_measurement",
              {{"what", "cracks of p30"}, {"now", 0.5}, {"expected_probability", 0.83}}},
             {"evidence", Json::array({{{"hypothesis", "unknown"}, {"place", "relaxation"}}})}}},
+          {"where", Json::array({{{"significant", true}}})},
           {"fitted_effects", Json::array()}};
 }
 
@@ -41,6 +42,14 @@ TEST(ClaimInWords, EveryClaimSaysWhatItMeansAndWhatToDo) {
   expect_parts(claimed("undecided"), {"friction; none", "Measure: cracks of p30", "83 %", "50 %"});
 }
 
+TEST(ClaimInWords, UndecidedSaysWhetherAnythingStandsOutAndCountsALongList) {
+  Json gap = claimed("undecided");
+  EXPECT_EQ(all_of(claim_in_words(gap)).find("out of the noise"), std::string::npos);
+  gap["where"][0]["significant"] = false;
+  gap["which"]["set95"] = {"a", "b", "c", "d", "e", "f", "g"};
+  expect_parts(gap, {"No difference stands out of the noise", "a; b; c; d; e; 2 more."});
+}
+
 TEST(ClaimInWords, AMeasurementThatTellsNothingIsNotAskedFor) {
   Json gap = claimed("undecided");
   gap["which"]["next_measurement"]["expected_probability"] = 0.505;
@@ -61,6 +70,32 @@ TEST(ClaimInWords, AnEffectIsSwitchedOnAndAnInstrumentIsChecked) {
   gap["which"]["claim"] = "friction + thickness_zero";
   gap["fitted_effects"].push_back(fitted("friction", "material.am.friction"));
   expect_parts(gap, {"explain the gap together", "Switch it on"});
+}
+
+// A reciprocal amplitude: 1/GPa. The strongest effect is the smallest yield pressure.
+TEST(Tell, AmplitudesBecomeValuesOfTheKeyWithTheSmallerEndFirst) {
+  Json gap = claimed("nmc_plasticity");
+  gap["predictions"] = {{"best", "nmc_plasticity"}, {"observables", Json::array()}};
+  gap["fitted_effects"] = Json::array({{{"effect", "nmc_plasticity"},
+                                        {"parameter", "amplitude"},
+                                        {"mode", 0.25},
+                                        {"low90", 0.2},
+                                        {"high90", 0.5}}});
+  gap["confounding"]["detection_limit"] =
+      Json::array({{{"effect", "nmc_plasticity"}, {"amplitude", nullptr}, {"rival", "none"}},
+                   {{"effect", "friction"}, {"amplitude", 0.199}, {"rival", "none"}}});
+  BankSpec bank;
+  bank.prices[4].hours = 9.0;
+  tell({}, bank, gap);
+  const Json &fitted = gap["fitted_effects"][0];
+  EXPECT_EQ(fitted["keys"][0], "effects.nmc_plasticity.yield_pressure_GPa");
+  EXPECT_NEAR(fitted["value"].get<double>(), 4.0, 1e-12);
+  EXPECT_NEAR(fitted["value_low90"].get<double>(), 2.0, 1e-12);
+  EXPECT_NEAR(fitted["value_high90"].get<double>(), 5.0, 1e-12);
+  EXPECT_TRUE(gap["confounding"]["detection_limit"][0]["value"].is_null());
+  EXPECT_NEAR(gap["confounding"]["detection_limit"][1]["value"].get<double>(), 0.2, 1e-12);
+  EXPECT_EQ(gap["which"]["not_in_bank"][0]["cost"], 9.0);
+  EXPECT_EQ(gap["said"]["headline"], "nmc_plasticity explains the gap");
 }
 
 } // namespace

@@ -9,6 +9,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::size_t kTold = 5; // of a list of explanations
+
 struct Words {
   std::string headline, meaning;
   std::vector<std::string> next;
@@ -68,11 +70,23 @@ Words unknown(const Json &gap) {
            "effects lacks (calendem effects)."}};
 }
 
+/// The most probable ones of a list; the others are counted.
+std::string leading(const std::vector<std::string> &names) {
+  const std::size_t told = std::min(names.size(), kTold);
+  std::string text = fmt::format("{}", fmt::join(names.begin(), names.begin() + told, "; "));
+  return told < names.size() ? text + fmt::format("; {} more", names.size() - told) : text;
+}
+
 Words undecided(const Json &gap) {
-  const auto set = gap["which"]["set95"].get<std::vector<std::string>>();
+  const Json &where = gap["where"];
+  const bool any = std::any_of(where.begin(), where.end(),
+                               [](const Json &row) { return row["significant"] == true; });
   return {"Undecided: the data do not tell the explanations apart",
-          fmt::format("With 95 % it is one of these: {}. {}", fmt::join(set, "; "),
-                      gap["which"]["why"].get<std::string>()),
+          fmt::format("{}With 95 % it is one of these, the most probable first: {}.",
+                      any ? ""
+                          : "No difference stands out of the noise, but weak effects could "
+                            "hide in it. ",
+                      leading(gap["which"]["set95"].get<std::vector<std::string>>())),
           {measurement_of(gap["which"])}};
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kBar = 420.0;  // px of the longest bar
+constexpr double kBar = 240.0;  // px of the longest bar
 constexpr double kMissed = 2.0; // standard deviations beyond which an observable is not met
 
 double number(const json &object, const char *key) {

@@ -19,8 +19,13 @@ struct Options {
   RerunOptions rerun;
 };
 
-void print(const inference::Diagnosis &d, const std::vector<std::string> &not_said) {
-  fmt::print("claim: {}\n  {}\n", d.which.claim, d.which.why);
+void print(const Diagnosed &diagnosed) {
+  const inference::Diagnosis &d = diagnosed.diagnosis;
+  const nlohmann::ordered_json &said = diagnosed.gap["said"];
+  fmt::print("claim: {}\n{}.\n{}\n  {}\n", d.which.claim, said["headline"].get<std::string>(),
+             said["meaning"].get<std::string>(), d.which.why);
+  for (const auto &step : said["next"])
+    fmt::print("* {}\n", step.get<std::string>());
   for (const inference::Judged &j : d.which.judged)
     if (j.probability >= 0.005)
       fmt::print("  {:<44} {:5.1f} %   fits with p {:.2g}\n", j.hypothesis.name,
@@ -35,7 +40,7 @@ void print(const inference::Diagnosis &d, const std::vector<std::string> &not_sa
     if (q.poor)
       fmt::print("- the bank says too little of {}: it cannot be claimed\n",
                  q.effect.empty() ? "the base model" : q.effect);
-  for (const std::string &text : not_said)
+  for (const std::string &text : diagnosed.data.not_said)
     fmt::print("- {}\n", text);
 }
 
@@ -84,7 +89,7 @@ void run(Options o) {
   provenance["bank_table"] = hash_of_file(o.table);
   make_output_folder(o.folder);
   write_gap(d.gap, o.folder);
-  print(d.diagnosis, d.data.not_said);
+  print(d);
   fmt::print("page: {0}/gap.html\ndata: {0}/gap.json\n", o.folder);
   how_far(o, experiment, table, d);
 }
@@ -98,7 +103,7 @@ void add_diagnose_verb(CLI::App &app) {
   CLI::App *verb = app.add_subcommand(
       "diagnose", "Where simulation and experiment disagree, and which effect explains it");
   verb->add_option("EXPERIMENT", o->experiment, "experiment file (TOML)")->required();
-  verb->add_option("-o,--output", o->folder, "folder for gap.json")->required();
+  verb->add_option("-o,--output", o->folder, "folder for gap.json and gap.html")->required();
   verb->add_option("--bank", o->bank, "bank (TOML) that the table was made from");
   verb->add_option("--table", o->table,
                    "bank.csv as calendem bank wrote it; default: beside the bank, with its name");
