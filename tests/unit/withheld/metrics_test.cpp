@@ -58,6 +58,8 @@ TEST(Scores, AnswersByHandGetTheNumbersThatCanBeCounted) {
   EXPECT_EQ(named(m, "false claims").clusters, 2);
   EXPECT_DOUBLE_EQ(named(m, "unknown against known").value, 1.0);
   EXPECT_EQ(named(m, "unknown against known").verdict, Metric::met);
+  EXPECT_TRUE(named(m, "unknown against known").certain);
+  EXPECT_FALSE(named(m, "which, top-1, effects").certain);
   EXPECT_EQ(named(m, "which, top-1, effects").verdict, Metric::missed);
   EXPECT_EQ(named(m, "shrinkage").verdict, Metric::not_measured);
   EXPECT_DOUBLE_EQ(named(m, "90 % intervals of base").value, 0.5);

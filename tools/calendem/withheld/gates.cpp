@@ -24,6 +24,7 @@ Metric judged(Metric m, const char *gate, double least, double most = INFINITY) 
   m.verdict = std::isnan(m.value)                   ? Metric::not_measured
               : m.value >= least && m.value <= most ? Metric::met
                                                     : Metric::missed;
+  m.certain = m.low >= least && m.high <= most;
   return m;
 }
 
@@ -94,6 +95,18 @@ void add_reported(const All &cases, std::vector<Metric> &out) {
   out.push_back(share_of("which, top-1, all single effects", cases, in_block({"single"}), right));
   out.push_back(share_of("which, top-2, all single effects", cases, in_block({"single"}),
                          [](const auto &c) { return right(c) || c.ranked(1) == c.truth; }));
+  const auto between = [&](const char *name, double low, double high) {
+    out.push_back(share_of(
+        std::string("which, top-1, single effects ") + name, cases,
+        [=](const auto &c) {
+          return c.block == "single" && c.signal_to_noise >= low && c.signal_to_noise < high;
+        },
+        right));
+  };
+  between("below their detection limit", 0.0, kDetectable);
+  between("from there to signal-to-noise 6", kDetectable, kLoudEnough);
+  out.push_back(share_of("pair: a measurement that would tell more is named", cases,
+                         in_block({"pair"}), [](const auto &c) { return c.next_named; }));
   out.push_back(share_of("nulls: none claimed", cases, in_block({"null"}), claims_right));
   out.push_back(share_of("nulls: a block beyond the threshold", cases, in_block({"null"}),
                          [](const auto &c) { return c.located; }));
@@ -118,8 +131,8 @@ void add_baselines(const All &cases, std::vector<Metric> &out) {
                                [&](const Cases &d) { return balanced(d, named); }));
     return out.back().value;
   };
+  const std::size_t place = out.size();
   const double ours = add("the diagnosis", [](const ScoredCase &c) { return c.ranked(0); });
-  const std::size_t place = out.size() - 1;
   double best = -INFINITY;
   if (!known.empty())
     for (const auto &[name, unused] : known.front()->baselines)
@@ -131,6 +144,7 @@ void add_baselines(const All &cases, std::vector<Metric> &out) {
   out[place].verdict = std::isnan(ours) || !std::isfinite(best) ? Metric::not_measured
                        : ours > best                            ? Metric::met
                                                                 : Metric::missed;
+  out[place].certain = out[place].low > best;
 }
 
 } // namespace

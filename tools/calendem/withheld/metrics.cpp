@@ -85,6 +85,8 @@ double brier_skill_of(const Cases &cases) {
   std::vector<double> frequency(t.names.size(), 0.0);
   for (const int truth : t.truth)
     frequency[std::size_t(truth)] += 1.0 / double(t.truth.size());
+  if (std::count(t.truth.begin(), t.truth.end(), t.truth.front()) == std::ptrdiff_t(t.truth.size()))
+    return std::nan(""); // the frequencies are right already
   return inference::brier_skill(t.probability, t.truth, frequency);
 }
 

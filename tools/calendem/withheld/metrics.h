@@ -19,6 +19,7 @@ struct ScoredCase {
   std::map<std::string, double> probability; ///< of hypotheses
   std::vector<std::string> set95;
   bool located = false;         ///< some block lies beyond the threshold
+  bool next_named = false;      ///< a measurement that would tell more is named
   double signal_to_noise = 0.0; ///< of a single effect; 0: not known
   std::vector<bool> covered;    ///< base parameters inside their 90 % intervals
   std::vector<bool> covered_amplitude;
@@ -39,6 +40,7 @@ struct Metric {
   int cases = 0, clusters = 0;
   std::string gate; ///< ">= 0.85"; empty: reported only
   enum Verdict { none, met, missed, not_measured } verdict = none;
+  bool certain = false; ///< the whole interval meets the gate
 };
 
 /// Every gate and what is reported beside it, then the baselines.
@@ -67,8 +69,9 @@ double brier_skill_of(const Cases &cases);
 /// Of the probability given to "unknown", where that is the truth against where it is not.
 double auroc_of_unknown(const Cases &cases);
 
-/// Signal-to-noise from which the gates of `where` and `which` count.
-constexpr double kLoudEnough = 6.0;
+/// Signal-to-noise from which the gates of `where` and `which` count, and that of the detection
+/// limit: log-odds of 3 are half of a squared distance of 6.
+constexpr double kLoudEnough = 6.0, kDetectable = 2.449489742783178;
 
 } // namespace calendem
 

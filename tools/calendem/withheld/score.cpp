@@ -27,12 +27,11 @@ void must_be(const std::string &is, const std::string &should, const std::string
                                             what, is, should.empty() ? "none" : should));
 }
 
-/// Signal-to-noise of a single effect: log-odds grow with the square of the amplitude and are 3,
-/// half of a squared distance of 6, at the detection limit.
+/// Signal-to-noise of a single effect: it grows with the amplitude.
 double signal_to_noise(const Json &gap, const std::string &effect, double amplitude) {
   for (const Json &limit : gap.at("confounding").value("detection_limit", Json::array()))
     if (limit.at("effect") == effect && limit.at("amplitude").is_number())
-      return std::sqrt(6.0) * std::fabs(amplitude) / limit.at("amplitude").get<double>();
+      return kDetectable * std::fabs(amplitude) / limit.at("amplitude").get<double>();
   return 0.0;
 }
 
@@ -65,6 +64,8 @@ ScoredCase case_of(const Json &truth, const Json &gap) {
   c.claim = which.at("claim");
   c.probability = which.at("probability").get<std::map<std::string, double>>();
   c.set95 = which.at("set95").get<std::vector<std::string>>();
+  c.next_named =
+      which.contains("next_measurement") && which["next_measurement"].value("what", "") != "";
   for (const Json &row : gap.at("where"))
     c.located = c.located || row.at("significant").get<bool>();
   if (const Json &effects = truth.at("effects"); effects.size() == 1) {

@@ -14,10 +14,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char *verdict_of(const Metric &m) {
+std::string verdict_of(const Metric &m) {
   switch (m.verdict) {
   case Metric::met:
-    return "met";
+    return m.certain ? "met" : "met, but its interval reaches beyond";
   case Metric::missed:
     return "missed";
   case Metric::not_measured:
