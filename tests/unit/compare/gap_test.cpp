@@ -118,6 +118,7 @@ TEST(Observables, CurveIsComparedAtSharesOfItsLargestPressure) {
   c.porosity_after_percent.reset();
   c.mass_mg.reset();
   c.curve = file;
+  c.curve_sd_um = 0.02;
   std::vector<std::string> not_said;
   const auto all = observables_of(e, c, not_said);
   std::filesystem::remove(file);
@@ -126,6 +127,7 @@ TEST(Observables, CurveIsComparedAtSharesOfItsLargestPressure) {
   EXPECT_NEAR(all[3].measured, 15.0,
               1e-9); // between 50 MPa at 10 and 100 at 20; the dip is skipped
   EXPECT_NEAR(all[3].simulated(pressed_to(150, 0.3, "a")), 20.0, 1e-9);
+  EXPECT_EQ(all[3].sd, 0.02);
 }
 
 TEST(DisplacementAt, IsLinearBetweenPointsAndNothingBeyond) {

@@ -72,11 +72,16 @@ TEST(Diagnosis, AnEffectIsNamedWithItsPlaceAndParameters) {
   for (const char *effect : {"plasticity", "friction"}) {
     const Diagnosis d = lab.diagnose(effect, 0.7, 5);
     EXPECT_EQ(d.which.claim, effect) << d.which.why;
+    ASSERT_EQ(d.effects.size(), 1u);
+    EXPECT_EQ(d.effects[0].effect, effect);
+    EXPECT_LT(d.effects[0].low90, d.effects[0].mode);
+    EXPECT_LT(d.effects[0].mode, d.effects[0].high90);
     EXPECT_GT(d.which.adequacy_p, 0.01);
     EXPECT_TRUE(d.where.rows[0].significant);
     const Judged &best = d.which.of(effect);
     const double amplitude = lab.bank.effects[0].parameters[0].prior.value(best.evidence.mode[2]);
     EXPECT_NEAR(amplitude, 0.7, 0.15) << effect;
+    EXPECT_EQ(d.effects[0].mode, amplitude);
     EXPECT_LT(d.parameters[0].low90, d.parameters[0].high90);
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A whole round on a bank of formulas: sealed, handed out, answered, scored, tampered with.
 #include "bank/bank_table.h"
+#include "diagnose/diagnose.h"
 #include "spec/messages.h"
 #include "support/test_folder.h"
 #include "withheld/answer.h"
@@ -130,6 +131,19 @@ TEST_F(Withheld, EffectsAreFoundAndAllHashesHold) {
   const auto before = fs::last_write_time(gap);
   answer(); // what was answered is not answered again
   EXPECT_EQ(fs::last_write_time(gap), before);
+}
+
+// Learning takes most of the time of a diagnosis; it depends on no measured value.
+TEST_F(Withheld, CasesOfOneLayoutShareWhatIsLearnt) {
+  const BankTable table =
+      read_bank_table(read_bank_spec((at_ / "bank.toml").string()), (at_ / "bank.csv").string());
+  SharedModels models;
+  const auto model_of = [&](const std::string &id, const BankTable &bank) {
+    const Experiment e = read_experiment(given_ + "/" + id + "/experiment.toml");
+    return models.of(data_of(e, bank, {}), {});
+  };
+  EXPECT_EQ(model_of("001", table), model_of("002", table));
+  EXPECT_NE(model_of("001", table), model_of("001", without_effects(table, {"friction"})));
 }
 
 TEST_F(Withheld, ChangedTruthsAndAnswersAreNotScored) {

@@ -126,19 +126,19 @@ Experiment handed(const Round &round, const Truth &truth, std::uint64_t seed) {
   return read_experiment((folder / "experiment.toml").string());
 }
 
-/// Standard deviation of (porosity handed out - true) over the stated one, of 400 draws.
+/// Standard deviation of (porosity handed out - true) over the stated one, of 120 draws.
 double noise_over_stated(const Round &round, const Truth &truth) {
   double sum = 0.0;
-  for (std::uint64_t k = 0; k < 200; ++k)
+  for (std::uint64_t k = 0; k < 60; ++k)
     for (const Condition &c : handed(round, truth, k).conditions)
       sum += std::pow((c.porosity_after_percent->value - 43.0) / c.porosity_after_percent->sd, 2);
-  return std::sqrt(sum / 400);
+  return std::sqrt(sum / 120);
 }
 
 TEST(HandedOut, NoiseIsWhatTheFileStatesUnlessUnderstated) {
   const Round round = round_of(kRound);
   Truth truth = draw_truths(round, "secret")[0];
-  const double chance = 4.0 / std::sqrt(2.0 * 400); // relative sd of a standard deviation, times 4
+  const double chance = 4.0 / std::sqrt(2.0 * 120); // relative sd of a standard deviation, times 4
   EXPECT_NEAR(noise_over_stated(round, truth), 1.0, chance);
   truth.understated = 3.0;
   EXPECT_NEAR(noise_over_stated(round, truth), 3.0, 3.0 * chance);
