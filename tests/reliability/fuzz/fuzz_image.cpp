@@ -25,7 +25,7 @@ void check(const calendem::LabelImage &image) {
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char *data, std::size_t size) {
   if (size == 0)
     return 0;
-  static const std::string stem = "/dev/shm/calendem_fuzz_" + std::to_string(getpid());
+  static const std::string stem = std::string(std::getenv("FUZZ_FOLDER")) + "/input";
   const std::string file = stem + kEndings[data[0] % 6];
   std::ofstream(file, std::ios::binary)
       .write(reinterpret_cast<const char *>(data) + 1, std::streamsize(size) - 1);

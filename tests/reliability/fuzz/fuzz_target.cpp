@@ -1,24 +1,45 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // One reader under libFuzzer: every input either works or throws Failure with exit status 2 and a
-// message. FUZZ_TARGET: recipe, case_, experiment, csv or structure (a macro of fuzz.sh).
+// message. Environment, set by fuzz.sh: FUZZ_TARGET, which one; FUZZ_FOLDER, an empty folder.
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <string>
-#include <unistd.h>
 
+#include "bank/bank_table.h"
+#include "inference/bank.h"
+#include "slurry/film_recipe.h"
 #include "spec/case.h"
 #include "spec/csv_table.h"
 #include "spec/experiment.h"
 #include "spec/messages.h"
 #include "spec/recipe.h"
 #include "structure/given_structure.h"
+#include "study/study_file.h"
+#include "tomogram/tomogram.h"
 
 namespace {
 
-const std::string &file() {
-  static const std::string name = "/dev/shm/calendem_fuzz_" + std::to_string(getpid());
+std::string from_environment(const char *name) {
+  const char *value = std::getenv(name);
+  return value ? value : "";
+}
+const std::string &folder() {
+  static const std::string name = from_environment("FUZZ_FOLDER");
   return name;
+}
+const std::string &file() {
+  static const std::string name = folder() + "/input";
+  return name;
+}
+void put(const std::string &path, const std::string &text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+void demand(bool holds) {
+  if (!holds)
+    std::abort();
 }
 
 void recipe(const std::string &) { calendem::read_recipe(file()); }
@@ -35,7 +56,7 @@ void csv(const std::string &text) {
 void structure(const std::string &text) {
   if (text.empty())
     return;
-  std::ofstream(file(), std::ios::binary) << text.substr(1);
+  put(file(), text.substr(1));
   const char *const styles[] = {"sphere", "granular", "bpm/sphere", "hybrid"};
   calendem::StructureSource source;
   source.file = file();
@@ -48,23 +69,101 @@ void structure(const std::string &text) {
   const calendem::GivenStructure g = calendem::read_structure(source);
   for (const auto *phase : {&g.am, &g.cbd})
     for (const calendem::GivenSphere &p : *phase)
-      if (!(p.diameter > 0.0 && p.density > 0.0 && p.x.allFinite() && p.x.z() > 0.0))
-        std::abort();
-  if (g.am.empty() || !(g.thickness > 0.0) || g.thickness > g.extent)
-    std::abort();
+      demand(p.diameter > 0.0 && p.density > 0.0 && p.x.allFinite() && p.x.z() > 0.0);
+  demand(!g.am.empty() && g.thickness > 0.0 && g.thickness <= g.extent);
+}
+
+// The study, and after a form feed the design that it may name; recipe and case are sound.
+void study(const std::string &text) {
+  const std::size_t cut = text.find('\f');
+  put(file(), text.substr(0, cut));
+  put(folder() + "/design.csv", cut == std::string::npos ? "" : text.substr(cut + 1));
+  put(folder() + "/recipe.toml", "seed = 1\n");
+  put(folder() + "/case.toml", "electrode = \"x\"\n");
+  const calendem::Study s = calendem::read_study(file());
+  demand(!s.runs.empty());
+  for (const calendem::StudyRun &r : s.runs)
+    demand(r.values.size() == s.columns.size() && r.recipe.cell_x > 0.0);
+  for (const double p : s.at_pressure)
+    demand(p > 0.0 && std::isfinite(p));
+}
+
+void bank(const std::string &) {
+  const calendem::BankSpec b = calendem::read_bank_spec(file());
+  demand(!b.parameters.empty() && b.packings > 1 && b.effect_points <= b.base_points);
+  for (const calendem::BankParameter &p : b.parameters)
+    demand(p.low < p.high && std::isfinite(p.high - p.low) && !p.keys.empty());
+  for (const double p : b.pressures)
+    demand(p > 0.0 && std::isfinite(p));
+}
+
+void bank_table(const std::string &) {
+  calendem::BankSpec spec;
+  spec.parameters = {{"E_am_GPa", {}, 100.0, 300.0}, {"strength_MPa", {}, 200.0, 900.0}};
+  const calendem::BankTable table = calendem::read_bank_table(spec, file());
+  for (const calendem::BankRow &row : table.rows) {
+    demand(row.point.base.size() == 2 && row.point.base_point >= 0 && row.point.packing > 0);
+    for (const double v : row.point.base)
+      demand(std::isfinite(v));
+    demand(std::isfinite(row.point.value) &&
+           row.run.pressure.size() == row.run.displacement.size());
+  }
+  const std::string written = calendem::write_bank_table(table);
+  put(file(), written);
+  demand(calendem::write_bank_table(calendem::read_bank_table(spec, file())) == written);
+}
+
+void inference_table(const std::string &text) {
+  using namespace calendem::inference;
+  Bank b;
+  b.base = {{"E", {Prior::uniform, -1.0, 1.0}, false}};
+  b.effects = {{"friction",
+                {{"amplitude", {Prior::uniform, 0.0, 1.0}, true},
+                 {"shape", {Prior::uniform, 0.0, 1.0}, false}}}};
+  b.observables = {{"porosity", "relaxation", "p150"}, {"pressure", "compression", "p150", 0.5}};
+  read_table(b, text, "bank.csv");
+  check(b);
+  const std::string written = write_table(b);
+  read_table(b, written, "bank.csv");
+  demand(write_table(b) == written);
+}
+
+void film(const std::string &) {
+  const calendem::FilmRecipe f = calendem::read_film_recipe(file());
+  for (const double v : {f.slurry_thickness(), f.slurry_density(), f.wet_diameter(),
+                         f.wet_density(), f.recipe.thickness(), f.tolerance_points})
+    demand(v > 0.0 && std::isfinite(v));
+  demand(f.wet_diameter() > f.recipe.cbd_diameter);
+}
+
+void tomogram(const std::string &) {
+  const calendem::TomogramSpec t = calendem::read_tomogram_spec(file());
+  demand(t.voxel > 0.0 && t.size.minCoeff() > 0.0 && t.size.allFinite());
+  demand(t.min_diameter < t.max_diameter && t.pores >= 0 && t.solid_fraction > 0.0);
+}
+
+using Reader = void (*)(const std::string &);
+
+Reader wanted() {
+  static const std::map<std::string, Reader> readers = {
+      {"recipe", recipe}, {"case_", case_},           {"experiment", experiment},
+      {"csv", csv},       {"structure", structure},   {"study", study},
+      {"bank", bank},     {"bank_table", bank_table}, {"inference_table", inference_table},
+      {"film", film},     {"tomogram", tomogram}};
+  return readers.at(from_environment("FUZZ_TARGET"));
 }
 
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char *data, std::size_t size) {
+  static const Reader reader = wanted();
   const std::string text(reinterpret_cast<const char *>(data), size);
-  std::ofstream(file(), std::ios::binary) << text;
+  put(file(), text);
   try {
-    FUZZ_TARGET(text);
+    reader(text);
   } catch (const calendem::Failure &f) {
     if (f.exit_status() != calendem::kBadInput || std::strlen(f.what()) < 10)
       std::abort();
   }
-  unlink(file().c_str());
   return 0;
 }
