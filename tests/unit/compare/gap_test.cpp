@@ -14,8 +14,9 @@ namespace {
 Experiment paper() { return read_experiment(CALENDEM_CASES "/paper/experiment.toml"); }
 
 SimulatedRun pressed_to(double pressure, double porosity, const std::string &packing) {
+  static int runs = 0;
   SimulatedRun r;
-  r.folder = packing;
+  r.folder = "run_" + std::to_string(++runs); // every run has its own, also of one packing
   r.control = "pressure";
   r.target = r.max_pressure = pressure;
   r.porosity_after = porosity;
