@@ -60,10 +60,19 @@ inline BankTable made_bank() {
   return table;
 }
 
+/// Gives the experiment's film the bank's solid column.
+inline void set_film(Experiment &e) {
+  e.recipe.am_weight = 1.0;
+  e.recipe.am_density = 4.0;
+  e.recipe.cbd_solid_density = 1.8;
+  e.recipe.loading = 0.1 * 4.0 * kSolidColumn;
+}
+
 /// A sample at 30 and one at 60 MPa, measured without error: what a point of the bank would show.
 inline Experiment made_experiment(const BankPoint &truth) {
   Experiment e;
   e.name = "from formulas";
+  set_film(e);
   for (const double target : {30.0, 60.0}) {
     const SimulatedRun run = made_run(truth, target);
     Condition c;

@@ -18,6 +18,7 @@ bool told(const ExperimentData &data, const std::string &part) {
 /// One condition with its porosity only.
 Experiment with_pressure(double pressure, double sd = 0.0) {
   Experiment e;
+  set_film(e);
   Condition c;
   c.id = "one";
   c.control = "pressure";
@@ -110,6 +111,39 @@ TEST(ExperimentData, InstrumentsAreAppliedToTheRunsOfTheBaseModel) {
       ++shown;
     }
   EXPECT_EQ(shown, 24);
+}
+
+TEST(ExperimentData, MicrometresCountLessInAThickerFilm) {
+  const BankTable table = made_bank();
+  Experiment thick = made_experiment(kTruth);
+  thick.recipe.loading *= 3.0;
+  int shown = 0;
+  for (const inference::Run &run : data_of(thick, table, {}).bank.runs)
+    if (run.effect == "thickness_zero") {
+      const double after =
+          table.rows[std::size_t(2 * shown)].run.thickness_after + run.amplitudes[0] / 3.0;
+      EXPECT_NEAR(run.values[0], 100.0 * (1.0 - kSolidColumn / after), 1e-9);
+      ++shown;
+    }
+  EXPECT_EQ(shown, 24);
+}
+
+TEST(ExperimentData, WhatHappensAtTheFacesCountsLessInAThickerFilm) {
+  BankTable table = made_bank();
+  table.spec.effects = {"collector_indentation"};
+  for (BankRow &row : table.rows)
+    if (!row.point.effect.empty())
+      row.point.effect = "collector_indentation";
+  Experiment thick = made_experiment(kTruth);
+  const auto own = data_of(thick, table, {}).bank.runs;
+  thick.recipe.loading *= 3.0;
+  const auto thin = data_of(thick, table, {}).bank.runs;
+  ASSERT_EQ(own.size(), 36u);
+  for (int k = 0; k < 12; ++k) { // 24 points of the base model, 12 of the effect beside the first
+    EXPECT_NEAR(thin[24 + k].values[0] - thin[k].values[0],
+                (own[24 + k].values[0] - own[k].values[0]) / 3.0, 1e-12);
+    EXPECT_NE(own[24 + k].values[0], own[k].values[0]);
+  }
 }
 
 TEST(ExperimentData, NumbersAreToldWithUnitAndPressure) {

@@ -53,7 +53,8 @@ protected:
               answers_ = (at_ / "answers").string();
 
   void SetUp() override {
-    std::ofstream(at_ / "electrode.toml") << "[cell]\nx_um = 6\ny_um = 6\n";
+    std::ofstream(at_ / "electrode.toml")
+        << "[coating]\nloading_mg_cm2 = 4\n[cell]\nx_um = 6\ny_um = 6\n"; // 9.15 um of solid
     std::ofstream(at_ / "case.toml") << "electrode = \"any\"\n";
     std::ofstream(at_ / "bank.toml") << kBank;
     std::ofstream(at_ / "round.toml")

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 
 namespace calendem {
 using inference::Matrix;
@@ -32,8 +33,14 @@ inference::Run bank_run(const PointRuns &runs, const Vector &values) {
   return out;
 }
 
-void add_instrument(const Effect &effect, std::uint64_t seed, const std::vector<Covered> &all,
-                    const std::vector<PointRuns> &points, inference::Bank &bank) {
+/// How thick the point's film is beside the sample's, without pores.
+double film_ratio(const Experiment &e, const PointRuns &runs) {
+  return runs.front()->run.solid_column / solid_thickness_um(e, e.recipe.loading);
+}
+
+void add_instrument(const Effect &effect, std::uint64_t seed, const Experiment &e,
+                    const std::vector<Covered> &all, const std::vector<PointRuns> &points,
+                    inference::Bank &bank) {
   const inference::Parameter p = inference_effect(effect).parameters.front();
   const Matrix shares = inference::sobol_points(1, int(points.size()), seed);
   for (std::size_t k = 0; k < points.size(); ++k)
@@ -41,7 +48,9 @@ void add_instrument(const Effect &effect, std::uint64_t seed, const std::vector<
       const double amplitude =
           p.prior.value(inference::normal_quantile(shares(0, Eigen::Index(k))));
       const double value = effect.parameter.value(amplitude);
-      const auto see = [&](const SimulatedRun &r) { return shown_with(effect, value, r); };
+      const double on_film =
+          value * film_ratio(e, points[k]); // micrometres do not grow with a film
+      const auto see = [&](const SimulatedRun &r) { return shown_with(effect, on_film, r); };
       inference::Run run = bank_run(points[k], values_of(all, points[k], see));
       run.effect = effect.name;
       run.amplitudes = Vector::Constant(1, amplitude);
@@ -130,18 +139,34 @@ void set_next(const std::vector<Further> &further, const std::vector<PointRuns> 
   }
 }
 
-void fill_bank(const BankTable &table, const std::vector<Covered> &all,
+/// What an effect at the film's faces changes counts less in a thicker film.
+void thin_out(const Experiment &e, const std::vector<PointRuns> &points, inference::Bank &bank) {
+  std::map<int, std::size_t> base;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (points[k].front()->point.effect.empty())
+      base[points[k].front()->point.base_point] = k;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const BankPoint &p = points[k].front()->point;
+    if (p.effect.empty() || find_effect(p.effect).layer != "boundary")
+      continue;
+    const Vector &off = bank.runs[base.at(p.base_point)].values;
+    bank.runs[k].values = off + film_ratio(e, points[k]) * (bank.runs[k].values - off);
+  }
+}
+
+void fill_bank(const Experiment &e, const BankTable &table, const std::vector<Covered> &all,
                const std::vector<PointRuns> &points, inference::Bank &bank) {
   for (const BankParameter &p : table.spec.parameters)
     bank.base.push_back({p.name, prior_of(p.spread, p.low, p.high), false});
   const auto as_it_is = [](const SimulatedRun &r) { return r; };
   for (const PointRuns &runs : points)
     bank.runs.push_back(bank_run(runs, values_of(all, runs, as_it_is)));
+  thin_out(e, points, bank);
   for (std::size_t k = 0; k < table.spec.effects.size(); ++k) {
     const Effect &effect = find_effect(table.spec.effects[k]);
     bank.effects.push_back(inference_effect(effect));
     if (effect.instrument)
-      add_instrument(effect, table.spec.seed + 100 + k, all, points, bank);
+      add_instrument(effect, table.spec.seed + 100 + k, e, all, points, bank);
   }
 }
 
@@ -170,7 +195,7 @@ ExperimentData data_of(const Experiment &experiment, const BankTable &table,
   std::vector<Covered> all = now;
   for (const Further &f : further)
     all.insert(all.end(), f.of.begin(), f.of.end());
-  fill_bank(table, all, points, data.bank);
+  fill_bank(experiment, table, all, points, data.bank);
   inference::ObservableVector measured = measured_of(now, by_pressure(now, points));
   if (const Transfer t = transfer_of(experiment, full_cell, all, data.not_said); t.change.size()) {
     for (inference::Run &run : data.bank.runs)

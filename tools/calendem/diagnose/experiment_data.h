@@ -25,7 +25,9 @@ struct ExperimentData {
 /// The observables of the conditions named in `conditions` (all if it is empty). A run to a
 /// pressure between two of the bank's is interpolated; the pressure's uncertainty is common to all
 /// conditions of one press. Where the bank has runs on the full cell, all are shifted by what a
-/// film as thick as the sample's differs from the bank's. Throws Failure(2) if nothing is left to
+/// film as thick as the sample's differs from the bank's. What happens at the film's faces (effects
+/// of the layer "boundary", instruments that show micrometres) counts by the ratio of the films'
+/// solid columns. Throws Failure(2) if nothing is left to
 /// compare.
 ExperimentData data_of(const Experiment &experiment, const BankTable &table,
                        const std::vector<std::string> &conditions);

@@ -109,9 +109,10 @@ std::vector<std::pair<std::string, Hypothesis>> chosen(const inference::Which &w
 
 std::string text_of(double value) { return fmt::format("{:.4g}", value); }
 
-/// The models as runs: for each, the packings; for each packing, the pressures.
+/// The models as runs: for each, the packings; for each packing, the pressures. `film`: thickness
+/// of the bank's film over the sample's; an instrument's micrometres do not grow with a film.
 Study study_of(const BankTable &table, const std::vector<RerunModel> &models,
-               const std::vector<double> &pressures, int packings) {
+               const std::vector<double> &pressures, int packings, double film) {
   const BankSpec &spec = table.spec;
   Study study;
   study.file = spec.file;
@@ -136,8 +137,10 @@ Study study_of(const BankTable &table, const std::vector<RerunModel> &models,
           row.insert(row.end(), spec.parameters[p].keys.size(), text_of(m.base[p]));
         for (const std::string &name : spec.effects) {
           const EffectParameter &p = find_effect(name).parameter;
+          const double on_film = find_effect(name).instrument ? film : 1.0;
           const auto on = m.effect.find(name);
-          row.insert(row.end(), p.keys.size(), on == m.effect.end() ? p.off : text_of(on->second));
+          row.insert(row.end(), p.keys.size(),
+                     on == m.effect.end() ? p.off : text_of(on_film * on->second));
         }
         row.push_back(text_of(pressure));
         rows.push_back(row);
@@ -254,7 +257,9 @@ std::vector<RerunModel> models_to_rerun(const Experiment &experiment, const Bank
 nlohmann::ordered_json rerun(const Experiment &experiment, const BankTable &table,
                              const std::vector<RerunModel> &models, const RerunOptions &options) {
   const std::vector<double> pressures = pressures_of(experiment);
-  const Study study = study_of(table, models, pressures, options.packings);
+  const double film = table.rows.front().run.solid_column /
+                      solid_thickness_um(experiment, experiment.recipe.loading);
+  const Study study = study_of(table, models, pressures, options.packings, film);
   make_study(study, options.study);
   const BankTable runs =
       table_of(table, models, options.packings, finished_runs(study, options.study), pressures);
