@@ -37,7 +37,8 @@ void expect_parts(const Json &gap, const std::vector<std::string> &parts) {
 
 TEST(ClaimInWords, EveryClaimSaysWhatItMeansAndWhatToDo) {
   expect_parts(claimed("none"), {"No gap beyond noise", "not excluded"});
-  expect_parts(claimed("noise"), {"errors of the measurement are understated", "Measure again"});
+  expect_parts(claimed("noise"),
+               {"errors of the measurement are understated", "Measure again", "looks the same"});
   expect_parts(claimed("unknown"), {"no known effect", "here: relaxation", "Do not recalibrate"});
   expect_parts(claimed("undecided"), {"friction; none", "Measure: cracks of p30", "83 %", "50 %"});
 }

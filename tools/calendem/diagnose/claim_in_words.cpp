@@ -53,11 +53,13 @@ Words none() {
 }
 
 Words noise() {
-  return {"The errors of the measurement are understated",
-          "The base model would fit if the measured values scattered more than is stated. No "
-          "effect is needed, and none is excluded.",
-          {"Measure again on other samples and state the scatter that you find.",
-           "Look for a sample or a reading that stands out: see where."}};
+  return {
+      "The errors of the measurement are understated",
+      "The base model would fit if the measured values scattered more than is stated. No "
+      "effect is needed, and none is excluded: with few things measured an effect that the bank "
+      "lacks looks the same.",
+      {"Measure again on other samples and state the scatter that you find.",
+       "Look for a sample or a reading that stands out: see where."}};
 }
 
 Words unknown(const Json &gap) {

@@ -29,7 +29,8 @@ struct Further {
 };
 
 /// Those that the table can foretell: each kind on the covered conditions that lack it, and
-/// porosities after the bank's other pressures, whose uncertainty is that of the others.
+/// porosities after the bank's other pressures, whose uncertainty is that of the others. The
+/// pressure's error counts as independent of that in what was measured already.
 std::vector<Further> further_measurements(const Experiment &experiment, const BankTable &table,
                                           const std::vector<Covered> &covered);
 
