@@ -52,6 +52,21 @@ keep = "tables"
 keys = ["recipe.seed", "case.platen.max_pressure_MPa"]
 values = [[1, 4], [1, 5], [2, 4]]
 T
+cat >"$work/bank.toml" <<'T'
+[bank]
+recipe = "electrode.toml"
+case = "case.toml"
+pressures_MPa = [4]
+packings = 2
+base_points = 4
+effect_points = 2
+effects = ["friction"]
+[[parameter]]
+name = "E"
+keys = ["case.material.am.youngs_modulus_GPa"]
+low = 100
+high = 300
+T
 study=("$bin/calendem" study "$work/study.toml" -o "$work/out" --slurm)
 slurm=("${study[@]}" --jobs 2 --slurm-every 1 --sbatch "--time=10 --comment='two words'")
 
@@ -64,6 +79,10 @@ says "packings.sh is written, tasks 1,3; nothing is submitted" "runs.sh is writt
 expect 0 bash "$work/out/slurm/packings.sh" 1 # as another scheduler would
 expect 3 bash "$work/out/slurm/runs.sh" 3
 says "its packing is not there"
+expect 0 "$bin/calendem" bank "$work/bank.toml" -o "$work/bank" --slurm-dry-run
+says "runs.sh is written, tasks 1-6"
+expect 3 bash "$work/bank/slurm/runs.sh" 6 # the bank's own verb makes its tasks
+says "run 6: failed, its packing is not there"
 
 start_cluster
 job=calendem-$(sed -n 's/^#SBATCH --job-name=calendem-\([0-9a-f]*\)-runs$/\1/p' "$work/out/slurm/runs.sh")
@@ -74,6 +93,15 @@ kill -9 $client
 wait $client || true
 cat "$work/killed.log"
 [ "$(find "$work/out/packings" -name electrode.json | wc -l)" = 1 ] || fail "no packing was left for Slurm to make"
+
+"${slurm[@]}" >"$work/said" 2>&1 &
+client=$!
+wait_for "client that waits" grep -q waiting "$work/said"
+kill -TERM $client
+status=0
+wait $client || status=$?
+[ $status -eq 3 ] || fail "exit status $status of a client that was stopped, expected 3"
+says "Its jobs go on in Slurm's queue" "the same command waits for them again" "scancel --name=$job-packings,$job-runs"
 
 "${slurm[@]}" >"$work/said" 2>&1 &
 client=$!
