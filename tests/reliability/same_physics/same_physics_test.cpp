@@ -142,6 +142,7 @@ double difference(const std::string &a, const std::string &b, int first) {
 } // namespace
 
 TEST(SamePhysics, EnoughBreaksToCompare) {
+  ASSERT_FALSE(reference().rows.empty());
   EXPECT_EQ(reference().rows.front().at("made"), 54 * 12 + 162);
   const long breaks = lines(reference().breaks) - 1;
   std::printf("%ld of %g bonds broken\n", breaks, reference().rows.front().at("made"));

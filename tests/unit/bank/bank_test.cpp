@@ -206,9 +206,9 @@ TEST(Bank, RowsThatAreNoPointAreTold) {
 }
 
 TEST(Bank, BetweenTwoPressuresRunsAreLinear) {
-  const SimulatedRun r = between_runs(some_run(80, 1), some_run(150, 0.9), 115.0);
-  EXPECT_NEAR(r.thickness_at_max, 47.5, 1e-12);
-  EXPECT_EQ(r.target, 115.0);
+  const SimulatedRun r = between_runs(some_run(80, 1), some_run(150, 0.9), 97.5); // a quarter
+  EXPECT_NEAR(r.thickness_at_max, 48.75, 1e-12);
+  EXPECT_EQ(r.target, 97.5);
   EXPECT_EQ(r.pressure.back(), 150.0);
 }
 

@@ -127,13 +127,13 @@ TEST(Emulators, AnEffectIsNothingAtAmplitudeZero) {
   for (int i = 0; i < values.cols(); ++i)
     values.col(i) = bank.runs[i].values;
   const Emulators learnt(bank, values);
-  const auto at = [&](double amplitude, bool on) {
+  const auto at = [&](double amplitude, bool on, double share = 1.0) {
     Prediction p{Vector::Zero(16), Vector::Zero(16)};
     std::vector<Applied> applied;
     if (on)
       applied.push_back(
           {0, Vector::Constant(1, bank.effects[0].parameters[0].prior.score(amplitude))});
-    learnt.predict(Vector::Zero(2), applied, 1.0, 0, p);
+    learnt.predict(Vector::Zero(2), applied, share, 0, p);
     return p;
   };
   EXPECT_NEAR((at(0.0, true).mean - at(0.0, false).mean).norm(), 0.0, 1e-9);
@@ -141,6 +141,8 @@ TEST(Emulators, AnEffectIsNothingAtAmplitudeZero) {
   // In the middle: -(0.5 a + 0.2 a^2) of the porosity. Paired runs share their packing: no scatter.
   EXPECT_NEAR(at(0.5, true).mean[kCurve] - at(0.5, false).mean[kCurve], -0.3, 2e-3);
   EXPECT_GT(learnt.effect(0)[kCurve].left_out().q2, 0.99);
+  // Its emulator is not sure of itself either, packings apart.
+  EXPECT_GT(at(0.5, true, 0.0).variance[kCurve], at(0.5, false, 0.0).variance[kCurve]);
 }
 
 std::vector<Observable> curve_of(int points) {

@@ -73,6 +73,10 @@ TEST(Fracture, TableFollowsTheRun) {
                    "0.000000,compression,0,2,0,0,0,0.000000,0,0\n"
                    "2.500000,compression,40,2,1,1,1,0.500000,3.2768,1.6384\n"
                    "6.000000,relaxation,20,2,2,2,2,1.000000,6.5536,6.5536\n");
+  // what breaks at the time of a row counts in it
+  EXPECT_NE(cracks_table({ring(1.0, 5.0)}, {{5.0, 50.0, "compression"}}, 1.0)
+                .find("\n5.000000,compression,50,1,1,1,1,1.000000,2,2\n"),
+            std::string::npos);
 }
 
 // chain: 2 of 3 broken, apart. ring: 1 of 4 broken, whole: a false positive up to 20 %. The chip: 1
