@@ -113,6 +113,21 @@ TEST(ExperimentData, InstrumentsAreAppliedToTheRunsOfTheBaseModel) {
   EXPECT_EQ(shown, 24);
 }
 
+TEST(ExperimentData, AnEffectOfFewPointsIsLeftOutAndTold) {
+  BankTable table = made_bank();
+  int points = 0;
+  const auto beyond_four = [&](const BankRow &row) {
+    return row.point.effect == "friction" && row.run.target == 30.0 && ++points > 4;
+  };
+  table.rows.erase(std::remove_if(table.rows.begin(), table.rows.end(), beyond_four),
+                   table.rows.end());
+  const ExperimentData data = data_of(made_experiment(kTruth), table, {});
+  EXPECT_TRUE(told(data, "4 points of friction, fewer than the 5"));
+  ASSERT_EQ(data.bank.effects.size(), 1u);
+  for (const inference::Run &run : data.bank.runs)
+    EXPECT_NE(run.effect, "friction");
+}
+
 TEST(ExperimentData, MicrometresCountLessInAThickerFilm) {
   const BankTable table = made_bank();
   Experiment thick = made_experiment(kTruth);

@@ -51,6 +51,13 @@ TEST(HeldOutGap, ShrinkageIsOneLessTheRatioAndNothingWhereThereIsNoGap) {
   EXPECT_TRUE(std::isnan(shrinkage_of(blocks(2), Matrix::Zero(2, 3), after).value));
 }
 
+TEST(HeldOutGap, NoiseFloorIsTheRootOfAChiSquaredLessItsMean) {
+  // one observable, packings all alike: chi^2(1) is below 3.84 with 95 %; 1000 resamples know that
+  // quantile within 0.25 (two standard errors: sqrt(0.95 * 0.05 / 1000) / density 0.0298).
+  const double floor = noise_floor(blocks(1), Matrix::Zero(1, 4));
+  EXPECT_NEAR(floor * floor, 3.84 - 1.0, 0.47);
+}
+
 /// Share of worlds whose 90 % interval holds the true shrinkage; scatter of packings 1.
 /// `common`: share of its variance that all observables of a packing have in common.
 double coverage(int packings, int worlds, double gap_before, double gap_after, double common) {

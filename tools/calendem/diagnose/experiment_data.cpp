@@ -154,6 +154,29 @@ void thin_out(const Experiment &e, const std::vector<PointRuns> &points, inferen
   }
 }
 
+/// Effects that the table has too few runs of to learn them are left out, and told.
+std::vector<PointRuns> enough(std::vector<PointRuns> points, BankSpec &spec,
+                              std::vector<std::string> &not_said) {
+  std::map<std::string, int> count;
+  for (const PointRuns &runs : points)
+    ++count[runs.front()->point.effect];
+  const auto few = [&](const std::string &effect) {
+    return !effect.empty() && !find_effect(effect).instrument &&
+           count[effect] < inference::kFewestRuns;
+  };
+  for (const std::string &effect : spec.effects)
+    if (few(effect))
+      not_said.push_back(fmt::format("The bank has {} points of {}, fewer than the {} that it can "
+                                     "be learnt from: it cannot be named.",
+                                     count[effect], effect, inference::kFewestRuns));
+  spec.effects.erase(std::remove_if(spec.effects.begin(), spec.effects.end(), few),
+                     spec.effects.end());
+  points.erase(std::remove_if(points.begin(), points.end(),
+                              [&](const PointRuns &r) { return few(r.front()->point.effect); }),
+               points.end());
+  return points;
+}
+
 void fill_bank(const Experiment &e, const BankTable &table, const std::vector<Covered> &all,
                const std::vector<PointRuns> &points, inference::Bank &bank) {
   for (const BankParameter &p : table.spec.parameters)
@@ -186,10 +209,12 @@ ExperimentData data_of(const Experiment &experiment, const BankTable &table,
   return data_of(experiment, table, conditions, table);
 }
 
-ExperimentData data_of(const Experiment &experiment, const BankTable &table,
+ExperimentData data_of(const Experiment &experiment, const BankTable &as_given,
                        const std::vector<std::string> &conditions, const BankTable &full_cell) {
   ExperimentData data;
-  const std::vector<PointRuns> points = points_of(table, data.not_said);
+  BankTable table = as_given;
+  const std::vector<PointRuns> points =
+      enough(points_of(table, data.not_said), table.spec, data.not_said);
   const std::vector<Covered> now = covered_by(experiment, table.spec, conditions, data.not_said);
   const std::vector<Further> further = further_measurements(experiment, table, now);
   std::vector<Covered> all = now;

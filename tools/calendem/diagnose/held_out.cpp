@@ -89,6 +89,16 @@ Estimate gap_of_packings(const HeldOut &held_out, const Matrix &simulated) {
                      resampled(held_out, int(simulated.cols()), again));
 }
 
+double noise_floor(const HeldOut &held_out, const Matrix &simulated) {
+  const Vector scatter = squared_error_of_mean(simulated);
+  HeldOut without = held_out;
+  without.measured = simulated.rowwise().mean();
+  const auto again = [&](const HeldOut &h, const Vector &weights) {
+    return gap_of(h, mean_of(simulated, weights), scatter);
+  };
+  return interval_of(0.0, resampled(without, int(simulated.cols()), again)).high90;
+}
+
 Estimate shrinkage_of(const HeldOut &held_out, const Matrix &before, const Matrix &after) {
   const Vector scatter_before = squared_error_of_mean(before),
                scatter_after = squared_error_of_mean(after);

@@ -33,6 +33,10 @@ Estimate gap_of_packings(const HeldOut &held_out, const inference::Matrix &simul
 Estimate shrinkage_of(const HeldOut &held_out, const inference::Matrix &before,
                       const inference::Matrix &after);
 
+/// The gap that a model without any would show at most, with 95 % probability, by the noise and the
+/// scatter of these packings.
+double noise_floor(const HeldOut &held_out, const inference::Matrix &simulated);
+
 /// Value and 90 % interval of numbers of equal weight.
 Estimate interval_of(double value, std::vector<double> draws);
 

@@ -223,6 +223,28 @@ nlohmann::ordered_json models_json(const BankSpec &spec, const HeldOut &h,
   return out;
 }
 
+/// The answer in a few numbers: gaps and the share of the gap that each model takes away.
+nlohmann::ordered_json in_short(const std::vector<RerunModel> &models, const HeldOut &h,
+                                const std::vector<Matrix> &simulated) {
+  nlohmann::ordered_json out = {{"before", gap_of_packings(h, simulated[0]).value}};
+  out["noise_floor"] = noise_floor(h, simulated[0]);
+  for (std::size_t m = 1; m < models.size(); ++m) {
+    const double gap = gap_of_packings(h, simulated[m]).value;
+    const Estimate share = shrinkage_of(h, simulated[0], simulated[m]);
+    if (models[m].role == "runner-up")
+      out["runner_up"] = {
+          {"hypothesis", models[m].hypothesis}, {"after", gap}, {"fraction", share.value}};
+    else if (models[m].role == "placebo")
+      out["placebo"] = share.value;
+    else {
+      out["after"] = out["unexplained"] = gap;
+      out["fraction"] = share.value;
+      out["interval90"] = {share.low90, share.high90};
+    }
+  }
+  return out;
+}
+
 nlohmann::ordered_json curves(const Experiment &e, const BankTable &runs,
                               const std::vector<RerunModel> &models, int packings) {
   nlohmann::ordered_json out = nlohmann::ordered_json::array();
@@ -268,16 +290,18 @@ nlohmann::ordered_json rerun(const Experiment &experiment, const BankTable &tabl
   std::vector<Matrix> simulated(models.size(), Matrix(held_out.measured.size(), options.packings));
   for (std::size_t k = 0; k < data.bank.runs.size(); ++k)
     simulated[k / std::size_t(options.packings)].col(Eigen::Index(k) % options.packings) =
-        data.bank.runs[k].values;
-  return {{"train", experiment.train},
-          {"held_out", experiment.test},
-          {"unit", "standard deviations of the measurement"},
-          {"packings", options.packings},
-          {"models", models_json(table.spec, held_out, models, simulated)},
-          {"observables", observables(held_out, data.experiment.of, models, simulated)},
-          {"curves", curves(experiment, runs, models, options.packings)},
-          {"said", "The effect was chosen on all conditions, its amplitude and the base parameters "
-                   "on the training conditions only."}};
+        data.bank.runs[k].values.head(held_out.measured.size());
+  nlohmann::ordered_json out = {{"train", experiment.train}, {"held_out", experiment.test}};
+  out.update(in_short(models, held_out, simulated));
+  out.update(
+      {{"unit", "standard deviations of the measurement"},
+       {"packings", options.packings},
+       {"models", models_json(table.spec, held_out, models, simulated)},
+       {"observables", observables(held_out, data.experiment.of, models, simulated)},
+       {"curves", curves(experiment, runs, models, options.packings)},
+       {"said", "The effect was chosen on all conditions, its amplitude and the base parameters "
+                "on the training conditions only."}});
+  return out;
 }
 
 } // namespace calendem

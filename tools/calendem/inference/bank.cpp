@@ -8,8 +8,6 @@
 namespace calendem::inference {
 namespace {
 
-constexpr int kFewestRuns = 5; // beyond the number of base parameters: a line through points
-
 const Effect *effect_named(const Bank &bank, const std::string &name) {
   for (const Effect &e : bank.effects)
     if (e.name == name)

@@ -30,6 +30,9 @@ struct Bank {
   std::vector<Run> runs;
 };
 
+/// Of the base model, and of an effect beside runs of it.
+constexpr int kFewestRuns = 5;
+
 /// Throws Failure(2) with every mistake of the bank: names, sizes, values that are no numbers, an
 /// effect run without a base run of the same parameters and packing, too few runs.
 void check(const Bank &bank);
