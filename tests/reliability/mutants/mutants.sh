@@ -28,7 +28,8 @@ while IFS='|' read -r name file expression tests <&3; do
   [ ! -d "$tree/tests/unit/$unit" ] || target=${unit}_test
   caught=no
   if ! cmake --build "$tree/build" --target "$target" >"$work/build.log" 2>&1; then caught="does not compile"
-  elif ! ctest --test-dir "$tree/build" -R "^${tests//./\\.}" --no-tests=error --stop-on-failure >"$work/$name.log" 2>&1; then
+  elif ! ctest --test-dir "$tree/build" -R "^${tests//./\\.}" --no-tests=error --stop-on-failure \
+      --output-on-failure >"$work/$name.log" 2>&1; then
     caught=yes
     ! grep -q '\*\*\*Timeout' "$work/$name.log" || caught="out of time: is the machine busy?"
   fi
