@@ -42,8 +42,10 @@ cat calendering-*.log
 [ -s "$work/out/final.restart" ] || fail "no final.restart"
 grep -q "done, $work/out/final.restart is written" calendering-*.log || fail "the end is not told"
 
-"$bin/liggghts" -in input_scripts/in.calendering -log none -var electrode "$electrode" \
-  -var out "$work/whole" "${settings[@]}" >"$work/whole.log"
+for part in compression relaxation; do # as the heads of the scripts say, from the folder of the repository
+  "$bin/liggghts" -in input_scripts/in.$part -log none -var electrode "$electrode" -var out "$work/whole" \
+    "${settings[@]}" >>"$work/whole.log" || fail "in.$part does not run by itself: $(tail -n 3 "$work/whole.log")"
+done
 rows() { sed -n '/^[0-9]/p' "$1/curve_raw.csv"; } # each job begins with the header
 cmp <(rows "$work/whole") <(rows "$work/out") || fail "the chain's curve is another"
 cmp "$work/whole/breaks.csv" "$work/out/breaks.csv" || fail "the chain's break log is another"
