@@ -33,7 +33,8 @@ wait_for() { # WHAT COMMAND...: until it holds, a minute at most
   fail "no $what: $(cat "$work"/out/slurm/*.log) $(squeue)"
 }
 queued() { [ -n "$(squeue -h --name="$job-runs" 2>/dev/null)" ]; }
-liggghts_of() { pgrep -f "^[^ ]*/liggghts .*-var out $work/out/runs/$1 "; }
+# not that of another copy of the repository mounted at the same place
+liggghts_of() { pgrep --ns $$ --nslist mnt -f "^[^ ]*/liggghts .*-var out $work/out/runs/$1 "; }
 its_liggghts_runs() { liggghts_of "$1" >/dev/null && [ -s "$work/out/runs/$1/running.restart" ]; }
 
 rm -rf "$work"
