@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# diagnose_test.sh BIN WORK: gap.json and gap.html of a small experiment; the same bytes twice; mistakes are told.
+# diagnose_test.sh BIN WORK: gap.json and gap.html of a small experiment; the same bytes twice; mistakes are told; base
+# model, named effect and runner-up run again for a held-out sample.
 set -euo pipefail
 bin=$1 work=$2
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -54,3 +55,21 @@ sed 's/value = [345]0, sd_relative/value = 90, sd_relative/' experiment.toml >be
 refuses "nothing that was measured can be compared" beyond.toml --bank bank.toml
 sed 's/^hours = 5/hours = -5/' bank.toml >price.toml
 refuses "hours is -5" experiment.toml --bank price.toml --table bank.csv
+
+# Friction is what the table's experiment was made with; samples at 30 and 40 MPa train, 50 MPa is held out.
+sed 's/^sample_diameter_mm.*/&\nsplit = { train = ["p30", "p40"], test = ["p50"] }/' experiment.toml >split.toml
+diagnose split.toml -o far --bank bank.toml --packings 2 --jobs 2 >far.log || { cat far.log; fail "exit status $?"; }
+for field in before after fraction interval90 noise_floor runner_up unexplained models observables curves; do
+  grep -q "^  \"$field\": " far/gap.json || fail "shrink has no '$field'"
+done
+for role in before after runner-up; do
+  grep -q "^  $role " far.log || fail "$role is not told"
+  grep -qF "\"role\": \"$role\"" far/gap.json || fail "gap.json lacks the model $role"
+done
+runs=$(find far/rerun/runs -name summary.json | wc -l)
+[ "$runs" -eq 6 ] || fail "$runs runs for three models on two packings"
+diagnose split.toml -o far --bank bank.toml --packings 2 >again.log
+grep -q "6 runs, 6 of them there" again.log || fail "a second diagnosis made its runs again"
+cp far/gap.json before.json
+diagnose split.toml -o far --bank bank.toml --packings 2 >/dev/null
+cmp before.json far/gap.json || fail "the same runs gave another gap.json"
