@@ -56,6 +56,11 @@ refuses "nothing that was measured can be compared" beyond.toml --bank bank.toml
 sed 's/^hours = 5/hours = -5/' bank.toml >price.toml
 refuses "hours is -5" experiment.toml --bank price.toml --table bank.csv
 
+# The bank that ships, and the paper's electrode, whose film is thicker.
+diagnose "$here/../../../input_scripts/cases/paper/experiment.toml" -o table_1 --no-rerun >table_1.log ||
+  fail "the shipped bank cannot diagnose Table 1"
+grep -q "shifted by 100 % of what 3 runs of 17.46 mg/cm2 differ by" table_1.log || fail "the film's thickness is not told"
+
 # Friction is what the table's experiment was made with; samples at 30 and 40 MPa train, 50 MPa is held out.
 sed 's/^sample_diameter_mm.*/&\nsplit = { train = ["p30", "p40"], test = ["p50"] }/' experiment.toml >split.toml
 diagnose split.toml -o far --bank bank.toml --packings 2 --jobs 2 >far.log || { cat far.log; fail "exit status $?"; }

@@ -92,7 +92,7 @@ std::vector<std::pair<std::string, Hypothesis>> chosen(const inference::Which &w
     return out;
   const Hypothesis &first = effects.front();
   const bool claimed = which.claim == first.name;
-  out.emplace_back(claimed ? "after" : "leading", first);
+  out.emplace_back("after", first);
   const auto apart = [&](const Hypothesis &h) {
     return h.on.size() == 1 &&
            std::find(first.on.begin(), first.on.end(), h.on[0]) == first.on.end();

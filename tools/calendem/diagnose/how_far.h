@@ -12,8 +12,8 @@ namespace calendem {
 
 /// One model that is run again.
 struct RerunModel {
-  std::string role;       ///< before, after (claimed) or leading (not claimed), runner-up, placebo
-  std::string hypothesis; ///< none, an effect, or "a + b"
+  std::string role; ///< before, after (the leading effect, claimed or not), runner-up, placebo
+  std::string hypothesis;   ///< none, an effect, or "a + b"
   std::vector<double> base; ///< base parameters at their mode on the training conditions
   std::map<std::string, double> effect; ///< value of the effect's key, by name
   Estimate predicted;                   ///< gap on the held-out conditions by the emulators
