@@ -61,6 +61,22 @@ TEST(ShrinkPart, IsDrawnOnlyWhereRerunsWereMade) {
   EXPECT_FALSE(shrink_part(made_shrink()).is_null());
 }
 
+TEST(ShrinkPart, TheBaseModelAloneIsJudgedByItself) {
+  json gap = made_shrink();
+  json &shrink = gap["shrink"];
+  shrink["models"] = json::array({shrink["models"][0]});
+  shrink.erase("shrinkage");
+  for (json &o : shrink["observables"])
+    o.erase("after");
+  const json part = shrink_part(gap);
+  EXPECT_EQ(part["observables"][0]["after"], "–");
+  EXPECT_EQ(part["observables"][0]["after_off"], "–");
+  const std::string words = text_of(part["words"]);
+  EXPECT_NE(words.find("Only the base model was run again"), std::string::npos);
+  EXPECT_NE(words.find("Not met within two standard deviations: p80: porosity"), std::string::npos);
+  EXPECT_EQ(words.find("nan"), std::string::npos);
+}
+
 TEST(ShrinkPart, BarsShareOneScaleWithTheirIntervals) {
   const json part = shrink_part(made_shrink());
   ASSERT_EQ(part["bars"].size(), 4u); // the scale ends at 10, of what was predicted

@@ -223,23 +223,26 @@ nlohmann::ordered_json models_json(const BankSpec &spec, const HeldOut &h,
   return out;
 }
 
-/// The answer in a few numbers: gaps and the share of the gap that each model takes away.
-nlohmann::ordered_json in_short(const std::vector<RerunModel> &models, const HeldOut &h,
-                                const std::vector<Matrix> &simulated) {
-  nlohmann::ordered_json out = {{"before", gap_of_packings(h, simulated[0]).value}};
-  out["noise_floor"] = noise_floor(h, simulated[0]);
-  for (std::size_t m = 1; m < models.size(); ++m) {
-    const double gap = gap_of_packings(h, simulated[m]).value;
-    const Estimate share = shrinkage_of(h, simulated[0], simulated[m]);
-    if (models[m].role == "runner-up")
-      out["runner_up"] = {
-          {"hypothesis", models[m].hypothesis}, {"after", gap}, {"fraction", share.value}};
-    else if (models[m].role == "placebo")
-      out["placebo"] = share.value;
-    else {
-      out["after"] = out["unexplained"] = gap;
-      out["fraction"] = share.value;
-      out["interval90"] = {share.low90, share.high90};
+/// The answer in a few numbers, from the models as told.
+nlohmann::ordered_json in_short(const nlohmann::ordered_json &models, double floor) {
+  const nlohmann::ordered_json &before = models[0];
+  nlohmann::ordered_json out = {{"before", before["gap"]["value"]}, {"noise_floor", floor}};
+  for (const auto &m : models) {
+    const std::string role = m["role"];
+    if (role == "runner-up")
+      out["runner_up"] = {{"hypothesis", m["hypothesis"]},
+                          {"after", m["gap"]["value"]},
+                          {"fraction", m["shrinkage"]["value"]}};
+    else if (role == "placebo")
+      out["placebo"] = m["shrinkage"]["value"];
+    else if (role == "after") {
+      const nlohmann::ordered_json &share = m["shrinkage"];
+      out["after"] = out["unexplained"] = m["gap"]["value"];
+      out["fraction"] = share["value"];
+      out["interval90"] = {share["low90"], share["high90"]};
+      out["shrinkage"] = share;
+      out["shrinkage"]["predicted"] = 1.0 - m["predicted_gap"]["value"].get<double>() /
+                                                before["predicted_gap"]["value"].get<double>();
     }
   }
   return out;
@@ -292,11 +295,12 @@ nlohmann::ordered_json rerun(const Experiment &experiment, const BankTable &tabl
     simulated[k / std::size_t(options.packings)].col(Eigen::Index(k) % options.packings) =
         data.bank.runs[k].values.head(held_out.measured.size());
   nlohmann::ordered_json out = {{"train", experiment.train}, {"held_out", experiment.test}};
-  out.update(in_short(models, held_out, simulated));
+  const auto told = models_json(table.spec, held_out, models, simulated);
+  out.update(in_short(told, noise_floor(held_out, simulated[0])));
   out.update(
       {{"unit", "standard deviations of the measurement"},
        {"packings", options.packings},
-       {"models", models_json(table.spec, held_out, models, simulated)},
+       {"models", told},
        {"observables", observables(held_out, data.experiment.of, models, simulated)},
        {"curves", curves(experiment, runs, models, options.packings)},
        {"said", "The effect was chosen on all conditions, its amplitude and the base parameters "

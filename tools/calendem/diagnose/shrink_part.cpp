@@ -66,14 +66,15 @@ json bar_of(const json &m, double most) {
 json observable_of(const json &o) {
   const double sd = o["sd"];
   const auto off = [&](const char *key) {
-    return fmt::format("{:+.1f}", (number(o, key) - number(o, "measured")) / sd);
+    const double by = (number(o, key) - number(o, "measured")) / sd;
+    return std::isfinite(by) ? fmt::format("{:+.1f}", by) : "–";
   };
   return {{"condition", o["condition"]},
           {"name", o["name"]},
           {"measured", shown(o["measured"], "{:.4g}")},
           {"sd", shown(o["sd"], "{:.2g}")},
           {"before", shown(o["before"], "{:.4g}")},
-          {"after", shown(o["after"], "{:.4g}")},
+          {"after", shown(o.value("after", json()), "{:.4g}")},
           {"before_off", off("before")},
           {"after_off", off("after")}};
 }
@@ -126,7 +127,7 @@ json charts_of(const json &curves) {
 json words_of(const json &shrink) {
   json words = json::array();
   const json *before = model_of(shrink, "before"), *after = model_of(shrink, "after");
-  if (before && after)
+  if (before && after && number((*before)["gap"], "value") > 0.0)
     words.push_back(
         fmt::format("Still unexplained: {:.0f} % of the gap that the recalibrated base "
                     "model leaves.",
@@ -141,9 +142,12 @@ json words_of(const json &shrink) {
     }
   std::string missed;
   for (const json &o : shrink.value("observables", json::array()))
-    if (std::fabs(number(o, "after") - number(o, "measured")) > kMissed * number(o, "sd"))
+    if (std::fabs(number(o, after ? "after" : "before") - number(o, "measured")) >
+        kMissed * number(o, "sd"))
       missed += fmt::format("{}{}: {}", missed.empty() ? "" : "; ",
                             o["condition"].get<std::string>(), o["name"].get<std::string>());
+  if (!after)
+    words.push_back("Only the base model was run again: no effect is claimed or leads.");
   words.push_back(missed.empty() ? "Every observable is met within two standard deviations."
                                  : "Not met within two standard deviations: " + missed + ".");
   return words;

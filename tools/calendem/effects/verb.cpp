@@ -20,7 +20,7 @@ void print_list() {
   fmt::print("{:<22} {:<12} {}\n", "effect", "layer", "what it is");
   for (const Effect &e : effects())
     fmt::print("{:<22} {:<12} {}\n", e.name, e.layer, e.what);
-  fmt::print("\nOff is the base model, bit for bit. calendem effects NAME tells range, prior, what "
+  fmt::print("\nOff is the base model. calendem effects NAME tells range, prior, what "
              "it moves and where it comes from.\n");
 }
 

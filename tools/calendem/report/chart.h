@@ -4,6 +4,7 @@
 #ifndef CALENDEM_REPORT_CHART_H
 #define CALENDEM_REPORT_CHART_H
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,12 @@ namespace calendem::report {
 enum class Mark { line, points, area }; ///< area: filled between `base` and `y`
 enum class Symbol { none, circle, square, triangle, diamond };
 enum class Hatch { solid, rising, falling, dots };
+
+/// Looks that series take in turn: Okabe-Ito, darkened where needed for thin lines on white.
+inline constexpr std::array kSeriesColours = {"#0064b0", "#c8500a", "#00845a",
+                                              "#a8508c", "#8a6d00", "#222222"};
+inline constexpr std::array kSeriesSymbols = {Symbol::circle, Symbol::square, Symbol::triangle,
+                                              Symbol::diamond};
 
 struct Series {
   std::string name; ///< legend entry; empty = none

@@ -1,65 +1,21 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/file_hash.h"
 
-#include <array>
-#include <cstdint>
 #include <fstream>
 #include <iterator>
 
+#include <fmt/format.h>
+#include <openssl/sha.h>
+
 namespace calendem::report {
-namespace {
-
-using State = std::array<std::uint32_t, 8>;
-
-const std::array<std::uint32_t, 64> kRound{
-    0x428a2f98, 0x71374491, 0xb5c0fbcf, 0xe9b5dba5, 0x3956c25b, 0x59f111f1, 0x923f82a4, 0xab1c5ed5,
-    0xd807aa98, 0x12835b01, 0x243185be, 0x550c7dc3, 0x72be5d74, 0x80deb1fe, 0x9bdc06a7, 0xc19bf174,
-    0xe49b69c1, 0xefbe4786, 0x0fc19dc6, 0x240ca1cc, 0x2de92c6f, 0x4a7484aa, 0x5cb0a9dc, 0x76f988da,
-    0x983e5152, 0xa831c66d, 0xb00327c8, 0xbf597fc7, 0xc6e00bf3, 0xd5a79147, 0x06ca6351, 0x14292967,
-    0x27b70a85, 0x2e1b2138, 0x4d2c6dfc, 0x53380d13, 0x650a7354, 0x766a0abb, 0x81c2c92e, 0x92722c85,
-    0xa2bfe8a1, 0xa81a664b, 0xc24b8b70, 0xc76c51a3, 0xd192e819, 0xd6990624, 0xf40e3585, 0x106aa070,
-    0x19a4c116, 0x1e376c08, 0x2748774c, 0x34b0bcb5, 0x391c0cb3, 0x4ed8aa4a, 0x5b9cca4f, 0x682e6ff3,
-    0x748f82ee, 0x78a5636f, 0x84c87814, 0x8cc70208, 0x90befffa, 0xa4506ceb, 0xbef9a3f7, 0xc67178f2};
-
-std::uint32_t turned(std::uint32_t x, int bits) { return (x >> bits) | (x << (32 - bits)); }
-
-void mix(State &state, const unsigned char *block) {
-  std::array<std::uint32_t, 64> w{};
-  for (int i = 0; i < 16; ++i)
-    for (int k = 0; k < 4; ++k)
-      w[i] = (w[i] << 8) | block[4 * i + k];
-  for (int i = 16; i < 64; ++i)
-    w[i] = w[i - 16] + w[i - 7] +
-           (turned(w[i - 15], 7) ^ turned(w[i - 15], 18) ^ (w[i - 15] >> 3)) +
-           (turned(w[i - 2], 17) ^ turned(w[i - 2], 19) ^ (w[i - 2] >> 10));
-  State s = state;
-  for (int i = 0; i < 64; ++i) {
-    const std::uint32_t one = s[7] + (turned(s[4], 6) ^ turned(s[4], 11) ^ turned(s[4], 25)) +
-                              ((s[4] & s[5]) ^ (~s[4] & s[6])) + kRound[i] + w[i];
-    const std::uint32_t two = (turned(s[0], 2) ^ turned(s[0], 13) ^ turned(s[0], 22)) +
-                              ((s[0] & s[1]) ^ (s[0] & s[2]) ^ (s[1] & s[2]));
-    s = {one + two, s[0], s[1], s[2], s[3] + one, s[4], s[5], s[6]};
-  }
-  for (int i = 0; i < 8; ++i)
-    state[i] += s[i];
-}
-
-} // namespace
 
 std::string sha256(const std::string &bytes) {
-  State state{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
-              0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
-  std::string padded = bytes + '\x80';
-  padded.append((120 - padded.size() % 64) % 64, '\0');
-  for (int k = 7; k >= 0; --k)
-    padded += static_cast<char>((static_cast<std::uint64_t>(bytes.size()) * 8) >> (8 * k));
-  for (std::size_t at = 0; at < padded.size(); at += 64)
-    mix(state, reinterpret_cast<const unsigned char *>(padded.data()) + at);
-  std::string text;
-  for (const std::uint32_t word : state)
-    for (int k = 7; k >= 0; --k)
-      text += "0123456789abcdef"[(word >> (4 * k)) & 15];
-  return text;
+  unsigned char digest[SHA256_DIGEST_LENGTH];
+  SHA256(reinterpret_cast<const unsigned char *>(bytes.data()), bytes.size(), digest);
+  std::string out;
+  for (const unsigned char byte : digest)
+    out += fmt::format("{:02x}", byte);
+  return out;
 }
 
 std::string sha256_of_file(const std::string &file) {

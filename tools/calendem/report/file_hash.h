@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// SHA-256 (FIPS 180-4) for provenance: hexadecimal, as sha256sum prints it.
+// SHA-256 (FIPS 180-4) by OpenSSL's libcrypto: 64 hex digits, as sha256sum prints them.
 #ifndef CALENDEM_REPORT_FILE_HASH_H
 #define CALENDEM_REPORT_FILE_HASH_H
 

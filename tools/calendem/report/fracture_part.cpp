@@ -11,9 +11,6 @@ namespace {
 using Columns = std::map<std::string, Column>;
 
 constexpr double kPercent = 100;
-// With several runs a colour means a run, as in the other charts.
-const char *const kRunColours[] = {"#0064b0", "#c8500a", "#00845a",
-                                   "#a8508c", "#8a6d00", "#222222"};
 
 Chart axes(const char *id, const std::string &title, const char *x_label, const char *y_label) {
   Chart chart;
@@ -50,7 +47,7 @@ std::vector<Series> against_pressure(const std::vector<Run> &runs,
     for (const Measure &m : measures) {
       Series line;
       line.name = (runs.size() == 1 ? "" : runs[r].name + ": ") + m.name;
-      line.colour = runs.size() == 1 ? m.colour : kRunColours[r % std::size(kRunColours)];
+      line.colour = runs.size() == 1 ? m.colour : kSeriesColours[r % kSeriesColours.size()];
       line.dash = m.dash;
       for (std::size_t i = 0; i < rows; ++i) {
         const double bodies = c.at("bodies_with_bonds")[i];

@@ -14,10 +14,6 @@ namespace {
 
 const char *const kBlue = "#0064b0", *const kRed = "#c8321e", *const kGreen = "#00845a";
 const char *const kBlack = "#222222";
-// Okabe-Ito, darkened where needed for thin lines on white
-const char *const kRunColours[] = {"#0064b0", "#c8500a", "#00845a",
-                                   "#a8508c", "#8a6d00", "#222222"};
-const Symbol kRunSymbols[] = {Symbol::circle, Symbol::square, Symbol::triangle, Symbol::diamond};
 constexpr double kPercent = 100;
 constexpr double kThreshold = 5;      // MPa: above it a run must be quasi-static ...
 constexpr double kImbalanceLimit = 5; // ... to this many percent
@@ -33,7 +29,7 @@ struct Look {
 Look look_of(const std::vector<Run> &runs, std::size_t i) {
   if (runs.size() == 1)
     return {nullptr, Symbol::none};
-  return {kRunColours[i % std::size(kRunColours)], kRunSymbols[i % std::size(kRunSymbols)]};
+  return {kSeriesColours[i % kSeriesColours.size()], kSeriesSymbols[i % kSeriesSymbols.size()]};
 }
 
 std::string prefix(const std::vector<Run> &runs, const Run &run) {

@@ -26,9 +26,6 @@ struct MomentLook {
 const MomentLook kMoments[] = {{"before", "before", "#0064b0", "", Symbol::circle},
                                {"max", "at maximum pressure", "#c8321e", "9 4", Symbol::square},
                                {"after", "after relaxation", "#00845a", "2 3", Symbol::triangle}};
-// With several runs a colour means a run, as in the other charts.
-const char *const kRunColours[] = {"#0064b0", "#c8500a", "#00845a",
-                                   "#a8508c", "#8a6d00", "#222222"};
 
 std::string contents(const fs::path &file) {
   std::ifstream in(file, std::ios::binary);
@@ -42,7 +39,7 @@ template <typename Value> std::vector<Series> series_of(const std::vector<Run> &
     for (const auto &look : kMoments) {
       Series series;
       series.name = (runs.size() == 1 ? "" : runs[r].name + ": ") + look.shown;
-      series.colour = runs.size() == 1 ? look.colour : kRunColours[r % std::size(kRunColours)];
+      series.colour = runs.size() == 1 ? look.colour : kSeriesColours[r % kSeriesColours.size()];
       series.dash = look.dash;
       series.symbol = look.symbol;
       for (const StructureRow &row : runs[r].profile)

@@ -15,17 +15,14 @@ namespace {
 
 const char *const kMaxPressure = "case.platen.max_pressure_MPa";
 const char *const kBlack = "#222222";
-// Okabe-Ito, darkened where needed for thin lines on white
-constexpr std::array kColours = {"#0064b0", "#c8500a", "#00845a", "#a8508c", "#8a6d00", "#5a5a5a"};
-constexpr std::array kSymbols = {Symbol::circle, Symbol::square, Symbol::triangle, Symbol::diamond};
 constexpr std::array kDashes = {"", "9 4", "3 3", "9 3 2 3"};
 
 /// The look of the k-th series of a chart.
 Series styled(std::size_t k, const std::string &name) {
   Series s;
   s.name = name;
-  s.colour = kColours[k % kColours.size()];
-  s.symbol = kSymbols[k % kSymbols.size()];
+  s.colour = report::kSeriesColours[k % report::kSeriesColours.size()];
+  s.symbol = report::kSeriesSymbols[k % report::kSeriesSymbols.size()];
   s.dash = kDashes[k % kDashes.size()];
   return s;
 }
@@ -130,7 +127,8 @@ Chart curve_chart(const StudyTable &table, const CurveOfRun &curve_of) {
   chart.y_label = "Pressure on the platen (MPa)";
   chart.right_label = "Broken bonds (% of initial)";
   const std::vector<StudyGroup> groups = table.groups();
-  for (std::size_t k = 0; k < groups.size() && chart.series.size() < 2 * kColours.size(); ++k) {
+  for (std::size_t k = 0;
+       k < groups.size() && chart.series.size() < 2 * report::kSeriesColours.size(); ++k) {
     const CsvTable curve = curve_of(table.texts(groups[k], "run").front());
     if (curve.rows() == 0)
       continue;

@@ -7,7 +7,6 @@
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <openssl/sha.h>
 
 namespace calendem {
 namespace {
@@ -20,12 +19,6 @@ std::string hex(const unsigned char *bytes, std::size_t n) {
 }
 
 } // namespace
-
-std::string sha256(const std::string &bytes) {
-  unsigned char digest[SHA256_DIGEST_LENGTH];
-  SHA256(reinterpret_cast<const unsigned char *>(bytes.data()), bytes.size(), digest);
-  return hex(digest, sizeof digest);
-}
 
 std::string bytes_of(const std::string &file) {
   std::ifstream in(file, std::ios::binary);
