@@ -7,7 +7,8 @@
 //   friction.
 // A pair whose overlap is counted from its creation (bonded, or broken and not yet separated) stays
 // Hertz: effects are for surfaces that meet, not for the inside of a body. Memory ends when the
-// spheres have separated. What effects take is booked in fix energy/bpm.
+// spheres have separated. What effects take is booked in fix energy/bpm. A plastic overlap beyond
+// 0.9 of the effective radius is an error.
 #ifdef NORMAL_MODEL
 NORMAL_MODEL(HERTZ_EFFECTS, hertz_effects, 30)
 #else
@@ -17,10 +18,12 @@ NORMAL_MODEL(HERTZ_EFFECTS, hertz_effects, 30)
 #include "bond_bpm_history.h"
 #include "contact_effects.h"
 #include "contact_models.h"
+#include "error.h"
 #include "fix_energy_bpm.h"
 #include "normal_model_base.h"
 #include "update.h"
 #include <cmath>
+#include <cstdio>
 
 namespace LIGGGHTS {
 namespace ContactModels {
@@ -57,8 +60,10 @@ public:
     double force = 4.0 / 3.0 * effects_.modulus(s.itype, s.jtype) * radius * s.deltan;
     if (effects_.act(s.itype, s.jtype) && meets(s)) {
       double &memory = s.contact_history[memory_];
-      if (s.computeflag && s.shearupdate)
+      if (s.computeflag && s.shearupdate) {
+        stop_if_sunk(s, contact);
         advance(s, contact, memory);
+      }
       radius = effects_.contact_radius(contact, memory);
       force = effects_.force(contact, &memory);
     }
@@ -77,6 +82,8 @@ public:
   void endPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
 
 private:
+  static constexpr double kDeepest = 0.9; // plastic overlap, of the effective radius
+
   LAMMPS_NS::ContactEffects effects_;
   FixEnergyBpm *energy_; // NULL when no ledger is kept
   bool tangential_damping_;
@@ -84,6 +91,20 @@ private:
 
   bool meets(const SurfacesIntersectData &s) const {
     return bond_ < 0 || !LAMMPS_NS::BondHistory(s.contact_history + bond_).has_reference();
+  }
+
+  // Far beyond the law's range, and before the host loses a sphere whose centre leaves the box.
+  void stop_if_sunk(const SurfacesIntersectData &s, const LAMMPS_NS::EffectContact &c) {
+    if (c.overlap <= kDeepest * c.effective_radius || !effects_.yields(s.itype, s.jtype))
+      return;
+    char text[320];
+    snprintf(text, sizeof text,
+             "model hertz_effects: a sphere of type %d has sunk %.3g um into %s of type %d, more "
+             "than %g of the effective radius, %.3g um: contactYieldPressure is too low for the "
+             "load on single spheres. Raise it, take a larger cell, or press less",
+             s.itype, c.overlap, s.is_wall ? "the wall" : "one", s.jtype, kDeepest,
+             c.effective_radius);
+    error->one(FLERR, text);
   }
 
   void advance(const SurfacesIntersectData &s, const LAMMPS_NS::EffectContact &contact,

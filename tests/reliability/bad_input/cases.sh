@@ -571,12 +571,28 @@ script_effects() {
   says "ERROR: model hertz_effects: contactRelaxationTime of atom types 1 and 2 is 0" "must be a finite number > 0"
   expect 1 script -var cbd_yield_MPa 5 -var cbd_floor_phi 0.6
   says "ERROR: Fix cbd/collapse" "'floor' must not lie above 'initial'"
+  expect 1 script -var collector_yield_GPa 0.1 -var ced_am_J_m3 0 -var speed_m_s 4 -var touch_speed_m_s 4
+  says "ERROR on proc 0: model hertz_effects: a sphere of type 1 has sunk" "into the wall of type 3" "larger cell"
 }
 script_collapse() {
   expect 1 script -var ced_cbd_J_m3 7e9
   says "ERROR: Fix bond/bpm" "cohesionEnergyDensity of atom types 1 and 2" "of their radius" "collapses"
   expect 1 script -var mu_am -1
   says "coefficientFriction of atom types 1 and 1 is -1" "must be >= 0"
+}
+script_disk_full_at_restart() { # to the last byte, between two restart files of plain LIGGGHTS
+  full_disk 4
+  printf '%s\n' "units si" "atom_style sphere" "atom_modify sort 0 0" "boundary p p p" "communicate single vel yes" \
+    "region box block 0 1 0 1 0 1 units box" "create_box 1 box" "lattice sc 0.05" "create_atoms 1 box" \
+    "set group all diameter 0.01 density 1000" "neighbor 0.1 bin" \
+    "write_restart/whole disk/running keep disk/previous" "shell cp disk/running first" \
+    "shell cat /dev/zero >disk/ballast" "write_restart/whole disk/running keep disk/previous" \
+    "shell rm disk/ballast" "write_restart/whole disk/running keep disk/previous" >"$work/in.restarts"
+  expect 0 env -C "$work" "$bin/liggghts" -in in.restarts -log none
+  says "the restart file could not be written whole (is the disk full?); the one before it is kept"
+  cmp "$work/first" "$work/disk/previous" || fail "the restart file before the full disk is not kept"
+  cmp "$work/first" "$work/disk/running" || fail "with room again the restart file is not whole"
+  [ ! -e "$work/disk/running.part" ] || fail "half a file is left"
 }
 script_short_cell() { # the two spheres of this cell would touch their own images
   mkdir -p "$work/electrode"
