@@ -71,8 +71,6 @@ public:
     BondHistory bond(s.contact_history + offset_);
     if (bond.state() == kBrokenTouching && s.computeflag && s.shearupdate)
       bond.set_state(kBrokenSeparated);
-    if (bond.state() != kNeverBonded && s.contact_flags)
-      *s.contact_flags |= CONTACT_SURFACE_MODEL;
   }
 
   void endSurfacesIntersect(SurfacesIntersectData &, TriMesh *, double *const) {}
