@@ -121,6 +121,29 @@ TEST(PooledScatter, IsTheCovarianceOfThePackings) {
   }
 }
 
+// Three runs of each of 30 packings, alike but for noise of the single runs, correlated by 0.8; 60
+// degrees of freedom are left of it, a few fewer with the response's.
+TEST(PooledScatter, RunsOfOnePackingMayScatterTogether) {
+  Training t = sample(90, 30, 0.0, 0.0, 5);
+  Random random(8, 8);
+  Matrix of_run(2, 90);
+  for (int i = 0; i < 90; ++i) {
+    const double common = random.normal();
+    of_run.col(i) << 0.3 * common, 0.3 * (0.8 * common + 0.6 * random.normal());
+  }
+  std::vector<GaussianProcess> all;
+  const Vector response = t.values;
+  for (int f = 0; f < 2; ++f) {
+    t.values = response + of_run.row(f).transpose();
+    all.emplace_back(t);
+  }
+  const Scatter s = pooled_scatter(all, t.packing);
+  EXPECT_NEAR(std::sqrt(s.covariance(0, 0)), 0.3, 3.0 * 0.3 / std::sqrt(2.0 * 55.0));
+  EXPECT_NEAR(correlation_of(s.covariance)(0, 1), 0.8 * (1.0 - s.shrinkage),
+              3.0 * 0.36 / std::sqrt(55.0));
+  EXPECT_LT(s.shrinkage, 0.1);
+}
+
 TEST(Emulators, AnEffectIsNothingAtAmplitudeZero) {
   const Bank bank = synthetic_bank(30, 0.05);
   Matrix values(16, Eigen::Index(bank.runs.size()));

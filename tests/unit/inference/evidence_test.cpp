@@ -79,6 +79,24 @@ TEST(Evidence, HeavyTailsTwoModesAndEdgesAgainstQuadrature) {
   }
 }
 
+// A bent ridge that no Gaussian follows: y = x^2 within 0.15.
+TEST(Evidence, BentRidgeAgainstQuadrature) {
+  const auto ridge = [](double x, double y) { return -0.5 * std::pow((y - x * x) / 0.15, 2); };
+  const double step = 0.01;
+  double sum = 0.0, first = 0.0;
+  for (double x = -5.0; x <= 5.0; x += step)
+    for (double y = -5.0; y <= 5.0; y += step) {
+      const double here =
+          step * step * std::exp(ridge(x, y) - 0.5 * (x * x + y * y)) / (2.0 * M_PI);
+      sum += here;
+      first += here * y;
+    }
+  const Evidence e = evidence(2, [&](const Vector &x) { return ridge(x[0], x[1]); }, {});
+  EXPECT_NEAR(e.log_evidence, std::log(sum), 0.05);
+  EXPECT_NEAR(e.mean[1], first / sum, 0.05);
+  EXPECT_GT(e.effective_samples, 0.1 * e.samples);
+}
+
 TEST(Evidence, WithoutParametersIsTheLikelihood) {
   EXPECT_EQ(evidence(0, [](const Vector &) { return -3.5; }, {}).log_evidence, -3.5);
 }

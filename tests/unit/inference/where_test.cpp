@@ -82,5 +82,18 @@ TEST(Chances, EquivalentZ) {
   EXPECT_NEAR(chance_beyond(6.61, 1, 5.0), 0.05, 1e-3); // F(1, 5) of any table
 }
 
+// Two features of sd 1 and 2 whose emulators err by 0.5 and 1, alike by 0.6.
+TEST(CovarianceAbout, EmulatorsErrTogether) {
+  Problem p;
+  p.measurement = Vector(Vector::Constant(2, 1.0)).asDiagonal();
+  p.scatter = Vector(Eigen::Vector2d(0.0, 3.0)).asDiagonal();
+  const Prediction errs{Vector::Zero(2), Eigen::Vector2d(0.25, 1.0)};
+  Matrix expected = Eigen::Matrix2d{{1.25, 0.0}, {0.0, 5.0}};
+  EXPECT_EQ(covariance_about(p, errs), expected);
+  p.correlation = Eigen::Matrix2d{{1.0, 0.6}, {0.6, 1.0}};
+  expected(0, 1) = expected(1, 0) = 0.5 * 0.6;
+  EXPECT_LT((covariance_about(p, errs) - expected).norm(), 1e-15);
+}
+
 } // namespace
 } // namespace calendem::inference

@@ -135,12 +135,17 @@ TEST(Decide, ClaimRuleAndPriors) {
     j.adequacy_p = p;
     return j;
   };
-  const auto decided = [&](double log_a, double p_a, double p_none, WhichSettings settings) {
+  const auto decided = [&](double log_a, double p_a, double p_none, WhichSettings settings,
+                           double samples = 200.0) {
     Which w;
     w.judged = {judged(Hypothesis::none, {}, "none", 0.0, p_none),
                 judged(Hypothesis::unknown, {}, "unknown", -20.0, 1.0),
                 judged(Hypothesis::effects, {0}, "a", log_a, p_a),
                 judged(Hypothesis::effects, {1}, "b", -20.0, p_a)};
+    for (Judged &j : w.judged) {
+      j.evidence.samples = 1024;
+      j.evidence.effective_samples = samples;
+    }
     decide(w, settings, 2);
     return w;
   };
@@ -153,6 +158,7 @@ TEST(Decide, ClaimRuleAndPriors) {
   EXPECT_EQ(decided(0.5, 0.5, 0.5, s).claim, "undecided");
   EXPECT_EQ(decided(6.0, 0.005, 0.5, s).claim, "undecided");
   EXPECT_EQ(decided(6.0, 0.005, 0.005, s).claim, "unknown");
+  EXPECT_EQ(decided(6.0, 0.5, 0.5, s, 12.0).claim, "undecided"); // an integral few samples carry
   s.poor = {"a"};
   EXPECT_EQ(decided(6.0, 0.5, 0.5, s).claim, "undecided");
   s.poor = {"b"};

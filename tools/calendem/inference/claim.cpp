@@ -94,6 +94,10 @@ void claim(Which &w, const WhichSettings &settings) {
   } else if (best.probability < settings.claim_probability) {
     w.why = fmt::format("The most probable, {}, has {:.3g}; a claim needs {:g}.", name,
                         best.probability, settings.claim_probability);
+  } else if (const Judged *j = unsettled(w.judged)) {
+    w.why = fmt::format("The evidence of {} rests on {:.0f} samples that count; at least {:g} are "
+                        "asked for.",
+                        j->hypothesis.name, j->evidence.effective_samples, kFewest);
   } else if (best.adequacy_p < settings.adequacy) {
     w.why = fmt::format("{} is the most probable, but does not fit (p = {:.2g}).", name,
                         best.adequacy_p);

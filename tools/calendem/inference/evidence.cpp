@@ -115,6 +115,14 @@ Vector heaviest(const std::vector<Weighted> &passes) {
   return best->points.col(at);
 }
 
+/// Where the weighted samples lie, wider the fewer of them count.
+Peak cloud(const Evidence &e) {
+  const double few = 1.0 / e.effective_samples;
+  Matrix covariance = (1.0 + 2.0 * few) * e.covariance;
+  covariance.diagonal().array() += few;
+  return {e.mean, covariance, 0.0};
+}
+
 /// Systematic resampling: every draw stands for the same share of the weight.
 Matrix resampled(const std::vector<Weighted> &passes, const Evidence &e, int count) {
   Matrix draws(e.mode.size(), count);
@@ -174,6 +182,7 @@ Evidence evidence(int dimension, const Density &log_likelihood, const EvidenceSe
        ++again) {
     const Peak higher = peak_near(density, heaviest(passes));
     proposal.add(higher);
+    proposal.add(cloud(e));
     if (higher.log_density > log_density_of_mode) {
       log_density_of_mode = higher.log_density;
       e.mode = higher.at;

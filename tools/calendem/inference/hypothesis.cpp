@@ -29,7 +29,7 @@ Prediction Likelihood::predict(const Vector &scores) const {
 }
 
 Matrix Likelihood::covariance(const Vector &scores, const Prediction &prediction) const {
-  Matrix total = problem_.measurement + problem_.scatter;
+  Matrix total = covariance_about(problem_, prediction);
   if (hypothesis_.kind == Hypothesis::noise) {
     const double factor = kNoiseFactor.value(scores[scores.size() - 1]);
     total += (factor * factor - 1.0) * problem_.measurement;
@@ -37,7 +37,6 @@ Matrix Likelihood::covariance(const Vector &scores, const Prediction &prediction
     const double sd = kUnknownSize.value(scores[scores.size() - 1]);
     total += sd * sd * unknown_;
   }
-  total.diagonal() += prediction.variance;
   return total;
 }
 

@@ -127,6 +127,8 @@ Problem Model::problem(const Vector &values) const {
   p.measurement = map_->covariance(measurement_);
   p.scatter = Matrix::Zero(all, all);
   p.scatter.topLeftCorner(n, n) = share * scatter_.covariance;
+  p.correlation = Matrix::Identity(all, all);
+  p.correlation.topLeftCorner(n, n) = correlation_of(scatter_.covariance);
   p.degrees_of_freedom = mixed_degrees(p.measurement, p.scatter, scatter_.degrees_of_freedom);
   p.base_parameters = base_parameters_;
   p.effects = effects_;
@@ -157,10 +159,15 @@ std::vector<Extension> Model::extensions(const Vector &values) const {
     const Vector sd = extra.candidate.covariance.diagonal().cwiseSqrt();
     p.discrepancy =
         grown(p.discrepancy, extra.map->covariance(unknown_covariance(extra.candidate.of, sd)));
-    p.scatter = grown(p.scatter, share * extra.scatter.bottomRightCorner(added, added));
-    p.scatter.topLeftCorner(n, n) = share * extra.scatter.topLeftCorner(n, n);
-    p.scatter.block(0, old, n, added) = share * extra.scatter.topRightCorner(n, added);
-    p.scatter.block(old, 0, added, n) = share * extra.scatter.bottomLeftCorner(added, n);
+    const auto joined = [&](const Matrix &first, const Matrix &of_both) {
+      Matrix both = grown(first, of_both.bottomRightCorner(added, added));
+      both.topLeftCorner(n, n) = of_both.topLeftCorner(n, n);
+      both.block(0, old, n, added) = of_both.topRightCorner(n, added);
+      both.block(old, 0, added, n) = of_both.bottomLeftCorner(added, n);
+      return both;
+    };
+    p.scatter = joined(p.scatter, share * extra.scatter);
+    p.correlation = joined(p.correlation, correlation_of(extra.scatter));
     for (int f = 0; f < added; ++f)
       p.features.push_back({int(p.blocks.size()), true});
     p.predict = [first = emulators_, second = extra.emulators, share, old,

@@ -8,13 +8,23 @@ constexpr double kStep = 0.05; // of sensitivities, in standard deviations of th
 
 } // namespace
 
+Matrix covariance_about(const Problem &problem, const Prediction &prediction) {
+  Matrix total = problem.measurement + problem.scatter;
+  if (problem.correlation.size() == 0) {
+    total.diagonal() += prediction.variance;
+  } else {
+    const Vector sd = prediction.variance.cwiseSqrt();
+    total += sd.asDiagonal() * problem.correlation * sd.asDiagonal();
+  }
+  return total;
+}
+
 Linearised linearise(const Problem &problem, const Vector &base) {
   Linearised l;
   l.at = base;
   const Prediction here = problem.predict(base, {});
   l.mean = here.mean;
-  l.covariance = problem.measurement + problem.scatter;
-  l.covariance.diagonal() += here.variance;
+  l.covariance = covariance_about(problem, here);
   l.sensitivity.resize(here.mean.size(), base.size());
   Vector moved = base;
   for (Eigen::Index j = 0; j < base.size(); ++j) {

@@ -27,12 +27,16 @@ struct Problem {
   std::vector<Block> blocks;
   Matrix measurement;              ///< covariance that is known
   Matrix scatter;                  ///< of the packings, estimated
+  Matrix correlation;              ///< of the emulators' errors between features; empty: none
   double degrees_of_freedom = 1e6; ///< of the t distribution of observed - predicted
   int base_parameters = 0;         ///< number of scores of the base model
   std::vector<Effect> effects;     ///< measurement faults too
   Matrix discrepancy;              ///< covariance of the unknown, of one standard deviation
   std::function<Prediction(const Vector &base, const std::vector<Applied> &)> predict;
 };
+
+/// Of observed - predicted: measurement, scatter and the emulators' errors.
+Matrix covariance_about(const Problem &problem, const Prediction &prediction);
 
 /// The base model about a point: mean + sensitivity (scores - at).
 struct Linearised {

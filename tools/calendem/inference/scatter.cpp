@@ -9,11 +9,10 @@ namespace {
 
 constexpr double kFewest = 3.0; // degrees of freedom: below, a t distribution has no variance
 
-/// Residuals averaged over the runs of each packing.
-Matrix by_packing(const std::vector<GaussianProcess> &features, const std::vector<int> &packing) {
-  std::map<int, std::vector<int>> groups;
-  for (int i = 0; i < int(packing.size()); ++i)
-    groups[packing[i]].push_back(i);
+using Groups = std::map<int, std::vector<int>>; // runs by packing
+
+/// Residuals of the features (columns) averaged over the runs of each packing.
+Matrix by_packing(const std::vector<GaussianProcess> &features, const Groups &groups) {
   Matrix mean(Eigen::Index(groups.size()), Eigen::Index(features.size()));
   Eigen::Index row = 0;
   for (const auto &[id, runs] : groups) {
@@ -22,6 +21,19 @@ Matrix by_packing(const std::vector<GaussianProcess> &features, const std::vecto
     ++row;
   }
   return mean;
+}
+
+/// What the residuals of single runs differ by from those means.
+Matrix beside_packing(const std::vector<GaussianProcess> &features, const Groups &groups,
+                      const Matrix &means) {
+  Matrix left(features.front().residuals().size(), Eigen::Index(features.size()));
+  Eigen::Index row = 0;
+  for (const auto &[id, runs] : groups) {
+    for (Eigen::Index f = 0; f < left.cols(); ++f)
+      left(runs, f) = features[f].residuals()(runs).array() - means(row, f);
+    ++row;
+  }
+  return left;
 }
 
 double degrees_of(const GaussianProcess &g, int runs, int packings) {
@@ -68,17 +80,45 @@ Scatter shrunk_covariance(const Matrix &samples) {
 Scatter pooled_scatter(const std::vector<GaussianProcess> &features,
                        const std::vector<int> &packing) {
   Scatter s;
-  const Matrix residuals = by_packing(features, packing);
-  Vector sd(residuals.cols());
+  const auto n = Eigen::Index(features.size());
+  s.covariance = Matrix::Zero(n, n);
+  s.degrees_of_freedom = kNormal;
+  if (n == 0)
+    return s;
+  Groups groups;
+  for (int i = 0; i < int(packing.size()); ++i)
+    groups[packing[i]].push_back(i);
+  const bool repeated = groups.size() < packing.size();
+  const Matrix means = by_packing(features, groups);
+  Vector between(n), within(n);
   std::vector<double> degrees;
-  for (Eigen::Index f = 0; f < sd.size(); ++f) {
-    sd[f] = std::sqrt(features[f].packing_variance() + features[f].run_variance());
-    degrees.push_back(degrees_of(features[f], int(packing.size()), int(residuals.rows())));
+  for (Eigen::Index f = 0; f < n; ++f) {
+    between[f] = std::sqrt(features[f].packing_variance());
+    within[f] = std::sqrt(features[f].run_variance());
+    degrees.push_back(degrees_of(features[f], int(packing.size()), int(means.rows())));
   }
   std::sort(degrees.begin(), degrees.end());
-  s.degrees_of_freedom = degrees.empty() ? kNormal : degrees[degrees.size() / 2];
-  s.covariance = sd.asDiagonal() * shrunk_correlation(residuals, s.shrinkage) * sd.asDiagonal();
+  s.degrees_of_freedom = degrees[degrees.size() / 2];
+  const auto add = [&](const Matrix &residuals, const Vector &sd) {
+    double weight = 0.0;
+    s.covariance += sd.asDiagonal() * shrunk_correlation(residuals, weight) * sd.asDiagonal();
+    s.shrinkage += weight * sd.squaredNorm();
+  };
+  if (repeated) {
+    add(means, between);
+    add(beside_packing(features, groups, means), within);
+  } else {
+    add(means, (between.cwiseAbs2() + within.cwiseAbs2()).cwiseSqrt());
+  }
+  s.shrinkage /= std::max(s.covariance.trace(), 1e-300);
   return s;
+}
+
+Matrix correlation_of(const Matrix &covariance) {
+  const Vector inverse = covariance.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  Matrix correlation = inverse.asDiagonal() * covariance * inverse.asDiagonal();
+  correlation.diagonal().setOnes();
+  return correlation;
 }
 
 double mixed_degrees(const Matrix &known, const Matrix &estimated, double degrees_of_freedom) {

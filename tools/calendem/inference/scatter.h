@@ -21,11 +21,16 @@ Matrix shrunk_correlation(const Matrix &residuals, double &weight);
 /// Covariance of samples (rows) about their mean: variances as they are, correlations shrunk.
 Scatter shrunk_covariance(const Matrix &samples);
 
-/// The same pooled over a bank: variances between packings and between runs from the emulators'
-/// marginal likelihood, correlations of their residuals averaged by packing. Degrees of freedom by
+/// The same pooled over a bank: a part between packings and one between runs of a packing, each
+/// with its variances from the emulators' marginal likelihood and the correlations of their
+/// residuals' means by packing, or of what is left beside these. Degrees of freedom by
 /// Satterthwaite from packings and runs, less what the expectation used up; median of features.
+/// The shrinkage is the parts' by their traces.
 Scatter pooled_scatter(const std::vector<GaussianProcess> &features,
                        const std::vector<int> &packing);
+
+/// Covariance over the product of standard deviations; of what never changes, none.
+Matrix correlation_of(const Matrix &covariance);
 
 /// Degrees of freedom of `known + estimated`, whose second part has `degrees_of_freedom`: divided
 /// by the square of its mean share, trace((known + estimated)^-1 estimated) / n. At most kNormal.
