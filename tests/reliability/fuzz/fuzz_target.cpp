@@ -2,6 +2,7 @@
 // One reader under libFuzzer: every input either works or throws Failure with exit status 2 and a
 // message. Environment, set by fuzz.sh: FUZZ_TARGET, which one; FUZZ_FOLDER, an empty folder.
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -19,6 +20,7 @@
 #include "structure/given_structure.h"
 #include "study/study_file.h"
 #include "tomogram/tomogram.h"
+#include "withheld/round_file.h"
 
 namespace {
 
@@ -136,6 +138,22 @@ void film(const std::string &) {
   demand(f.wet_diameter() > f.recipe.cbd_diameter);
 }
 
+// A round for a bank that is sound.
+void round_file(const std::string &text) {
+  put(folder() + "/recipe.toml", "seed = 1\n");
+  put(folder() + "/case.toml", "electrode = \"x\"\n");
+  put(file(), "[bank]\nrecipe = \"recipe.toml\"\ncase = \"case.toml\"\npressures_MPa = [80]\n"
+              "packings = 2\nbase_points = 4\neffect_points = 2\n"
+              "[[parameter]]\nname = \"E\"\nkeys = [\"case.material.am.youngs_modulus_GPa\"]\n"
+              "low = 120\nhigh = 300\n");
+  calendem::read_bank_spec(file());
+  std::rename(file().c_str(), (folder() + "/bank.toml").c_str());
+  put(file(), text);
+  const calendem::Round r = calendem::read_round(file());
+  demand(r.null_draws >= r.null_packings && r.amplitudes >= 0);
+  demand(r.noise.least_understated <= r.noise.most_understated);
+}
+
 void tomogram(const std::string &) {
   const calendem::TomogramSpec t = calendem::read_tomogram_spec(file());
   demand(t.voxel > 0.0 && t.size.minCoeff() > 0.0 && t.size.allFinite());
@@ -149,7 +167,7 @@ Reader wanted() {
       {"recipe", recipe}, {"case_", case_},           {"experiment", experiment},
       {"csv", csv},       {"structure", structure},   {"study", study},
       {"bank", bank},     {"bank_table", bank_table}, {"inference_table", inference_table},
-      {"film", film},     {"tomogram", tomogram}};
+      {"film", film},     {"tomogram", tomogram},     {"round_file", round_file}};
   return readers.at(from_environment("FUZZ_TARGET"));
 }
 

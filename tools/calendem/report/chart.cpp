@@ -8,6 +8,7 @@
 
 #include "report/chart_axis.h"
 #include "report/embedded.h"
+#include "report/page_template.h"
 
 namespace calendem::report {
 namespace {
@@ -20,28 +21,6 @@ std::string px(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f", value);
   return text;
-}
-
-std::string escaped(const std::string &text) {
-  std::string out;
-  for (const char c : text)
-    switch (c) {
-    case '&':
-      out += "&amp;";
-      break;
-    case '<':
-      out += "&lt;";
-      break;
-    case '>':
-      out += "&gt;";
-      break;
-    case '"':
-      out += "&quot;";
-      break;
-    default:
-      out += c;
-    }
-  return out;
 }
 
 /// Draws one chart: fixes the axes, then appends each part to `svg_`.

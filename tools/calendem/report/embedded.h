@@ -3,9 +3,12 @@
 #ifndef CALENDEM_REPORT_EMBEDDED_H
 #define CALENDEM_REPORT_EMBEDDED_H
 
+namespace calendem {
+extern const char *const kPageHtml; ///< page.html
+}
+
 namespace calendem::report::embedded {
 
-extern const char *const kPageHtml; ///< page.html
 extern const char *const kPageCss;  ///< page.css
 extern const char *const kExplorer; ///< explorer.js
 extern const char *const kThree;    ///< three.js of the distribution (libjs-three, MIT licence)

@@ -84,7 +84,7 @@ std::string to_html(const Report &report) {
     chart.erase("series");
     chart["svg"] = to_svg(report.charts[i]);
   }
-  return fill_template(embedded::kPageHtml, values);
+  return fill_template(kPageHtml, values);
 }
 
 } // namespace calendem::report

@@ -25,28 +25,6 @@ std::string words(const json *value) {
   return value->is_string() ? value->get<std::string>() : value->dump();
 }
 
-std::string escaped(const std::string &text) {
-  std::string out;
-  for (const char c : text)
-    switch (c) {
-    case '&':
-      out += "&amp;";
-      break;
-    case '<':
-      out += "&lt;";
-      break;
-    case '>':
-      out += "&gt;";
-      break;
-    case '"':
-      out += "&quot;";
-      break;
-    default:
-      out += c;
-    }
-  return out;
-}
-
 bool holds(const json *value) {
   if (value == nullptr || value->is_null() || (value->is_boolean() && !value->get<bool>()))
     return false;
@@ -117,6 +95,28 @@ void fill(const std::string &text, Scopes &scopes, std::string &out) {
 }
 
 } // namespace
+
+std::string escaped(const std::string &text) {
+  std::string out;
+  for (const char c : text)
+    switch (c) {
+    case '&':
+      out += "&amp;";
+      break;
+    case '<':
+      out += "&lt;";
+      break;
+    case '>':
+      out += "&gt;";
+      break;
+    case '"':
+      out += "&quot;";
+      break;
+    default:
+      out += c;
+    }
+  return out;
+}
 
 std::string fill_template(const std::string &text, const json &values) {
   Scopes scopes{&values};

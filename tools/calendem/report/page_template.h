@@ -18,6 +18,9 @@ namespace calendem::report {
 /// user).
 std::string fill_template(const std::string &text, const nlohmann::json &values);
 
+/// Text as HTML and SVG may hold it, in elements and attributes.
+std::string escaped(const std::string &text);
+
 /// JSON text that may stand in a <script>: no string of it can open or close an element.
 std::string in_script(std::string json);
 
