@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The bank that is shipped, its packings left out in turn.
+#include "diagnose/diagnose.h"
+#include "inference/hypothesis.h"
+#include "support/test_folder.h"
+#include <algorithm>
+#include <fstream>
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace calendem;
+
+constexpr double kPressureError = 0.01, kDisplacementError = 0.02, kThicknessError = 0.05;
+
+/// What a press would show of a base point's runs, without error.
+Experiment shown(const BankTable &bank, int base_point, const std::string &recipe) {
+  Experiment e;
+  const auto at = calendem_test::test_folder();
+  e.recipe = read_recipe(recipe);
+  for (const BankRow &row : bank.rows) {
+    if (row.point.base_point != base_point || !row.point.effect.empty())
+      continue;
+    const SimulatedRun &r = row.run;
+    Condition c;
+    c.id = "p" + std::to_string(int(r.target));
+    c.control = "pressure";
+    c.max_pressure_MPa = Measured{r.target, kPressureError * r.target};
+    c.porosity_after_percent = Measured{100.0 * r.porosity_after, 0.3};
+    c.thickness_at_max_um = Measured{r.thickness_at_max, kThicknessError};
+    c.thickness_after_um = Measured{r.thickness_after, kThicknessError};
+    c.cracked_bodies_fraction = Measured{r.cracked_fraction, 0.03};
+    c.curve = (at / (c.id + ".csv")).string();
+    c.curve_sd_um = kDisplacementError;
+    std::ofstream curve(c.curve);
+    curve << "displacement_um,pressure_MPa,stage\n";
+    for (std::size_t k = 0; k < r.pressure.size(); ++k)
+      if (r.pressure[k] <= r.target)
+        curve << r.displacement[k] << "," << r.pressure[k] << ",compression\n";
+    e.conditions.push_back(c);
+  }
+  return e;
+}
+
+// The square of what 32 base points, their packings unseen, lie off the emulator in its own
+// covariance, at the parameters they were run with. Expected per feature: nu / (nu - 2) of a t
+// distribution, 1.1 here. Its standard deviation, of 14 features and 32 points whose packings are
+// 8: sqrt(2 / 14 / 32) = 0.07 if all were independent, sqrt(2 / 14 / 8) = 0.13 if packings were
+// alike.
+TEST(ShippedBank, PackingsLeftOutLieAsFarOffAsExpected) {
+  const std::string folder = std::string(CALENDEM_SOURCE_DIR) + "/input_scripts/cases/bank/";
+  const BankSpec spec = read_bank_spec(folder + "bank.toml");
+  BankTable bank = read_bank_table(spec, folder + "bank.csv");
+  bank = without_effects(bank, bank.spec.effects);
+  double squares = 0.0, features = 0.0, expected = 0.0;
+  for (int packing = 1; packing <= spec.packings; ++packing) {
+    BankTable others = bank;
+    others.rows.erase(std::remove_if(others.rows.begin(), others.rows.end(),
+                                     [&](const auto &r) { return r.point.packing == packing; }),
+                      others.rows.end());
+    SharedModels models;
+    for (const BankRow &row : bank.rows) {
+      if (row.point.packing != packing || !row.point.effect.empty() ||
+          row.run.target != spec.pressures[0])
+        continue;
+      const ExperimentData data =
+          data_of(shown(bank, row.point.base_point, spec.recipe_file), others, {});
+      inference::ModelSettings one_cell;
+      one_cell.packings_in_sample = 1.0;
+      const inference::Problem p = models.of(data, one_cell)->problem(data.experiment.values);
+      inference::Vector scores(Eigen::Index(row.point.base.size()));
+      for (Eigen::Index j = 0; j < scores.size(); ++j)
+        scores[j] = data.bank.base[std::size_t(j)].prior.score(row.point.base[std::size_t(j)]);
+      const inference::Matrix no_unknown;
+      squares += inference::Likelihood(p, {}, no_unknown).square(scores);
+      features += double(p.observed.size());
+      expected += double(p.observed.size()) * p.degrees_of_freedom / (p.degrees_of_freedom - 2.0);
+    }
+  }
+  ASSERT_GT(features, 32.0 * 10.0);
+  RecordProperty("mean_square", std::to_string(squares / features));
+  EXPECT_NEAR(squares / features, expected / features, 3.0 * 0.13);
+}
+
+} // namespace
