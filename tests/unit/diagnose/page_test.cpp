@@ -147,8 +147,10 @@ TEST(ConfoundingPart, AnEffectThatNoAmplitudeShowsIsInvisible) {
         {"detection_limit", nlohmann::json::array({{{"effect", "a"},
                                                     {"rival", "none"},
                                                     {"keys", nlohmann::json::array({"k"})},
-                                                    {"value", nullptr}}})}}}};
+                                                    {"value", nullptr}}})}}},
+      {"emulators", nlohmann::json::array({{{"effect", "a"}, {"poor", true}}})}};
   const nlohmann::json part = confounding_part(gap);
+  EXPECT_EQ(part["limits"][0]["claim"], "no: poor emulators");
   EXPECT_EQ(part["limits"][0]["value"], "invisible here");
   EXPECT_EQ(part["limits"][0]["absorbed"], "25");
   EXPECT_EQ(part["alike"][0], "a, b");

@@ -82,4 +82,45 @@ TEST(ShippedBank, PackingsLeftOutLieAsFarOffAsExpected) {
   EXPECT_NEAR(squares / features, expected / features, 3.0 * 0.13);
 }
 
+// Noise-free copies of each effect at twice its detection limit on a laboratory's sample, of many
+// cells: named, or held back for nothing but poor emulators. The base model's own copy is none.
+TEST(ShippedBank, EffectsAtTwiceTheirDetectionLimitAreNamed) {
+  const std::string folder = std::string(CALENDEM_SOURCE_DIR) + "/input_scripts/cases/bank/";
+  const BankSpec spec = read_bank_spec(folder + "bank.toml");
+  const BankTable bank = read_bank_table(spec, folder + "bank.csv");
+  const ExperimentData data = data_of(shown(bank, 0, spec.recipe_file), bank, {});
+  inference::Settings settings;
+  settings.model.packings_in_sample = 1e5;
+  const inference::Model model(data.bank, data.experiment, settings.model, {});
+  const inference::Problem problem = model.problem(data.experiment.values);
+  const inference::Vector middle = inference::Vector::Zero(Eigen::Index(data.bank.base.size()));
+  const auto diagnosis_of = [&](const std::vector<inference::Applied> &on) {
+    const inference::Vector features = problem.predict(middle, on).mean;
+    return inference::diagnose(model, data.bank,
+                               model.map().observables_of(features.head(model.map().emulated())),
+                               settings);
+  };
+  const inference::Diagnosis base = diagnosis_of({});
+  EXPECT_EQ(base.which.claim, "none");
+  const std::vector<std::string> poor = model.poor_effects();
+  int visible = 0, held_back = 0;
+  for (std::size_t k = 0; k < data.bank.effects.size(); ++k) {
+    const inference::DetectionLimit &limit = base.confounding.limits[k];
+    const inference::Prior &prior = data.bank.effects[k].parameters[0].prior;
+    ASSERT_EQ(limit.effect, data.bank.effects[k].name);
+    if (!(2.0 * limit.amplitude <= prior.upper()))
+      continue;
+    ++visible;
+    const inference::Vector score =
+        inference::Vector::Constant(1, prior.score(2.0 * limit.amplitude));
+    const inference::Which which = diagnosis_of({{int(k), score}}).which;
+    EXPECT_EQ(which.judged[0].hypothesis.name, limit.effect);
+    const bool is_poor = std::find(poor.begin(), poor.end(), limit.effect) != poor.end();
+    held_back += is_poor;
+    EXPECT_EQ(which.claim, is_poor ? "undecided" : limit.effect) << which.why;
+  }
+  EXPECT_EQ(visible, 9);
+  RecordProperty("held_back", held_back);
+}
+
 } // namespace

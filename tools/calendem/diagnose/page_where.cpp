@@ -3,6 +3,7 @@
 #include "diagnose/page.h"
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
 
 namespace calendem {
 namespace {
@@ -73,7 +74,17 @@ json drift_part(const json &gap) {
   return {{"stages", names}, {"rows", rows}, {"several", gap["stages"].size() > 1}};
 }
 
+/// Effects whose emulators are too poor for a claim.
+std::set<std::string> poor_in(const json &gap) {
+  std::set<std::string> names;
+  for (const json &e : gap["emulators"])
+    if (e.value("poor", false))
+      names.insert(e["effect"]);
+  return names;
+}
+
 json confounding_part(const json &gap) {
+  const std::set<std::string> poor = poor_in(gap);
   const json &c = gap["confounding"];
   json rows = json::array(), limits = json::array(), alike = json::array();
   for (std::size_t k = 0; k < c["effects"].size(); ++k)
@@ -85,6 +96,7 @@ json confounding_part(const json &gap) {
          {"key", fmt::format("{}", fmt::join(l["keys"].get<std::vector<std::string>>(), ", "))},
          {"value", l["value"].is_number() ? shown(l["value"], "{:.3g}") : "invisible here"},
          {"rival", l["rival"]},
+         {"claim", poor.count(l["effect"]) > 0 ? "no: poor emulators" : "yes"},
          {"absorbed", fmt::format("{:.0f}", 100.0 * c["absorbed"][k].get<double>())}});
   }
   for (const json &set : gap["which"]["indistinguishable"])

@@ -8,18 +8,46 @@
 namespace calendem::inference {
 namespace {
 
-constexpr int kShapes = 3; // values of each parameter that is not the first amplitude
+constexpr int kShapes = 3;        // values of each parameter that is not the first amplitude
+constexpr double kFarthest = 8.0; // score of a prior's lower end
 
-/// What effects add to the features, whitened by the recalibrated covariance.
+/// What effects add to the features, whitened by the recalibrated covariance. What is expected to
+/// be seen of a rival has that covariance, I here, and the errors of its emulators.
+struct Signature {
+  Vector mean;
+  Matrix precision;                          ///< inverse of that sum; empty: I
+  double log_determinant = 0.0, trace = 0.0; ///< of the sum; of its inverse
+};
+
 class Signatures {
 public:
   Signatures(const Problem &problem, const Which &which)
-      : problem_(problem), base_(which.base), factor_(recalibrated_covariance(which.base)) {}
+      : problem_(problem), base_(which.base), factor_(recalibrated_covariance(which.base)),
+        base_variance_(problem.predict(base_.at, {}).variance) {}
   Vector raw(const std::vector<Applied> &on) const {
     return problem_.predict(base_.at, on).mean - base_.mean;
   }
   Vector white(const std::vector<Applied> &on) const { return factor_.matrixL().solve(raw(on)); }
-  Vector of(int effect, const Vector &scores) const { return white({{effect, scores}}); }
+  Signature of(int effect, const Vector &scores) const {
+    const Prediction p = problem_.predict(base_.at, {{effect, scores}});
+    Signature s{factor_.matrixL().solve(p.mean - base_.mean), {}, 0.0, double(p.mean.size())};
+    const Vector sd = (p.variance - base_variance_).cwiseMax(0.0).cwiseSqrt();
+    if (sd.maxCoeff() == 0.0)
+      return s;
+    const auto identity = Matrix::Identity(sd.size(), sd.size());
+    const Matrix half = factor_.matrixL().solve(Matrix(sd.asDiagonal()));
+    const Cholesky sum(
+        Matrix(identity + (problem_.correlation.size() == 0
+                               ? Matrix(half * half.transpose())
+                               : Matrix(half * problem_.correlation * half.transpose()))));
+    s.precision = sum.solve(identity);
+    s.log_determinant = 2.0 * Matrix(sum.matrixL()).diagonal().array().log().sum();
+    s.trace = s.precision.trace();
+    return s;
+  }
+  Signature off() const {
+    return {Vector::Zero(base_.mean.size()), {}, 0.0, double(base_.mean.size())};
+  }
   /// Share of the squared length that recalibration takes up.
   double absorbed(int effect, const Vector &scores) const {
     const Vector s = raw({{effect, scores}});
@@ -31,7 +59,16 @@ private:
   const Problem &problem_;
   const Linearised &base_;
   Cholesky factor_;
+  Vector base_variance_;
 };
+
+/// Expected log-odds of a true signature, seen with the recalibrated covariance, against a rival's.
+double odds_between(const Signature &truth, const Signature &rival) {
+  const Vector apart = rival.mean - truth.mean;
+  const double square =
+      rival.precision.size() == 0 ? apart.squaredNorm() : apart.dot(rival.precision * apart);
+  return 0.5 * (square + rival.log_determinant - truth.log_determinant + rival.trace - truth.trace);
+}
 
 int first_amplitude(const Effect &effect) {
   for (int j = 0; j < int(effect.parameters.size()); ++j)
@@ -53,32 +90,36 @@ Vector at_share(const Effect &effect, double share, int shape) {
   return scores;
 }
 
-/// Signatures of an effect over its amplitudes and shapes; the first column is "off".
-Matrix grid_of(const Signatures &signatures, const Problem &problem, int effect, int steps) {
+/// Signatures of an effect over its amplitudes and shapes; the first is "off".
+std::vector<Signature> grid_of(const Signatures &signatures, const Problem &problem, int effect,
+                               int steps) {
   const Effect &e = problem.effects[effect];
   const int shapes = e.parameters.size() > 1 ? kShapes : 1;
-  Matrix grid = Matrix::Zero(problem.observed.size(), 1 + steps * shapes);
+  std::vector<Signature> grid{signatures.off()};
   for (int s = 0; s < shapes; ++s)
     for (int k = 0; k < steps; ++k)
-      grid.col(1 + s * steps + k) =
-          signatures.of(effect, at_share(e, (k + 1.0) / steps, shapes == 1 ? 1 : s));
+      grid.push_back(signatures.of(effect, at_share(e, (k + 1.0) / steps, shapes == 1 ? 1 : s)));
   return grid;
 }
 
-double log_odds(const Vector &truth, const Matrix &rival) {
-  return 0.5 * (rival.colwise() - truth).colwise().squaredNorm().minCoeff();
+double log_odds(const Signature &truth, const std::vector<Signature> &rival) {
+  double least = INFINITY;
+  for (const Signature &r : rival)
+    least = std::min(least, odds_between(truth, r));
+  return least;
 }
 
-/// First amplitude at which the effect is told from none and from every other effect.
-DetectionLimit limit_of(const Problem &problem, int effect, const std::vector<Matrix> &grids,
+/// First amplitude of the prior at which the effect is told from none and from every other effect.
+DetectionLimit limit_of(const Problem &problem, int effect,
+                        const std::vector<std::vector<Signature>> &grids,
                         const Signatures &signatures, const ConfoundingSettings &settings) {
   const Effect &e = problem.effects[effect];
   DetectionLimit limit{e.name, "none", std::nan("")};
   double before = 0.0; // log-odds at the step below
   for (int k = 1; k <= settings.amplitudes; ++k) {
     const double share = double(k) / settings.amplitudes;
-    const Vector truth = signatures.of(effect, at_share(e, share, 1));
-    double least = 0.5 * truth.squaredNorm();
+    const Signature truth = signatures.of(effect, at_share(e, share, 1));
+    double least = odds_between(truth, grids[effect].front());
     std::string rival = "none";
     for (int other = 0; other < int(grids.size()); ++other) {
       const double odds = other == effect ? INFINITY : log_odds(truth, grids[other]);
@@ -89,10 +130,11 @@ DetectionLimit limit_of(const Problem &problem, int effect, const std::vector<Ma
     }
     limit.rival = rival;
     if (least >= settings.telling) { // the odds grow with the square of the amplitude
-      const double within = (std::sqrt(settings.telling) - std::sqrt(before)) /
-                            std::max(std::sqrt(least) - std::sqrt(before), 1e-300);
+      const double from = std::sqrt(std::max(before, 0.0));
+      const double within = (std::sqrt(settings.telling) - from) / (std::sqrt(least) - from);
       const Prior &p = e.parameters[first_amplitude(e)].prior;
-      limit.amplitude = (k - 1 + within) / settings.amplitudes * p.upper();
+      limit.amplitude =
+          std::max((k - 1 + within) / settings.amplitudes * p.upper(), p.value(-kFarthest));
       return limit;
     }
     before = least;
@@ -152,11 +194,13 @@ Confounding confounding(const Problem &problem, const Which &which,
   c.absorbed = Vector::Zero(n);
   c.log_odds = Matrix::Zero(n, n + 1);
   Matrix half(problem.observed.size(), n);
-  std::vector<Matrix> grids;
+  std::vector<std::vector<Signature>> grids;
+  std::vector<Signature> half_way;
   for (int e = 0; e < n; ++e) {
     const Vector scores = at_share(problem.effects[e], 0.5, 1);
     c.effects.push_back(problem.effects[e].name);
-    half.col(e) = signatures.of(e, scores);
+    half_way.push_back(signatures.of(e, scores));
+    half.col(e) = half_way.back().mean;
     c.absorbed[e] = signatures.absorbed(e, scores);
     grids.push_back(grid_of(signatures, problem, e, settings.amplitudes));
   }
@@ -165,8 +209,8 @@ Confounding confounding(const Problem &problem, const Which &which,
              length.cwiseInverse().asDiagonal();
   for (int e = 0; e < n; ++e) {
     for (int other = 0; other < n; ++other)
-      c.log_odds(e, other) = other == e ? 0.0 : log_odds(half.col(e), grids[other]);
-    c.log_odds(e, n) = 0.5 * half.col(e).squaredNorm();
+      c.log_odds(e, other) = other == e ? 0.0 : log_odds(half_way[e], grids[other]);
+    c.log_odds(e, n) = odds_between(half_way[e], grids[e].front());
     c.limits.push_back(limit_of(problem, e, grids, signatures, settings));
   }
   c.indistinguishable = alike(problem, which, signatures, settings.telling);

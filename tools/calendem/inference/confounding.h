@@ -14,7 +14,8 @@ struct ConfoundingSettings {
 
 struct DetectionLimit {
   std::string effect, rival; ///< rival: the hardest to tell from at that amplitude
-  double amplitude = 0.0;    ///< of the first amplitude parameter, in its unit; NaN: never
+  /// Of the first amplitude parameter, in its unit, within its prior; NaN: never.
+  double amplitude = 0.0;
 };
 
 struct Confounding {
@@ -32,9 +33,11 @@ struct Confounding {
   std::vector<std::vector<std::string>> indistinguishable;
 };
 
-/// Expected log-odds are half the squared distance from the true signature to the nearest of the
-/// rival's, amplitudes from a grid, base linearised: the leading term of what noise leaves of the
-/// log likelihood ratio (Box and Hill, Technometrics 9 (1967) 57). Occam's factors are left out.
+/// Expected log-odds, truths and rivals at amplitudes from a grid, base linearised: half of (square
+/// of the distance in the rival's covariance + ln det of the rival's over the truth's + what noise
+/// adds to the squares), covariances of recalibration, measurement, scatter and the effects' own
+/// emulators. Without emulators' errors that is half the squared distance (Box and Hill,
+/// Technometrics 9 (1967) 57). Occam's factors of the parameters are left out.
 Confounding confounding(const Problem &problem, const Which &which,
                         const ConfoundingSettings &settings);
 
