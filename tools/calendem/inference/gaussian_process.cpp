@@ -8,7 +8,8 @@
 namespace calendem::inference {
 namespace {
 
-constexpr double kTrend = 25.0;    // prior variance of the linear trend, in variances of the values
+constexpr double kTrend = 25.0;   // prior variance of the linear trend, in variances of the values
+constexpr double kOfEffect = 0.5; // the same of an effect's slopes: others change its size somewhat
 constexpr double kSmallest = 1e-6; // variance of noise: keeps the matrix invertible
 constexpr double kNothing = 1e-24; // square of values, relative to their size, that never change
 
@@ -17,6 +18,7 @@ constexpr double kNothing = 1e-24; // square of values, relative to their size, 
 // followed too closely, and packings left out lie 1.6 times as far off, in square, as expected.
 constexpr double kVarianceMean = -2.0, kVarianceSpread = 2.0;
 constexpr double kLengthMean = 1.6, kLengthSpread = 0.5;
+constexpr double kOwnLengthMean = 0.0; // of an effect's amplitudes: it may saturate
 
 struct Matern {
   double value, slope; // slope: d value / d ln(length) is slope * (difference / length)^2
@@ -53,6 +55,7 @@ GaussianProcess::GaussianProcess(Training training) : training_(std::move(traini
   amplitude_product_ =
       effect ? Matrix(training_.amplitudes.transpose() * training_.amplitudes) : Matrix::Ones(n, n);
   centre_ = effect ? 0.0 : training_.values.mean();
+  slopes_ = effect ? kOfEffect : kTrend;
   const Vector shifted = training_.values.array() - centre_;
   square_ = shifted.squaredNorm() / double(n);
   const double size = std::max(training_.values.squaredNorm() / double(n), 1e-300);
@@ -94,7 +97,7 @@ double GaussianProcess::misfit(const Vector &x, Vector &gradient) const {
       const bool same = training_.packing[i] == training_.packing[j];
       shape(i, j) = shape(j, i) = g * m.value;
       slope(i, j) = slope(j, i) = g * m.slope;
-      k(i, j) = k(j, i) = g * (kTrend * (1.0 + trend(i, j)) + signal * m.value + packing * same) +
+      k(i, j) = k(j, i) = g * (kTrend + slopes_ * trend(i, j) + signal * m.value + packing * same) +
                           (i == j ? noise : 0.0);
     }
   const Cholesky factor(k);
@@ -126,7 +129,9 @@ double GaussianProcess::misfit(const Vector &x, Vector &gradient) const {
   for (int m = 0; m < x.size(); ++m) {
     const bool length = m >= 2 + repeated_;
     const double spread = length ? kLengthSpread : kVarianceSpread;
-    const double off = (x[m] - (length ? kLengthMean : kVarianceMean)) / spread;
+    const bool own = m >= x.size() - training_.amplitudes.rows();
+    const double mean = !length ? kVarianceMean : own ? kOwnLengthMean : kLengthMean;
+    const double off = (x[m] - mean) / spread;
     value += 0.5 * off * off;
     gradient[m] += off / spread;
   }
@@ -167,7 +172,7 @@ Vector GaussianProcess::covariances_with(const Vector &input, const Vector &ampl
   Vector k(n);
   for (int i = 0; i < n; ++i) {
     const double g = amplitudes.size() ? training_.amplitudes.col(i).dot(amplitudes) : 1.0;
-    k[i] = g * (kTrend * (1.0 + training_.inputs.col(i).dot(input)) +
+    k[i] = g * (kTrend + slopes_ * training_.inputs.col(i).dot(input) +
                 signal_ * matern((scaled_inverse_.col(i) - scaled).squaredNorm()).value);
   }
   return k;
@@ -180,7 +185,7 @@ double GaussianProcess::mean_at(const Vector &input, const Vector &amplitudes) c
 Mean GaussianProcess::at(const Vector &input, const Vector &amplitudes) const {
   const Vector k = covariances_with(input, amplitudes);
   const double g = amplitudes.size() ? amplitudes.squaredNorm() : 1.0;
-  const double prior = g * (kTrend * (1.0 + input.squaredNorm()) + signal_);
+  const double prior = g * (kTrend + slopes_ * input.squaredNorm() + signal_);
   const double left = prior - k.dot(covariance_inverse_.selfadjointView<Eigen::Lower>() * k);
   return {centre_ + std::sqrt(square_) * k.dot(weights_), square_ * std::max(left, 0.0)};
 }

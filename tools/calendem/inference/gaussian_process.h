@@ -28,12 +28,12 @@ struct Quality {
   double own = 0.0;    ///< part of the error that is the emulator's, not the packing's scatter
 };
 
-/// k(x, x') = g { c (1 + x.x') + s^2 M(x, x') + p^2 [same packing] } + n^2 [same run]
+/// k(x, x') = g { c + b x.x' + s^2 M(x, x') + p^2 [same packing] } + n^2 [same run]
 /// with M the Matern 5/2 kernel with a length for each input (Rasmussen and Williams 2006,
-/// eqs 4.17 and 5.2), c a wide prior of a linear trend, and g = 1 for the base model, g = a.a' for
-/// the difference an effect of amplitudes a makes: 0 at 0 by construction. Values are divided by
-/// their spread before. s, p, n and the lengths are where marginal likelihood times a weak
-/// log-normal prior is largest, from three starts; nothing is random.
+/// eqs 4.17 and 5.2), c and b priors of a linear trend, wide but for an effect's slopes, and g = 1
+/// for the base model, g = a.a' for the difference an effect of amplitudes a makes: 0 at 0 by
+/// construction. Values are divided by their spread before. s, p, n and the lengths are where
+/// marginal likelihood times a log-normal prior is largest, from three starts; nothing is random.
 class GaussianProcess {
 public:
   explicit GaussianProcess(Training training);
@@ -59,6 +59,7 @@ public:
 private:
   Training training_;
   double centre_ = 0.0, square_ = 1.0; ///< shift and square of the scale of the values
+  double slopes_ = 0.0;                ///< prior variance of the trend's slopes
   double signal_ = 0.0, packing_ = 0.0, noise_ = 1.0; ///< variances, in the scaled values
   Vector lengths_;
   Matrix amplitude_product_, scaled_inverse_, covariance_inverse_;
