@@ -7,8 +7,8 @@
 //   friction.
 // A pair whose overlap is counted from its creation (bonded, or broken and not yet separated) stays
 // Hertz: effects are for surfaces that meet, not for the inside of a body. Memory ends when the
-// spheres have separated. What effects take is booked in fix energy/bpm. A plastic overlap beyond
-// 0.9 of the effective radius is an error.
+// spheres have separated. What effects take is booked in fix energy/bpm. A sphere that sinks
+// into a wall by more than 0.9 of its radius is an error.
 #ifdef NORMAL_MODEL
 NORMAL_MODEL(HERTZ_EFFECTS, hertz_effects, 30)
 #else
@@ -82,7 +82,7 @@ public:
   void endPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
 
 private:
-  static constexpr double kDeepest = 0.9; // plastic overlap, of the effective radius
+  static constexpr double kDeepest = 0.9; // plastic overlap with a wall, of the radius
 
   LAMMPS_NS::ContactEffects effects_;
   FixEnergyBpm *energy_; // NULL when no ledger is kept
@@ -93,17 +93,16 @@ private:
     return bond_ < 0 || !LAMMPS_NS::BondHistory(s.contact_history + bond_).has_reference();
   }
 
-  // Far beyond the law's range, and before the host loses a sphere whose centre leaves the box.
+  // Before the host loses a sphere whose centre leaves the box through a wall.
   void stop_if_sunk(const SurfacesIntersectData &s, const LAMMPS_NS::EffectContact &c) {
-    if (c.overlap <= kDeepest * c.effective_radius || !effects_.yields(s.itype, s.jtype))
+    if (!s.is_wall || c.overlap <= kDeepest * s.radi || !effects_.yields(s.itype, s.jtype))
       return;
     char text[320];
     snprintf(text, sizeof text,
-             "model hertz_effects: a sphere of type %d has sunk %.3g um into %s of type %d, more "
-             "than %g of the effective radius, %.3g um: contactYieldPressure is too low for the "
-             "load on single spheres. Raise it, take a larger cell, or press less",
-             s.itype, c.overlap, s.is_wall ? "the wall" : "one", s.jtype, kDeepest,
-             c.effective_radius);
+             "model hertz_effects: a sphere of type %d has sunk %.3g um into the wall of type %d, "
+             "more than %g of its radius, %.3g um: contactYieldPressure is too low for the load on "
+             "single spheres. Raise it, take a larger cell, or press less",
+             s.itype, c.overlap, s.jtype, kDeepest, s.radi);
     error->one(FLERR, text);
   }
 
