@@ -70,6 +70,18 @@ TEST(VerificationPlasticContact, SphereAndWallFollowTheLaw) {
   expect_small("wall", pressed(R, R, settings));
 }
 
+// Deep overlaps: spheres go on, one that is nearly through a wall stops the run.
+TEST(VerificationPlasticContact, OnlyAWallStopsASphereThatSinks) {
+  Settings settings = elastic_otherwise();
+  settings["down"] = "40000"; // 0.4 um, 1.01 of the effective radius
+  expect_small("deep", pressed(2 * R, effective_radius(R, R), settings));
+  settings["down"] = "75000"; // 0.75 um, 0.94 of the radius
+  settings.insert({{"wall", "1"}, {"z0", number(R)}, {"up", "200"}, {"again", "500"}});
+  const CaseRun run("plastic_contact/in.press", settings);
+  EXPECT_FALSE(run.finished());
+  EXPECT_NEAR(run.rows("curve.csv").back().at("z"), 0.1 * R, 1e-3); // a row every 1e-4 um
+}
+
 // Thornton's coefficient of restitution, his eq. 31, from the ratio of yield speed and speed.
 TEST(VerificationPlasticContact, RestitutionIsThorntons) {
   const double R_eff = 0.5 * R, m_eff = 0.5 * mass;
