@@ -20,7 +20,7 @@ build_readers() {
   local sources source objects=()
   cd "$core"
   sources=(spec/*.cpp structure/{atom_rows,data_header,data_plausible,given_structure,particle_data}.cpp
-    {bank/bank_spec,bank/bank_table,compare/simulated_run,effects/effects,pack/placement}.cpp
+    bank/{bank_design,bank_spec,bank_table,measurement_price}.cpp {compare/simulated_run,effects/effects,pack/placement}.cpp
     {slurry/film_recipe,study/study_file,tomogram/spec,withheld/hidden_changes,withheld/round_file}.cpp
     inference/{bank,bank_table,observable,prior,sobol_points}.cpp "$here/fuzz_target.cpp")
   rm -rf "$work/objects"
