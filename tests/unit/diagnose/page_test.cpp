@@ -151,6 +151,11 @@ TEST(ConfoundingPart, AnEffectThatNoAmplitudeShowsIsInvisible) {
       {"emulators", nlohmann::json::array({{{"effect", "a"}, {"poor", true}}})}};
   const nlohmann::json part = confounding_part(gap);
   EXPECT_EQ(part["limits"][0]["claim"], "no: poor emulators");
+  nlohmann::json base_poor = gap;
+  base_poor["emulators"][0]["effect"] = "base";
+  EXPECT_EQ(confounding_part(base_poor)["limits"][0]["claim"], "no: poor emulators");
+  base_poor["emulators"][0]["poor"] = false;
+  EXPECT_EQ(confounding_part(base_poor)["limits"][0]["claim"], "yes");
   EXPECT_EQ(part["limits"][0]["value"], "invisible here");
   EXPECT_EQ(part["limits"][0]["absorbed"], "25");
   EXPECT_EQ(part["alike"][0], "a, b");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The bank that is shipped, its packings left out in turn.
+// What the bank that is shipped can tell.
 #include "diagnose/diagnose.h"
 #include "inference/hypothesis.h"
 #include "support/test_folder.h"

@@ -159,6 +159,15 @@ TEST(Decide, ClaimRuleAndPriors) {
   EXPECT_EQ(decided(6.0, 0.005, 0.5, s).claim, "undecided");
   EXPECT_EQ(decided(6.0, 0.005, 0.005, s).claim, "unknown");
   EXPECT_EQ(decided(6.0, 0.5, 0.5, s, 12.0).claim, "undecided"); // an integral few samples carry
+  Which noise;
+  noise.judged = {judged(Hypothesis::none, {}, "none", 0.0, 0.5),
+                  judged(Hypothesis::noise, {}, "noise", 20.0, 0.0)};
+  decide(noise, s, 0);
+  EXPECT_EQ(noise.claim, "noise");
+  noise.judged[0].evidence.samples = 1024;
+  noise.judged[0].evidence.effective_samples = 12.0;
+  decide(noise, s, 0);
+  EXPECT_EQ(noise.claim, "undecided");
   s.poor = {"a"};
   EXPECT_EQ(decided(6.0, 0.5, 0.5, s).claim, "undecided");
   s.poor = {"b"};

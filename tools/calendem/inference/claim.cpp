@@ -82,8 +82,10 @@ void claim(Which &w, const WhichSettings &settings) {
         w.adequacy_p = j.adequacy_p;
     }
   const std::string &name = best.hypothesis.name;
+  const Judged *few = unsettled(w.judged);
   w.claim = "undecided";
-  if (best.hypothesis.kind == Hypothesis::noise && best.probability >= settings.claim_probability) {
+  if (best.hypothesis.kind == Hypothesis::noise && !few &&
+      best.probability >= settings.claim_probability) {
     w.claim = name;
     w.why = fmt::format("The errors of the measurement are understated, with probability {:.3g}.",
                         best.probability);
@@ -94,10 +96,10 @@ void claim(Which &w, const WhichSettings &settings) {
   } else if (best.probability < settings.claim_probability) {
     w.why = fmt::format("The most probable, {}, has {:.3g}; a claim needs {:g}.", name,
                         best.probability, settings.claim_probability);
-  } else if (const Judged *j = unsettled(w.judged)) {
+  } else if (few) {
     w.why = fmt::format("The evidence of {} rests on {:.0f} samples that count; at least {:g} are "
                         "asked for.",
-                        j->hypothesis.name, j->evidence.effective_samples, kFewest);
+                        few->hypothesis.name, few->evidence.effective_samples, kFewest);
   } else if (best.adequacy_p < settings.adequacy) {
     w.why = fmt::format("{} is the most probable, but does not fit (p = {:.2g}).", name,
                         best.adequacy_p);

@@ -31,15 +31,12 @@ public:
   Signature of(int effect, const Vector &scores) const {
     const Prediction p = problem_.predict(base_.at, {{effect, scores}});
     Signature s{factor_.matrixL().solve(p.mean - base_.mean), {}, 0.0, double(p.mean.size())};
-    const Vector sd = (p.variance - base_variance_).cwiseMax(0.0).cwiseSqrt();
-    if (sd.maxCoeff() == 0.0)
+    const Vector variance = (p.variance - base_variance_).cwiseMax(0.0);
+    if (variance.maxCoeff() == 0.0)
       return s;
-    const auto identity = Matrix::Identity(sd.size(), sd.size());
-    const Matrix half = factor_.matrixL().solve(Matrix(sd.asDiagonal()));
-    const Cholesky sum(
-        Matrix(identity + (problem_.correlation.size() == 0
-                               ? Matrix(half * half.transpose())
-                               : Matrix(half * problem_.correlation * half.transpose()))));
+    const auto identity = Matrix::Identity(variance.size(), variance.size());
+    const Matrix half = factor_.matrixL().solve(emulator_errors(problem_, variance));
+    const Cholesky sum(Matrix(identity + factor_.matrixL().solve(half.transpose())));
     s.precision = sum.solve(identity);
     s.log_determinant = 2.0 * Matrix(sum.matrixL()).diagonal().array().log().sum();
     s.trace = s.precision.trace();

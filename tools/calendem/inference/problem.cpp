@@ -8,15 +8,15 @@ constexpr double kStep = 0.05; // of sensitivities, in standard deviations of th
 
 } // namespace
 
+Matrix emulator_errors(const Problem &problem, const Vector &variance) {
+  if (problem.correlation.size() == 0)
+    return variance.asDiagonal();
+  const Vector sd = variance.cwiseSqrt();
+  return sd.asDiagonal() * problem.correlation * sd.asDiagonal();
+}
+
 Matrix covariance_about(const Problem &problem, const Prediction &prediction) {
-  Matrix total = problem.measurement + problem.scatter;
-  if (problem.correlation.size() == 0) {
-    total.diagonal() += prediction.variance;
-  } else {
-    const Vector sd = prediction.variance.cwiseSqrt();
-    total += sd.asDiagonal() * problem.correlation * sd.asDiagonal();
-  }
-  return total;
+  return problem.measurement + problem.scatter + emulator_errors(problem, prediction.variance);
 }
 
 Linearised linearise(const Problem &problem, const Vector &base) {

@@ -35,6 +35,9 @@ struct Problem {
   std::function<Prediction(const Vector &base, const std::vector<Applied> &)> predict;
 };
 
+/// Covariance of emulators' errors of these variances, correlated as the problem says.
+Matrix emulator_errors(const Problem &problem, const Vector &variance);
+
 /// Of observed - predicted: measurement, scatter and the emulators' errors.
 Matrix covariance_about(const Problem &problem, const Prediction &prediction);
 

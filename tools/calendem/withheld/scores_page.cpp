@@ -34,7 +34,8 @@ std::string shown(double v) { return std::isfinite(v) ? fmt::format("{:.3f}", v)
 Json scores_of(const std::vector<ScoredCase> &cases, const std::string &round) {
   Json out = {{"round", round}, {"metrics", Json::array()}, {"cases", Json::array()}};
   for (const Metric &m : metrics_of(cases)) {
-    const std::string interval = shown(m.low) + " to " + shown(m.high);
+    const std::string interval =
+        std::isfinite(m.low) ? shown(m.low) + " to " + shown(m.high) : shown(m.low);
     out["metrics"].push_back({{"name", m.name},
                               {"value", number(m.value)},
                               {"interval90", {number(m.low), number(m.high)}},
