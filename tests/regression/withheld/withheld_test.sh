@@ -14,7 +14,7 @@ refused() { # STATUS TEXT COMMAND...: that exit status and these words
   grep -qF "$text" "$work/said" || fail "no '$text' in the message"
 }
 withheld() { "$bin/calendem" withheld "$@"; }
-answer() { withheld answer "$1" -o "$2" --bank "$here/bank.toml"; }
+answer() { withheld answer "$1" -o "$2" --bank "$here/bank.toml" --rerun 2; }
 
 rm -rf "$work"
 mkdir -p "$work"
@@ -25,6 +25,7 @@ bank = "$here/bank.toml"
 null_packings = 1
 null_draws = 2
 amplitudes = 0
+samples = 2
 open = ["displacement_scale"]
 faults = ["friction + noise"]
 T
@@ -35,7 +36,8 @@ make_round
 # What is handed out tells nothing: no name, seed, salt or hash of the truth, and of the runs.
 { "$bin/calendem" effects | awk '/^[a-z]/ { print $1 }'
   printf '%s\n' displacement_scale unknown noise null fault '"open"' sealed
-  grep -oE '"(packing_seed|salt|handed_out_sha256)": "?[0-9a-f]+' "$work/round/sealed/truth.json" | grep -oE '[0-9a-f]+$'
+  grep -oE '"(salt|handed_out_sha256)": "?[0-9a-f]+' "$work/round/sealed/truth.json" | grep -oE '[0-9a-f]+$'
+  sed -n '/"packing_seeds"/,/]/p' "$work/round/sealed/truth.json" | grep -oE '[0-9]{4,}'
   cat "$work/round/sealed/secret" && echo
   find "$work/round/sealed/study" -maxdepth 2 -type d -printf '%f\n' | grep -E '^[0-9a-f]{16}$'
 } | sort -u >"$work/words"
@@ -47,11 +49,18 @@ refused 2 "truths lie within reach" answer "$work/round/handed_out" "$work/answe
 mkdir "$work/given"
 cp -r "$work/round/handed_out" "$work/given/copy"
 mv "$work/round" "$work/away" # the truths are out of reach
-answer "$work/given/copy" "$work/answers"
+answer "$work/given/copy" "$work/answers" | tee "$work/answer.log"
 [ "$(names "$work/answers")" = 001,002,003,004,answers.json ] || fail "not every case was answered"
 mv "$work/away" "$work/round"
-answer "$work/given/copy" "$work/again" >/dev/null
-diff -r "$work/answers" "$work/again" || fail "the same data got another answer"
+withheld answer "$work/given/copy" -o "$work/again" --bank "$here/bank.toml" >/dev/null
+diff -r -x shrink.json -x rerun -x answers.json "$work/answers" "$work/again" || fail "the same data got another answer"
+for k in 001 002 003 004; do # models are run again where an effect is claimed, and are sealed with the answers
+  [ -e "$work/answers/$k/shrink.json" ] && again=yes || again=no
+  grep -m 1 '"claim"' "$work/answers/$k/gap.json" | grep -qE '"(none|noise|unknown|undecided)"' && effect=no || effect=yes
+  [ "$again" = "$effect" ] || { [ "$effect" = yes ] && grep -q "case $k could not be run again" "$work/answer.log"; } ||
+    fail "case $k names an effect: $effect, was run again: $again"
+  [ "$again" = no ] || grep -q "\"$k/shrink.json\"" "$work/answers/answers.json" || fail "no hash of $k/shrink.json"
+done
 
 withheld score "$work/round" "$work/answers" -o "$work/scores"
 for file in scores.json scores.md scores.html; do [ -s "$work/scores/$file" ] || fail "no $file"; done
@@ -59,7 +68,7 @@ grep -q "false claims on nulls | .* | 2 | 1 | <= 0.03" "$work/scores/scores.md" 
 
 # The same command makes nothing again, and hands out the same.
 make_round >"$work/again.log"
-grep -q "6 runs, 6 of them there" "$work/again.log" || fail "runs were made twice"
+grep -q "12 runs, 12 of them there" "$work/again.log" || fail "runs were made twice"
 diff -r "$work/round/handed_out" "$work/given/copy" || fail "another round was handed out"
 
 sed -i 's/"claim": "[a-z]*/&!/' "$work/answers/002/gap.json"

@@ -103,6 +103,21 @@ TEST(Which, AStrongEffectIsNamedAndWithoutItsHypothesisItIsUnknown) {
   EXPECT_EQ(which(without, quick()).claim, "unknown");
 }
 
+// Part of what is unknown may look like a known effect: without the rest it would be named.
+TEST(Which, AnUnknownBesideAKnownEffectIsUnknown) {
+  LinearWorld world(12, 2, 3, 13);
+  world.amplitude = 10.0;
+  Problem problem = world.problem(world.mean_of(1) + world.mean_of(2) - world.centre);
+  problem.effects.resize(2);
+  WhichSettings settings = quick();
+  settings.pair_seeds = 2;
+  const Which found = which(problem, settings);
+  EXPECT_EQ(found.claim, "unknown");
+  EXPECT_GT(found.of("unknown").probability, 0.95);
+  EXPECT_EQ(found.of("unknown").place, "beside effect 1");
+  EXPECT_LT(found.inclusion.at("effect 1"), 0.05);
+}
+
 TEST(Which, TwoEffectsAtOnceAreAPair) {
   LinearWorld world(12, 2, 4, 12);
   world.amplitude = 9.0;

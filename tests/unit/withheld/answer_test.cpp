@@ -63,11 +63,11 @@ protected:
     const Round round = read_round((at_ / "round.toml").string());
     write_table(round.bank);
     std::vector<Truth> truths = draw_truths(round, "secret");
-    std::vector<std::vector<ShownRun>> shown;
+    std::vector<std::vector<PressedSamples>> shown;
     for (Truth &t : truths) {
       shown.emplace_back();
       for (const double target : {30.0, 50.0})
-        shown.back().push_back(shown_of(t, target));
+        shown.back().push_back({shown_of(t, target)});
     }
     fs::create_directories(round_ + "/sealed");
     seal_round(round_, round, truths, shown, "secret");
@@ -172,7 +172,8 @@ TEST_F(Withheld, WhatIsHandedOutTellsNoTruth) {
     secrets.push_back(e.name);
   for (const auto &one : sealed.at("cases")) {
     secrets.push_back(one.at("salt"));
-    secrets.push_back(one.at("truth").at("packing_seed").dump());
+    for (const auto &seed : one.at("truth").at("packing_seeds"))
+      secrets.push_back(seed.dump());
     secrets.push_back(one.at("truth").at("handed_out_sha256"));
     for (const std::string &name : one.at("truth").at("hidden"))
       secrets.push_back(name);

@@ -17,6 +17,7 @@ using calendem_test::test_folder;
 
 const std::string kRound =
     "[round]\nbank = \"bank.toml\"\nnull_packings = 2\nnull_draws = 5\namplitudes = 3\n"
+    "samples = 3\n"
     "open = [\"cohesion\"]\npairs = [\"thickness_zero + friction\"]\nfaults = [\"noise\"]\n"
     "other_numerics = [\"larger_cell + friction\", \"half_time_step\"]\n"
     "[noise]\nunderstated_by = [3, 4]\nporosity_percent = 0.5\n";
@@ -49,7 +50,9 @@ TEST(Truths, ARoundHoldsWhatItsFileAsksFor) {
   EXPECT_EQ(truths[0].draws + truths[1].draws, 5);
   std::set<unsigned long> packings;
   for (const Truth &t : truths) {
-    EXPECT_TRUE(packings.insert(t.packing).second && t.packing > 1000);
+    EXPECT_EQ(t.packings.size(), 3u);
+    for (const unsigned long packing : t.packings)
+      EXPECT_TRUE(packings.insert(packing).second && packing > 1000);
     EXPECT_TRUE(t.base[0] > 150 && t.base[0] < 400);
   }
   for (int k = 0; k < 3; ++k) // each in its third of 0.05 to 0.6
@@ -79,17 +82,30 @@ TEST(Truths, RunsHaveTheTruthsSettings) {
   const Round round = round_of(kRound);
   const std::vector<Truth> truths = draw_truths(round, "secret");
   const Study study = truth_study(round, truths);
-  ASSERT_EQ(study.runs.size(), 2 * truths.size());
+  ASSERT_EQ(study.runs.size(), 3 * 2 * truths.size());
   for (std::size_t t = 0; t < truths.size(); ++t) {
-    const Settings &s = study.runs[2 * t + 1].settings;
+    const Settings &s = study.runs[6 * t + 5].settings;
     const bool larger = !truths[t].hidden.empty() && truths[t].hidden[0] == "larger_cell";
     EXPECT_NEAR(s.number("platen.max_pressure_MPa"), 50 * (1 + truths[t].pressure_error), 1e-3);
     EXPECT_EQ(s.number("bond.shear_strength_MPa"), truths[t].base[0]);
-    EXPECT_NEAR(study.runs[2 * t].recipe.cell_x, larger ? 7.8 : 6.0, 1e-9);
-    EXPECT_EQ(study.runs[2 * t].recipe.seed, truths[t].packing);
+    EXPECT_NEAR(study.runs[6 * t].recipe.cell_x, larger ? 7.8 : 6.0, 1e-9);
+    for (std::size_t k = 0; k < 6; ++k)
+      EXPECT_EQ(study.runs[6 * t + k].recipe.seed, truths[t].packings[k / 2]);
     const bool rough = !truths[t].effects.empty() && truths[t].effects.back().first == "friction";
     EXPECT_EQ(s.number("material.am.friction"), rough ? truths[t].effects.back().second : 0.001);
   }
+}
+
+// Intervals of 90 % hold 90 % of the truths only if truths are drawn from the whole prior.
+TEST(Truths, BaseParametersAreDrawnFromTheirPriors) {
+  const Round round = round_of(kRound);
+  int tails = 0, all = 0;
+  for (int k = 0; k < 100; ++k)
+    for (const Truth &t : draw_truths(round, std::to_string(k))) {
+      tails += t.base[0] < 150 + 0.05 * 250 || t.base[0] > 400 - 0.05 * 250;
+      ++all;
+    }
+  EXPECT_NEAR(double(tails) / all, 0.1, 4.0 * std::sqrt(0.09 / all));
 }
 
 TEST(Truths, MistakesOfARoundAreTold) {
@@ -105,24 +121,30 @@ TEST(Truths, MistakesOfARoundAreTold) {
   }
 }
 
-ShownRun shown_run(double target) {
-  ShownRun s;
-  s.run.thickness_at_max = 14.0;
-  s.run.thickness_after = 16.0;
-  s.run.porosity_after = 0.43;
-  s.run.cracked_fraction = 0.5;
-  for (double p = 0.0; p <= 1.2 * target; p += 0.1) {
-    s.run.pressure.push_back(p);
-    s.run.displacement.push_back(3.0 * p / target);
-    s.release_pressure.push_back(p);
-    s.release_displacement.push_back(2.0 + p / target);
+/// Three samples that scatter by 0.06 um in displacement and 0.03 in porosity; their means are
+/// 3 p / target and 0.43.
+PressedSamples pressed(double target) {
+  PressedSamples all;
+  for (const double off : {-0.06, 0.02, 0.04}) {
+    ShownRun s;
+    s.run.thickness_at_max = 14.0;
+    s.run.thickness_after = 16.0;
+    s.run.porosity_after = 0.43 + 0.5 * off;
+    s.run.cracked_fraction = 0.5;
+    for (double p = 0.0; p <= 1.2 * target; p += 0.1) {
+      s.run.pressure.push_back(p);
+      s.run.displacement.push_back(3.0 * p / target + off);
+      s.release_pressure.push_back(p);
+      s.release_displacement.push_back(2.0 + p / target + off);
+    }
+    all.push_back(s);
   }
-  return s;
+  return all;
 }
 
 Experiment handed(const Round &round, const Truth &truth, std::uint64_t seed) {
   const auto folder = std::filesystem::path(round.file).parent_path() / "out";
-  hand_out(folder.string(), "007", round, truth, {shown_run(30), shown_run(50)}, seed);
+  hand_out(folder.string(), "007", round, truth, {pressed(30), pressed(50)}, seed);
   return read_experiment((folder / "experiment.toml").string());
 }
 
@@ -160,7 +182,9 @@ TEST(HandedOut, CurvesAreThoseOfThePressTrueButForItsErrors) {
     EXPECT_NEAR(d, find_hidden("displacement_scale")->displacement_factor * true_d, 5 * 0.02);
   }
   EXPECT_EQ(rows, 40 + 39);
-  EXPECT_NEAR(sample_area_cm2(e) * 1e8, 36.0, 1e-3); // um2: the bank's cell
+  EXPECT_NEAR(sample_area_cm2(e) * 1e8, 3 * 36.0, 1e-3); // um2: three of the bank's cells
+  EXPECT_EQ(e.train, std::vector<std::string>{"p30"});
+  EXPECT_EQ(e.test, std::vector<std::string>{"p50"});
 }
 
 } // namespace

@@ -61,12 +61,31 @@ TEST(Scores, AnswersByHandGetTheNumbersThatCanBeCounted) {
   EXPECT_TRUE(named(m, "unknown against known").certain);
   EXPECT_FALSE(named(m, "which, top-1, effects").certain);
   EXPECT_EQ(named(m, "which, top-1, effects").verdict, Metric::missed);
-  EXPECT_EQ(named(m, "shrinkage").verdict, Metric::not_measured);
+  EXPECT_EQ(named(m, "shrinkage within").verdict, Metric::not_measured);
   EXPECT_DOUBLE_EQ(named(m, "90 % intervals of base").value, 0.5);
   EXPECT_DOUBLE_EQ(named(m, "90 % intervals of amplitudes").value, 1.0);
   const double log_score =
       (std::log(0.9) * 4 + std::log(0.1) + std::log(0.8) + std::log(0.4) + std::log(1e-6)) / -8.0;
   EXPECT_NEAR(named(m, "log score").value, log_score, 1e-12);
+}
+
+TEST(Scores, ShrinkageIsJudgedWhereModelsWereRunAgain) {
+  std::vector<ScoredCase> cases = round_by_hand();
+  const auto run_again = [&](int k, double predicted, double rerun, double placebo) {
+    cases[std::size_t(k)].predicted_shrinkage = predicted;
+    cases[std::size_t(k)].shrinkage = rerun;
+    cases[std::size_t(k)].least_shrinkage = rerun - 0.2;
+    cases[std::size_t(k)].most_shrinkage = rerun + 0.2;
+    cases[std::size_t(k)].placebo_shrinkage = placebo;
+  };
+  run_again(4, 0.9, 0.85, 0.1);
+  run_again(5, 0.9, 0.75, NAN);
+  run_again(6, 0.9, 0.30, 0.5);
+  const std::vector<Metric> m = metrics_of(cases);
+  EXPECT_DOUBLE_EQ(named(m, "shrinkage within").value, 1.0 / 3.0);
+  EXPECT_EQ(named(m, "shrinkage within").verdict, Metric::missed);
+  EXPECT_DOUBLE_EQ(named(m, "shrinkage: predicted").value, 2.0 / 3.0);
+  EXPECT_DOUBLE_EQ(named(m, "shrinkage: the placebo").value, 0.5);
 }
 
 TEST(Scores, BaselinesMustBeBeaten) {
@@ -118,8 +137,15 @@ TEST(Scores, AnEffectLeftOutIsACaseOfItsOwnWhereItWasTheTruth) {
   without["without"] = "friction";
   const nlohmann::json baselines = {{"named", {{"BIC", "none"}}}};
   std::vector<ScoredCase> cases;
-  add_cases(truth, gap, without, baselines, cases);
+  const nlohmann::json shrink = {
+      {"shrinkage", {{"value", 0.8}, {"low90", 0.5}, {"high90", nullptr}, {"predicted", 0.7}}},
+      {"placebo", 0.1}};
+  add_cases(truth, gap, without, baselines, shrink, cases);
   ASSERT_EQ(cases.size(), 2u);
+  EXPECT_EQ(cases[0].shrinkage, 0.8);
+  EXPECT_EQ(cases[0].predicted_shrinkage, 0.7);
+  EXPECT_EQ(cases[0].placebo_shrinkage, 0.1);
+  EXPECT_TRUE(std::isnan(cases[0].most_shrinkage) && std::isnan(cases[1].shrinkage));
   EXPECT_EQ(cases[1].block, "left_out");
   EXPECT_EQ(cases[1].truth, "unknown");
   EXPECT_EQ(cases[0].covered, std::vector<bool>{true});
@@ -127,8 +153,9 @@ TEST(Scores, AnEffectLeftOutIsACaseOfItsOwnWhereItWasTheTruth) {
   EXPECT_NEAR(cases[0].signal_to_noise, 3.0 * std::sqrt(6.0), 1e-9);
   without["without"] = "pre_cracks";
   cases.clear();
-  add_cases(truth, gap, without, baselines, cases);
+  add_cases(truth, gap, without, baselines, nlohmann::json::object(), cases);
   EXPECT_EQ(cases.size(), 1u);
+  EXPECT_TRUE(std::isnan(cases[0].predicted_shrinkage));
 }
 
 } // namespace

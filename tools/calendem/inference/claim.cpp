@@ -22,7 +22,7 @@ void set_priors(std::vector<Judged> &judged, const Priors &priors, int effects) 
   const double pairs = 0.5 * effects * (effects - 1);
   double weights = 0.0;
   for (const Judged &j : judged)
-    if (j.hypothesis.kind == Hypothesis::noise || j.hypothesis.on.size() == 1)
+    if (j.hypothesis.kind == Hypothesis::noise || j.hypothesis.single())
       weights += weight_of(priors, j.hypothesis.name);
   for (Judged &j : judged) {
     Hypothesis &h = j.hypothesis;
@@ -121,8 +121,10 @@ void set_lists(Which &w) {
     if (sum < kCredible)
       w.set95.push_back(j.hypothesis.name);
     sum += j.probability;
+    if (j.hypothesis.kind != Hypothesis::effects)
+      continue;
     for (const Judged &single : w.judged)
-      if (single.hypothesis.on.size() == 1)
+      if (single.hypothesis.single())
         for (const int e : j.hypothesis.on)
           if (e == single.hypothesis.on[0])
             w.inclusion[single.hypothesis.name] += j.probability;

@@ -13,16 +13,18 @@ struct Hypothesis {
     none,    ///< the base model, recalibrated
     effects, ///< one or more effects or measurement faults are on
     noise,   ///< the measurement's standard deviations are understated
-    unknown  ///< a smooth discrepancy that no base parameter can take up
+    unknown  ///< a smooth discrepancy that no base parameter can take up, alone or beside effects
   };
   Kind kind = none;
   std::vector<int> on; ///< places in the problem's effects
   std::string name;    ///< none, unknown, noise, or the effects' names joined by " + "
   double prior = 0.0;
+
+  bool single() const { return kind == effects && on.size() == 1; }
 };
 
 /// ln p(observed | scores), multivariate t. Scores: the base parameters', then the effects' in
-/// order; or of the factor of noise; or of the standard deviation of the unknown.
+/// order, then of the factor of noise or of the standard deviation of the unknown.
 class Likelihood {
 public:
   /// `unknown`: covariance of the discrepancy for one standard deviation, off the sensitivities.

@@ -9,6 +9,8 @@
 namespace calendem::inference {
 namespace {
 
+constexpr double kBeside = 0.2; // share of the unknown's prior that sits beside a known effect
+
 Judged judge(const Problem &problem, const Hypothesis &hypothesis, const Matrix &unknown,
              const WhichSettings &settings) {
   Judged j;
@@ -26,14 +28,16 @@ Judged judge(const Problem &problem, const Hypothesis &hypothesis, const Matrix 
   return j;
 }
 
-/// A place where the unknown may sit, and its covariance there.
+/// A place where the unknown may sit, its covariance there, and the effect that it sits beside.
 struct Place {
   std::string name;
   double share = 1.0;
   Matrix unknown;
+  std::vector<int> on = {};
 };
 
-std::vector<Place> places_of(const Problem &problem, const Linearised &base) {
+/// Places that the effects have no part in.
+std::vector<Place> places_alone(const Problem &problem, const Linearised &base) {
   std::vector<Place> places{{"everywhere", 1.0, beyond_recalibration(base, problem.discrepancy)}};
   const auto add = [&](const std::string &name, const auto &contains) {
     Vector mask(problem.observed.size());
@@ -65,14 +69,32 @@ std::vector<Place> places_of(const Problem &problem, const Linearised &base) {
   return places;
 }
 
+/// All places worth computing: beside effects, those that explain most.
+std::vector<Place> places_of(const Problem &problem, const Linearised &base,
+                             const std::vector<int> &best) {
+  std::vector<Place> places = places_alone(problem, base);
+  if (best.empty())
+    return places;
+  for (Place &p : places)
+    p.share *= 1.0 - kBeside;
+  const Place everywhere = places.front();
+  for (const int e : best)
+    places.push_back({"beside " + problem.effects[e].name,
+                      kBeside / double(problem.effects.size()),
+                      everywhere.unknown,
+                      {e}});
+  return places;
+}
+
 /// The unknown with its evidence averaged over places; parameters are those of the best place.
-Judged judge_unknown(const Problem &problem, const WhichSettings &settings, Which &w) {
+Judged judge_unknown(const Problem &problem, const WhichSettings &settings,
+                     const std::vector<int> &best_effects, Which &w) {
   Judged best;
   double sum = 0.0, top = -INFINITY;
   std::vector<std::pair<double, double>> terms; // share, log evidence
-  for (const Place &place : places_of(problem, w.base)) {
+  for (const Place &place : places_of(problem, w.base, best_effects)) {
     Judged here =
-        judge(problem, {Hypothesis::unknown, {}, "unknown", 0.0}, place.unknown, settings);
+        judge(problem, {Hypothesis::unknown, place.on, "unknown", 0.0}, place.unknown, settings);
     here.place = place.name;
     terms.emplace_back(place.share, here.evidence.log_evidence);
     const double mass = std::log(place.share) + here.evidence.log_evidence;
@@ -97,19 +119,27 @@ std::string joined(const Problem &problem, const std::vector<int> &on) {
   return name;
 }
 
-/// The best single effects joined with every other, if one of them beats the base model.
-std::vector<Hypothesis> greedy_pairs(const Problem &problem, const Which &so_far, int seeds) {
+/// Effects by the evidence for them, the best first; none if the base model beats them all.
+std::vector<int> ranked_effects(const Which &so_far) {
   std::vector<std::pair<double, int>> singles;
   for (const Judged &j : so_far.judged)
-    if (j.hypothesis.kind == Hypothesis::effects)
+    if (j.hypothesis.single())
       singles.emplace_back(-j.evidence.log_evidence, j.hypothesis.on[0]);
   std::sort(singles.begin(), singles.end());
+  std::vector<int> out;
+  if (!singles.empty() && -singles[0].first >= so_far.of("none").evidence.log_evidence)
+    for (const auto &[cost, effect] : singles)
+      out.push_back(effect);
+  return out;
+}
+
+/// The best effects joined with every other.
+std::vector<Hypothesis> greedy_pairs(const Problem &problem, const std::vector<int> &ranked,
+                                     int seeds) {
   std::vector<Hypothesis> pairs;
-  if (singles.empty() || -singles[0].first < so_far.of("none").evidence.log_evidence)
-    return pairs;
-  for (int s = 0; s < std::min(seeds, int(singles.size())); ++s)
-    for (int o = s + 1; o < int(singles.size()); ++o) {
-      std::vector<int> on{singles[s].second, singles[o].second};
+  for (int s = 0; s < std::min(seeds, int(ranked.size())); ++s)
+    for (int o = s + 1; o < int(ranked.size()); ++o) {
+      std::vector<int> on{ranked[s], ranked[o]};
       std::sort(on.begin(), on.end());
       pairs.push_back({Hypothesis::effects, on, joined(problem, on), 0.0});
     }
@@ -130,14 +160,16 @@ Which which(const Problem &problem, const WhichSettings &settings) {
   const Matrix nothing;
   w.judged.push_back(judge(problem, {Hypothesis::none, {}, "none", 0.0}, nothing, settings));
   w.base = linearise(problem, w.judged[0].evidence.mode);
-  w.judged.push_back(judge_unknown(problem, settings, w));
   if (settings.noise)
     w.judged.push_back(judge(problem, {Hypothesis::noise, {}, "noise", 0.0}, nothing, settings));
   for (int e = 0; e < int(problem.effects.size()); ++e)
     w.judged.push_back(judge(problem, {Hypothesis::effects, {e}, problem.effects[e].name, 0.0},
                              nothing, settings));
-  for (const Hypothesis &pair : greedy_pairs(problem, w, settings.pair_seeds))
+  std::vector<int> ranked = ranked_effects(w);
+  for (const Hypothesis &pair : greedy_pairs(problem, ranked, settings.pair_seeds))
     w.judged.push_back(judge(problem, pair, nothing, settings));
+  ranked.resize(std::min(ranked.size(), std::size_t(settings.pair_seeds)));
+  w.judged.push_back(judge_unknown(problem, settings, ranked, w));
   decide(w, settings, int(problem.effects.size()));
   return w;
 }

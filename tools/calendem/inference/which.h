@@ -18,8 +18,8 @@ struct Priors {
 
 struct WhichSettings {
   Priors priors;
-  bool noise = true;              ///< "noise" (understated errors) is a hypothesis
-  int pair_seeds = 2;             ///< best single effects that are joined with all others
+  bool noise = true;  ///< "noise" (understated errors) is a hypothesis
+  int pair_seeds = 2; ///< best single effects that are joined with all others and unknown
   double claim_probability = 0.8; ///< a name is claimed from here on
   double adequacy = 0.01;         ///< and only with at least this p
   std::vector<std::string> poor;  ///< effects whose emulators are too poor to be claimed
@@ -59,8 +59,9 @@ struct Which {
 /// chi-squared with as many degrees of freedom as features in the linear-Gaussian case, n F(n, nu)
 /// with an estimated covariance; p is the chance of more. Nothing is lost to recalibration because
 /// the priors count as data. Claim: see `why`; if no prediction is adequate the claim is unknown.
-/// The unknown may sit everywhere (half its prior), or in one stage, one block or one truncation
-/// residual (the other half in equal parts); its evidence is the mean over these places.
+/// The unknown may sit everywhere (0.4 of its prior), in one stage, one block or one truncation
+/// residual (0.4 in equal parts), or beside a known effect (0.2 in equal parts for all effects,
+/// the best of which are computed); its evidence is the mean over these places.
 Which which(const Problem &problem, const WhichSettings &settings);
 
 /// The rule alone, on hypotheses that have evidence and adequacy: sets probabilities and sorts.

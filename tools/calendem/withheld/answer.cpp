@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/answer.h"
-#include "diagnose/diagnose.h"
+#include "diagnose/how_far.h"
 #include "run/child.h"
 #include "spec/messages.h"
 #include "spec/output_folder.h"
@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char *kFiles[] = {"gap.json", "gap_without.json", "baselines.json"};
+constexpr const char *kShrink = "shrink.json";
 
 /// Of the names "001", "002", ... in commitment.json.
 std::vector<std::string> ids_of(const std::string &folder) {
@@ -60,6 +61,11 @@ std::string most_probable_effect(const inference::Which &which) {
   return name;
 }
 
+bool names_effect(const std::string &gap_file) {
+  const std::string claim = nlohmann::json::parse(bytes_of(gap_file)).at("which").at("claim");
+  return claim != "none" && claim != "unknown" && claim != "noise" && claim != "undecided";
+}
+
 class Answering {
 public:
   explicit Answering(const AnswerOptions &o)
@@ -73,7 +79,7 @@ public:
 
   void answer(int k) {
     const std::string &id = ids_[std::size_t(k)], from = o_.handed_out + "/" + id;
-    const std::string identity = sha256(of_bank_ + sha256_of_files(from) + version());
+    const std::string identity = identity_of(id);
     if (is_answered(id, identity))
       return;
     fs::create_directories(o_.folder + "/" + id);
@@ -92,12 +98,46 @@ public:
     std::cout << std::flush;
   }
 
+  /// Base model, effect and placebo are run again where an effect is claimed.
+  void run_again(int k) {
+    const std::string &id = ids_[std::size_t(k)], here = o_.folder + "/" + id;
+    const std::string identity = sha256(
+        fmt::format("{} {} {}", identity_of(id), o_.rerun_packings, sha256(bytes_of(o_.liggghts))));
+    if (made_of(here + "/" + kShrink, identity))
+      return;
+    fs::remove(here + "/" + kShrink);
+    if (!names_effect(here + "/" + kFiles[0]))
+      return;
+    const Experiment experiment = experiment_in(o_.handed_out + "/" + id);
+    const Diagnosed d = diagnosed(experiment, table_, 0.0, models_);
+    std::vector<RerunModel> models = models_to_rerun(experiment, table_, d, 0.0);
+    models.erase(std::remove_if(models.begin(), models.end(),
+                                [](const RerunModel &m) { return m.role == "runner-up"; }),
+                 models.end());
+    if (models.empty())
+      return;
+    RerunOptions options;
+    options.packings = o_.rerun_packings;
+    options.study.folder = here + "/rerun";
+    options.study.liggghts = o_.liggghts;
+    options.study.jobs = o_.jobs;
+    try {
+      nlohmann::ordered_json shrink = rerun(experiment, table_, models, options);
+      write(id, kShrink, shrink, identity);
+    } catch (const Failure &f) {
+      if (f.exit_status() == kBadInput || stop_requested() != 0)
+        throw;
+      fmt::print("withheld: case {} could not be run again: {}\n", id, f.what());
+    }
+  }
+
   void write_list() const {
     nlohmann::ordered_json j = {
         {"commitment_sha256", sha256(bytes_of(o_.handed_out + "/commitment.json"))}};
     for (const std::string &id : ids_)
-      for (const char *file : kFiles)
-        j["sha256"][id + "/" + file] = sha256(bytes_of(o_.folder + "/" + id + "/" + file));
+      for (const char *file : {kFiles[0], kFiles[1], kFiles[2], kShrink})
+        if (const std::string path = o_.folder + "/" + id + "/" + file; fs::exists(path))
+          j["sha256"][id + "/" + file] = sha256(bytes_of(path));
     j["provenance"] = {{"calendem", version()},
                        {"bank_sha256", sha256(bytes_of(o_.bank))},
                        {"bank_table_sha256", sha256(bytes_of(o_.table))}};
@@ -111,6 +151,11 @@ private:
   std::vector<std::string> ids_;
   std::string of_bank_;
   SharedModels models_;
+
+  /// Of all that the answer to a case depends on.
+  std::string identity_of(const std::string &id) const {
+    return sha256(of_bank_ + sha256_of_files(o_.handed_out + "/" + id) + version());
+  }
 
   bool is_answered(const std::string &id, const std::string &identity) const {
     return std::all_of(std::begin(kFiles), std::end(kFiles), [&](const char *file) {
@@ -156,6 +201,8 @@ void answer_round(const AnswerOptions &given) {
   Answering answering(o);
   make_output_folder(o.folder);
   in_parallel(answering.cases(), o.jobs, [&](int k) { answering.answer(k); });
+  for (int k = 0; k < answering.cases() && o.rerun_packings > 0 && stop_requested() == 0; ++k)
+    answering.run_again(k);
   if (stop_requested() != 0)
     throw Failure(kSimulationFailed,
                   "withheld: stopped on request. The answers given are kept; the "

@@ -11,6 +11,8 @@ namespace calendem {
 struct AnswerOptions {
   std::string handed_out, folder, bank, table;
   int jobs = 1;
+  int rerun_packings = 0; ///< of every model that is run again; 0: none is
+  std::string liggghts;   ///< for that
 };
 
 /// Throws Failure(2) if truths lie in the folder or beside it, or if its files lead out of it.
@@ -19,8 +21,9 @@ void check_handed_out(const std::string &folder);
 /// Writes for every case NNN/gap.json, NNN/gap_without.json (the same without the effect that was
 /// the most probable) and NNN/baselines.json, and last answers.json with their hashes: without
 /// each case's own effect the right answer is "unknown", and leaving out what the diagnosis itself
-/// names gives nothing away. Reads nothing but `handed_out`, the bank and its table. Cases that
-/// are answered from the same files are not answered again.
+/// names gives nothing away. With reruns also NNN/shrink.json where an effect is claimed: base
+/// model, effect and placebo, run again on the highest pressure. Reads nothing but `handed_out`,
+/// the bank and its table. Cases that are answered from the same files are not answered again.
 void answer_round(const AnswerOptions &options);
 
 } // namespace calendem

@@ -66,7 +66,7 @@ std::string by_bic(const Problem &problem, const inference::Which &which) {
   std::string name = "none";
   double least = INFINITY;
   for (const inference::Judged &j : which.judged) {
-    if (j.hypothesis.kind != inference::Hypothesis::none && j.hypothesis.on.size() != 1)
+    if (j.hypothesis.kind != inference::Hypothesis::none && !j.hypothesis.single())
       continue;
     const inference::Likelihood likelihood(problem, j.hypothesis, Matrix());
     const double bic = -2.0 * likelihood.log(j.evidence.mode) +

@@ -15,14 +15,16 @@ struct ShownRun {
   std::vector<double> release_pressure, release_displacement;
 };
 
+/// What the press shows at one pressure: a run for each sample. What is handed out is their mean.
+using PressedSamples = std::vector<ShownRun>;
+
 /// Throws Failure(2) if files of the run are missing or damaged.
 ShownRun read_shown_run(const std::string &folder);
 
 /// Writes experiment.toml, a curve for each pressure and the recipe into `folder`, which is made.
-/// `shown`: runs of one truth, by the bank's pressures. `seed`: of the noise. `id`: the case's
-/// name.
+/// `shown`: of one truth, by the bank's pressures. `seed`: of the noise. `id`: the case's name.
 void hand_out(const std::string &folder, const std::string &id, const Round &round,
-              const Truth &truth, const std::vector<ShownRun> &shown, std::uint64_t seed);
+              const Truth &truth, const std::vector<PressedSamples> &shown, std::uint64_t seed);
 
 } // namespace calendem
 

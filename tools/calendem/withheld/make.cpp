@@ -49,21 +49,24 @@ void run_truths(const Study &study, const StudyOptions &options) {
 }
 
 /// What the press shows of each truth; empty where a run is not usable.
-std::vector<std::vector<ShownRun>> shown_runs(const std::vector<std::string> &folders,
-                                              std::size_t pressures) {
-  std::vector<std::vector<ShownRun>> out(folders.size() / pressures);
+std::vector<std::vector<PressedSamples>> shown_runs(const std::vector<std::string> &folders,
+                                                    std::size_t samples, std::size_t pressures) {
+  const std::size_t runs = samples * pressures; // of a truth
+  std::vector<std::vector<PressedSamples>> out(folders.size() / runs);
   for (std::size_t t = 0; t < out.size(); ++t) {
-    const auto first = folders.begin() + std::ptrdiff_t(t * pressures);
-    const auto last = first + std::ptrdiff_t(pressures);
-    if (std::find(first, last, "") == last)
-      std::transform(first, last, std::back_inserter(out[t]), read_shown_run);
+    const auto first = folders.begin() + std::ptrdiff_t(t * runs);
+    if (std::find(first, first + std::ptrdiff_t(runs), "") != first + std::ptrdiff_t(runs))
+      continue;
+    out[t].resize(pressures);
+    for (std::size_t k = 0; k < runs; ++k)
+      out[t][k % pressures].push_back(read_shown_run(first[std::ptrdiff_t(k)]));
   }
   return out;
 }
 
 /// In an order that tells nothing (Fisher and Yates).
 std::vector<Case> shuffled_cases(const std::vector<Truth> &truths,
-                                 const std::vector<std::vector<ShownRun>> &shown,
+                                 const std::vector<std::vector<PressedSamples>> &shown,
                                  const std::string &secret) {
   std::vector<Case> cases;
   for (std::size_t t = 0; t < truths.size(); ++t)
@@ -78,7 +81,7 @@ std::vector<Case> shuffled_cases(const std::vector<Truth> &truths,
 } // namespace
 
 void seal_round(const std::string &folder, const Round &round, const std::vector<Truth> &truths,
-                const std::vector<std::vector<ShownRun>> &shown, const std::string &secret) {
+                const std::vector<std::vector<PressedSamples>> &shown, const std::string &secret) {
   const std::vector<Case> cases = shuffled_cases(truths, shown, secret);
   if (cases.empty())
     throw Failure(kSimulationFailed, "withheld: no truth has all its runs; see sealed/study/runs.");
@@ -130,7 +133,8 @@ void make_round(const MakeOptions &given) {
   options.liggghts = o.liggghts;
   options.jobs = o.jobs;
   run_truths(study, options);
-  const auto shown = shown_runs(finished_runs(study, options), round.bank.pressures.size());
+  const auto shown = shown_runs(finished_runs(study, options), std::size_t(round.samples),
+                                round.bank.pressures.size());
   seal_round(o.folder, round, truths, shown, secret);
 }
 

@@ -22,7 +22,7 @@ void make_round(const MakeOptions &options);
 /// The part without runs: hands out and seals. `shown`: what the press shows of each truth, empty
 /// where a run is not usable.
 void seal_round(const std::string &folder, const Round &round, const std::vector<Truth> &truths,
-                const std::vector<std::vector<ShownRun>> &shown, const std::string &secret);
+                const std::vector<std::vector<PressedSamples>> &shown, const std::string &secret);
 
 } // namespace calendem
 

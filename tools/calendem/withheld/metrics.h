@@ -3,6 +3,7 @@
 #ifndef CALENDEM_WITHHELD_METRICS_H
 #define CALENDEM_WITHHELD_METRICS_H
 
+#include <cmath>
 #include <functional>
 #include <map>
 #include <string>
@@ -23,6 +24,10 @@ struct ScoredCase {
   double signal_to_noise = 0.0; ///< of a single effect; 0: not known
   std::vector<bool> covered;    ///< base parameters inside their 90 % intervals
   std::vector<bool> covered_amplitude;
+  /// Share by which the claimed effect shrinks the held-out gap: by the emulators, run again with
+  /// its 90 % interval, and the placebo's. NaN: not run again, or there was no gap.
+  double predicted_shrinkage = NAN, shrinkage = NAN, least_shrinkage = NAN, most_shrinkage = NAN;
+  double placebo_shrinkage = NAN;
   std::map<std::string, std::string> baselines;
 
   /// The n-th most probable hypothesis, from 0; empty beyond the last.

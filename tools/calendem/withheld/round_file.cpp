@@ -15,8 +15,8 @@ public:
   using TableReader::TableReader;
 
   void read_head(const toml::table &t, Round &out) {
-    tell_unknown(t, {"name", "bank", "null_packings", "null_draws", "amplitudes", "open", "pairs",
-                     "faults", "other_numerics"});
+    tell_unknown(t, {"name", "bank", "null_packings", "null_draws", "amplitudes", "samples", "open",
+                     "pairs", "faults", "other_numerics"});
     out.name = text(t, {"name", "", "withheld", 0, 0, "", "for reports", "", true});
     if (const std::string bank = path(t, {"bank", "", "", 0, 0, "", "bank (TOML)", "", true});
         !bank.empty())
@@ -27,6 +27,7 @@ public:
     out.null_packings = whole("null_packings", "12", 1000);
     out.null_draws = whole("null_draws", "100", 100000);
     out.amplitudes = whole("amplitudes", "3", 100);
+    out.samples = int(number(t, {"samples", "", "1", 1, 1000, "", "number of", "", false, true}));
     if (out.null_draws < out.null_packings)
       mistakes_.add(line_of(t), fmt::format("null_draws is {}, null_packings {}: every packing "
                                             "needs a draw.",

@@ -6,6 +6,8 @@
 //   bank = "../bank/bank.toml"       # relative to this file
 //   null_packings = 12               # nothing is left out of the base model
 //   null_draws = 100                 # of noise, over these packings
+//   samples = 4                      # of one truth, each as large as the bank's cell; their means
+//                                    # are handed out
 //   amplitudes = 3                   # truths of every effect of the bank, each in its own part of
 //                                    # the prior
 //   open = ["cohesion"]              # changes that are no effect of the table (hidden_changes.cpp)
@@ -36,7 +38,7 @@ struct MeasurementNoise {
 struct Round {
   std::string file, name;
   BankSpec bank;
-  int null_packings = 12, null_draws = 100, amplitudes = 3;
+  int null_packings = 12, null_draws = 100, amplitudes = 3, samples = 1;
   /// Each a list of names: effects of the bank, hidden changes, "noise".
   std::vector<std::vector<std::string>> open, pairs, faults, other_numerics;
   MeasurementNoise noise;

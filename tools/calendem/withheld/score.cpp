@@ -54,6 +54,19 @@ std::vector<bool> covered_amplitudes(const Json &truth, const Json &gap) {
   return out;
 }
 
+double number(const Json &j, const char *key) {
+  return j.contains(key) && j[key].is_number() ? j[key].get<double>() : std::nan("");
+}
+
+void add_shrinkage(const Json &shrink, ScoredCase &c) {
+  const Json share = shrink.value("shrinkage", Json::object());
+  c.predicted_shrinkage = number(share, "predicted");
+  c.shrinkage = number(share, "value");
+  c.least_shrinkage = number(share, "low90");
+  c.most_shrinkage = number(share, "high90");
+  c.placebo_shrinkage = number(shrink, "placebo");
+}
+
 ScoredCase case_of(const Json &truth, const Json &gap) {
   ScoredCase c;
   c.id = truth.at("id");
@@ -79,8 +92,9 @@ ScoredCase case_of(const Json &truth, const Json &gap) {
 } // namespace
 
 void add_cases(const Json &truth, const Json &gap, const Json &without, const Json &baselines,
-               std::vector<ScoredCase> &out) {
+               const Json &shrink, std::vector<ScoredCase> &out) {
   ScoredCase c = case_of(truth, gap);
+  add_shrinkage(shrink, c);
   c.covered = covered_parameters(truth, gap);
   c.covered_amplitude = covered_amplitudes(truth, gap);
   c.baselines = baselines.at("named").get<std::map<std::string, std::string>>();
@@ -111,15 +125,17 @@ std::vector<ScoredCase> open_round(const std::string &folder, const std::string 
     must_be(commitment(one.at("salt"), truth), committed.value(id, ""), "the truth of case " + id);
     must_be(sha256_of_files(folder + "/handed_out/" + id), truth.at("handed_out_sha256"),
             "what was handed out of case " + id);
-    Json answer[3];
-    const char *const files[] = {"gap.json", "gap_without.json", "baselines.json"};
-    for (int k = 0; k < 3; ++k) {
+    Json answer[4] = {{}, {}, {}, Json::object()};
+    const char *const files[] = {"gap.json", "gap_without.json", "baselines.json", "shrink.json"};
+    for (int k = 0; k < 4; ++k) {
       const std::string name = id + "/" + files[k];
+      if (k == 3 && !list.at("sha256").contains(name))
+        continue;
       must_be(sha256(bytes_of(answers + "/" + name)), list.at("sha256").value(name, ""),
               "the answer " + name);
       answer[k] = json_of(answers + "/" + name);
     }
-    add_cases(truth, answer[0], answer[1], answer[2], out);
+    add_cases(truth, answer[0], answer[1], answer[2], answer[3], out);
   }
   return out;
 }

@@ -13,10 +13,11 @@ namespace calendem {
 std::vector<ScoredCase> open_round(const std::string &folder, const std::string &answers);
 
 /// One case from its truth and its answer; `without`: the answer without its own effect, which
-/// is a case of its own where that was the truth's only effect.
+/// is a case of its own where that was the truth's only effect; `shrink`: of models run again, an
+/// empty object where none was.
 void add_cases(const nlohmann::json &truth, const nlohmann::json &gap,
                const nlohmann::json &without, const nlohmann::json &baselines,
-               std::vector<ScoredCase> &out);
+               const nlohmann::json &shrink, std::vector<ScoredCase> &out);
 
 /// Writes scores.json, scores.md and scores.html into `folder`.
 void write_scores(const std::vector<ScoredCase> &cases, const std::string &round,

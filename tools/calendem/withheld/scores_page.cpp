@@ -59,6 +59,9 @@ Json scores_of(const std::vector<ScoredCase> &cases, const std::string &round) {
          {"probability_of_truth",
           number(c.probability.count(c.truth) ? c.probability.at(c.truth) : 0.0)},
          {"signal_to_noise", c.signal_to_noise},
+         {"shrinkage_predicted", number(c.predicted_shrinkage)},
+         {"shrinkage_rerun", number(c.shrinkage)},
+         {"shrinkage_placebo", number(c.placebo_shrinkage)},
          {"baselines", c.baselines}});
   out["note"] = "Truths made by the same program as the bank are withheld, not independent.";
   out["provenance"] = {{"calendem", version()}};

@@ -22,10 +22,10 @@ public:
               double high = 1.0) {
     Truth t;
     t.block = block;
-    // far from the bank's own seeds, which count from 1
-    t.packing = static_cast<unsigned long>(1e6 + 4e9 * 0.99 * random_.uniform());
+    for (int k = 0; k < round_.samples; ++k) // far from the bank's own seeds, which count from 1
+      t.packings.push_back(static_cast<unsigned long>(1e6 + 4e9 * 0.99 * random_.uniform()));
     for (const BankParameter &p : round_.bank.parameters)
-      t.base.push_back(prior_value(p.low, p.high, p.spread, 0.05 + 0.9 * random_.uniform()));
+      t.base.push_back(prior_value(p.low, p.high, p.spread, random_.uniform()));
     for (const std::string &name : names)
       if (name == "noise")
         t.understated =
@@ -48,7 +48,7 @@ private:
   }
 };
 
-/// Keys that the truth changes beyond the bank's own, with their values.
+/// Keys that the truth changes beyond the bank's own, with their values; all but the packing.
 std::map<std::string, std::string> changed_keys(const Round &round, const Truth &t,
                                                 const std::map<std::string, std::string> &usual) {
   std::map<std::string, std::string> out = usual;
@@ -62,7 +62,6 @@ std::map<std::string, std::string> changed_keys(const Round &round, const Truth 
     for (const ChangedKey &c : find_hidden(name)->keys)
       out[c.key] =
           c.value.empty() ? fmt::format("{:.6g}", c.factor * std::stod(out.at(c.key))) : c.value;
-  out["recipe.seed"] = fmt::format("{}", t.packing);
   return out;
 }
 
@@ -86,7 +85,6 @@ std::map<std::string, std::string> usual_values(const Round &round,
       for (const ChangedKey &c : find_hidden(name)->keys)
         add(c.key);
   }
-  add("recipe.seed");
   return out;
 }
 
@@ -139,15 +137,19 @@ Study truth_study(const Round &round, const std::vector<Truth> &truths) {
   const auto usual = usual_values(round, truths);
   for (const auto &[key, value] : usual)
     study.columns.push_back(key);
-  study.columns.push_back("case.platen.max_pressure_MPa");
+  study.columns.insert(study.columns.end(), {"recipe.seed", "case.platen.max_pressure_MPa"});
   std::vector<std::vector<std::string>> rows;
-  for (const Truth &t : truths)
-    for (const double pressure : round.bank.pressures) {
-      rows.emplace_back();
-      for (const auto &[key, value] : changed_keys(round, t, usual))
-        rows.back().push_back(value);
-      rows.back().push_back(fmt::format("{:.6g}", pressure * (1.0 + t.pressure_error)));
-    }
+  for (const Truth &t : truths) {
+    std::vector<std::string> changed;
+    for (const auto &[key, value] : changed_keys(round, t, usual))
+      changed.push_back(value);
+    for (const unsigned long packing : t.packings)
+      for (const double pressure : round.bank.pressures) {
+        rows.push_back(changed);
+        rows.back().push_back(fmt::format("{}", packing));
+        rows.back().push_back(fmt::format("{:.6g}", pressure * (1.0 + t.pressure_error)));
+      }
+  }
   Mistakes mistakes(round.file, 20);
   add_runs(study, rows, mistakes);
   mistakes.stop_if_any();
@@ -160,10 +162,14 @@ nlohmann::json to_json(const Truth &t, const BankSpec &bank) {
     effects[name] = value;
   for (std::size_t k = 0; k < bank.parameters.size(); ++k)
     base[bank.parameters[k].name] = t.base[k];
-  return {{"block", t.block},          {"answer", right_answer(t, bank)},
-          {"effects", effects},        {"hidden", t.hidden},
-          {"parameters", base},        {"understated", t.understated},
-          {"packing_seed", t.packing}, {"pressure_error", t.pressure_error}};
+  return {{"block", t.block},
+          {"answer", right_answer(t, bank)},
+          {"effects", effects},
+          {"hidden", t.hidden},
+          {"parameters", base},
+          {"understated", t.understated},
+          {"packing_seeds", t.packings},
+          {"pressure_error", t.pressure_error}};
 }
 
 } // namespace calendem

@@ -9,27 +9,28 @@
 
 namespace calendem {
 
-/// One packing with one set of parameters, run to every pressure of the bank.
+/// One set of parameters, run to every pressure of the bank on a packing for each sample.
 struct Truth {
   std::string block;                                   ///< null, single, open, pair, fault, other
   std::vector<std::pair<std::string, double>> effects; ///< value of the effect's key
   std::vector<std::string> hidden;
-  double understated = 1.0;    ///< true over stated standard deviations
-  unsigned long packing = 0;   ///< seed of the recipe
-  std::vector<double> base;    ///< of the bank's parameters
-  double pressure_error = 0.0; ///< true over stated pressure, less 1
-  int draws = 1;               ///< of noise
+  double understated = 1.0;            ///< true over stated standard deviations
+  std::vector<unsigned long> packings; ///< seeds of the recipe, one for each sample
+  std::vector<double> base;            ///< of the bank's parameters
+  double pressure_error = 0.0;         ///< true over stated pressure, less 1
+  int draws = 1;                       ///< of noise
 };
 
 /// What a diagnosis should say: none, effects joined by " + " in the bank's order, noise, unknown.
 std::string right_answer(const Truth &truth, const BankSpec &bank);
 
-/// All truths of the round, the same for the same secret. Base parameters lie within the central
-/// 90 % of their priors; the k-th of n amplitudes within the k-th n-th of its prior.
+/// All truths of the round, the same for the same secret. Base parameters are drawn from their
+/// priors, or intervals could not be judged; the k-th of n amplitudes from the k-th n-th of its
+/// prior.
 std::vector<Truth> draw_truths(const Round &round, const std::string &secret);
 
-/// The runs of all truths, one per pressure of the bank. Throws Failure(2) where values contradict
-/// each other.
+/// The runs of all truths: for each sample, one per pressure of the bank. Throws Failure(2) where
+/// values contradict each other.
 Study truth_study(const Round &round, const std::vector<Truth> &truths);
 
 nlohmann::json to_json(const Truth &truth, const BankSpec &bank);

@@ -27,6 +27,7 @@ void add_make(CLI::App &app) {
 
 void add_answer(CLI::App &app) {
   auto o = std::make_shared<AnswerOptions>();
+  o->liggghts = liggghts_program();
   o->bank = input_scripts() + "/cases/bank/bank.toml";
   CLI::App *verb = app.add_subcommand("answer", "Diagnose every case that was handed out; cannot "
                                                 "read truths");
@@ -36,7 +37,12 @@ void add_answer(CLI::App &app) {
   verb->add_option("--bank", o->bank, "bank (TOML) that the table was made from");
   verb->add_option("--table", o->table,
                    "the bank's table; default: beside the bank, with its name");
-  verb->add_option("--jobs", o->jobs, "cases at a time")->check(CLI::Range(1, 4096));
+  verb->add_option("--jobs", o->jobs, "cases, then runs at a time")->check(CLI::Range(1, 4096));
+  verb->add_option("--rerun", o->rerun_packings,
+                   "where an effect is claimed, run base model, effect and a placebo again on so "
+                   "many new packings; default: nothing is run again")
+      ->check(CLI::Range(2, 1000));
+  verb->add_option("--liggghts", o->liggghts, "program with the plugin, for --rerun");
   verb->callback([o] {
     if (o->table.empty())
       o->table = std::filesystem::path(o->bank).replace_extension("csv").string();
