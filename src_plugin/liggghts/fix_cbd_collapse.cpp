@@ -23,9 +23,9 @@ const double kFourThirdsPi = 4.18879020478639098462;
 }
 
 FixCbdCollapse::FixCbdCollapse(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), type_(0), nanoporosity_(NULL), initial_radius_(NULL),
-      largest_pressure_(0.0), cohesion_energy_density_(NULL), pairs_have_effects_(false),
-      bonds_(NULL), energy_(NULL) {
+    : Fix(lmp, narg, arg), type_(0), imposed_until_(0.0), nanoporosity_(NULL),
+      initial_radius_(NULL), largest_pressure_(0.0), cohesion_energy_density_(NULL),
+      pairs_have_effects_(false), bonds_(NULL), energy_(NULL), upper_(NULL) {
   law_.relaxation = 0.1;
   law_.yield_pressure = law_.hardening = -1.0;
   nevery = 50;
@@ -77,19 +77,29 @@ void FixCbdCollapse::parse(int narg, char **arg) {
       law_.yield_pressure = number(key, value, 0.0, 1e9);
     else if (key == "hardening")
       law_.hardening = number(key, value, 1e-3, 1e9);
+    else if (key == "imposed")
+      imposed_until_ = number(key, value, 1e-3, 1e9);
     else if (key == "relaxation")
       law_.relaxation = number(key, value, 1e-6, 1e9);
     else if (key == "every")
       nevery = static_cast<int>(number(key, value, 1, 1e6));
     else {
       const std::string message = "unknown setting '" + key +
-                                  "'; known: type, initial, floor, yield, hardening, relaxation, "
-                                  "every";
+                                  "'; known: type, initial, floor, yield, hardening, imposed, "
+                                  "relaxation, every";
       error->fix_error(FLERR, this, message.c_str());
     }
   }
-  if (type_ == 0 || law_.yield_pressure < 0.0 || law_.hardening <= 0.0)
-    error->fix_error(FLERR, this, "needs at least 'type T yield P hardening H'");
+  check();
+}
+
+void FixCbdCollapse::check() {
+  const bool by_law = law_.yield_pressure >= 0.0 && law_.hardening > 0.0;
+  if (type_ == 0 || (!by_law && imposed_until_ == 0.0))
+    error->fix_error(FLERR, this,
+                     "needs at least 'type T yield P hardening H' or 'type T imposed P'");
+  if (by_law && imposed_until_ > 0.0)
+    error->fix_error(FLERR, this, "'yield' and 'imposed' exclude each other: give one of them");
   if (law_.floor > law_.initial)
     error->fix_error(FLERR, this, "'floor' must not lie above 'initial'");
 }
@@ -105,6 +115,12 @@ void FixCbdCollapse::init() {
   for (int k = 0; k < modify->nfix; ++k)
     if (FixWallGranPlaten *wall = dynamic_cast<FixWallGranPlaten *>(modify->fix[k]))
       walls_.push_back(wall);
+  upper_ = NULL;
+  for (FixWallGranPlaten *wall : walls_)
+    if (wall->is_top())
+      upper_ = wall;
+  if (imposed_until_ > 0.0 && !upper_)
+    error->fix_error(FLERR, this, "'imposed' needs a fix wall/gran/platen with 'side top'");
 }
 
 bool FixCbdCollapse::is_mine(int i) const { return i < atom->nlocal && atom->type[i] == type_; }
@@ -154,7 +170,10 @@ bool FixCbdCollapse::decide(const std::vector<double> &sum, std::vector<double> 
     if (!is_mine(i))
       continue;
     const double p = calendem::mean_pressure(sum[i], atom->radius[i]);
-    next[i] = law_.advance(nanoporosity_[i], p, nevery * update->dt);
+    const double to = imposed_until_ > 0.0
+                          ? law_.imposed(upper_->largest_pressure(), imposed_until_)
+                          : law_.target(p);
+    next[i] = law_.follow(nanoporosity_[i], to, nevery * update->dt);
     falls = falls || next[i] < nanoporosity_[i];
     largest_pressure_ = std::fmax(largest_pressure_, p);
   }

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // fix ID all cbd/collapse type T initial PHI floor PHI yield P hardening H relaxation TIME every N
+// fix ID all cbd/collapse type T initial PHI floor PHI imposed P relaxation TIME every N
 //
 // Nanopores of the spheres of atom type T collapse under the mean pressure of their contacts by
 // physics/nanopore_collapse.h: every N steps (default 50), after the step, their radii shrink and
 // their densities grow at constant mass; ghosts follow at once. Units micro: pressures in kPa,
 // times in us. Contacts with walls are those with fixes wall/gran/platen. Defaults: initial 0.5,
 // floor 0.27, relaxation 0.1. Needs fix bond/bpm (for its lists); books in fix energy/bpm if there
-// is one. Global vector: 1 mean nanoporosity, 2 lowest, 3 largest mean pressure of a sphere at the
-// last
-//   update [kPa], 4 volume that has gone [um3]. Per-atom state restarts under the same fix ID.
+// is one. `imposed`: all fall alike, to the floor as the largest pressure of the upper fix
+// wall/gran/platen rises to P. Global vector: 1 mean nanoporosity, 2 lowest, 3 largest mean
+// pressure of a sphere at the last update [kPa], 4 volume that has gone [um3]. Per-atom state
+// restarts under the same fix ID.
 #ifdef FIX_CLASS
 
 FixStyle(cbd/collapse, FixCbdCollapse)
@@ -50,6 +52,7 @@ public:
 private:
   calendem::NanoporeCollapse law_;
   int type_;
+  double imposed_until_;                   // 0: the spheres' own law [kPa]
   double *nanoporosity_, *initial_radius_; // of atoms of other types: unused
   double largest_pressure_;                // this rank's, at the last update
   double **cohesion_energy_density_;
@@ -58,8 +61,10 @@ private:
   class FixBondBpm *bonds_;
   class FixEnergyBpm *energy_; // NULL when no ledger is kept
   std::vector<class FixWallGranPlaten *> walls_;
+  class FixWallGranPlaten *upper_; // NULL: there is none
 
   void parse(int narg, char **arg);
+  void check();
   double number(const std::string &key, const char *text, double low, double high);
   bool is_mine(int i) const;
   void add_pair_forces(std::vector<double> &sum) const;

@@ -11,13 +11,15 @@
 // once, it would make waves of its own, and a short wave would do the work of a lasting pressure.
 // p of a sphere of radius r from its contacts (Love-Weber stress, trace/3): p = sum F_n r/(3 V),
 // F_n > 0 pressing; cohesion counts as tension, so a sphere in its cohesive equilibrium has p = 0.
-// Range: 0 <= phi_f <= phi_0 < 1, p_y >= 0, H > 0, t_r > 0. Not conservative: fix energy/bpm books
-// the elastic and cohesive energy of the contacts that shrink.
-// Source: exponential compaction after Heckel, Trans. Metall. Soc. AIME 221 (1961) 671, made rate
-// dependent as Duvaut and Lions, Les inequations en mecanique et en physique (1972) do; from 50 %
-// to 27 % as Xu et al. have it between 0 and 150 MPa. Deviations: Heckel has no floor and no yield;
-// his K is 1/H. Verified by tests/unit/physics/nanopore_collapse_test.cpp,
-// tests/verification/nanopore_collapse.
+// Imposed instead: phi_t = phi_0 - (phi_0 - phi_f) min(1, P/P_e) for every sphere alike, P the
+// largest pressure that the platen has had. That is no law of the material: Xu et al. tell both
+// ends and that the fall happens under pressure.
+// Range: 0 <= phi_f <= phi_0 < 1, p_y >= 0, H > 0, t_r > 0, P_e > 0. Not conservative: fix
+// energy/bpm books the elastic and cohesive energy of the contacts that shrink. Source: exponential
+// compaction after Heckel, Trans. Metall. Soc. AIME 221 (1961) 671, made rate dependent as Duvaut
+// and Lions, Les inequations en mecanique et en physique (1972) do; from 50 % to 27 % as Xu et al.
+// have it between 0 and 150 MPa. Deviations: Heckel has no floor and no yield; his K is 1/H.
+// Verified by tests/unit/physics/nanopore_collapse_test.cpp, tests/verification/nanopore_collapse.
 #ifndef CALENDEM_PHYSICS_NANOPORE_COLLAPSE_H
 #define CALENDEM_PHYSICS_NANOPORE_COLLAPSE_H
 
@@ -39,10 +41,20 @@ struct NanoporeCollapse {
                : floor + (initial - floor) * std::exp(-(pressure - yield_pressure) / hardening);
   }
 
-  /// Nanoporosity after `time` [us] at a pressure [kPa]; never above what it was.
-  double advance(double nanoporosity, double pressure, double time) const {
-    const double to = std::fmin(target(pressure), nanoporosity);
+  /// Imposed nanoporosity at the platen's largest pressure, which ends its fall at `until` [kPa].
+  double imposed(double platen_pressure, double until) const {
+    return initial - (initial - floor) * std::fmin(std::fmax(platen_pressure / until, 0.0), 1.0);
+  }
+
+  /// Nanoporosity after `time` [us] on the way to another; never above what it was.
+  double follow(double nanoporosity, double leads_to, double time) const {
+    const double to = std::fmin(leads_to, nanoporosity);
     return to + (nanoporosity - to) * std::exp(-time / relaxation);
+  }
+
+  /// Nanoporosity after `time` [us] at a pressure [kPa] of the sphere.
+  double advance(double nanoporosity, double pressure, double time) const {
+    return follow(nanoporosity, target(pressure), time);
   }
 
   /// Radius [um] at a nanoporosity of a sphere that had initial_radius at phi_0.

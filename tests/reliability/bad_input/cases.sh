@@ -187,6 +187,11 @@ pores_open() {
     file case.toml
   refused case.toml "case.toml:4: effects.cbd_collapse.floor_nanoporosity is 0.45" "pores would open"
 }
+imposed_and_by_law() {
+  printf '%s\n' 'electrode = "e"' '[effects.cbd_collapse]' 'yield_pressure_MPa = 20' '[imposed]' \
+    'cbd_nanoporosity_until_MPa = 150' | file case.toml
+  refused case.toml "case.toml:5: imposed.cbd_nanoporosity_until_MPa is 150" "Set one of them to 0"
+}
 relaxes_into_cohesion() {
   printf '%s\n' 'electrode = "e"' '[effects.cbd_viscoelasticity]' 'relaxed_fraction = 0.9' | file case.toml
   refused case.toml "case.toml:3: effects.cbd_viscoelasticity.relaxed_fraction is 0.9" "am and cbd spheres" \
@@ -571,6 +576,8 @@ script_effects() {
   says "ERROR: model hertz_effects: contactRelaxationTime of atom types 1 and 2 is 0" "must be a finite number > 0"
   expect 1 script -var cbd_yield_MPa 5 -var cbd_floor_phi 0.6
   says "ERROR: Fix cbd/collapse" "'floor' must not lie above 'initial'"
+  expect 1 script -var cbd_yield_MPa 5 -var cbd_imposed_MPa 150
+  says "ERROR: Fix cbd/collapse" "'yield' and 'imposed' exclude each other"
   expect 1 script -var collector_yield_GPa 0.1 -var ced_am_J_m3 0 -var speed_m_s 4 -var touch_speed_m_s 4
   says "ERROR on proc 0: model hertz_effects: a sphere of type 1 has sunk" "into the wall of type 3" "larger cell"
 }

@@ -42,6 +42,16 @@ TEST(NanoporeCollapse, NeverComesBack) {
   }
 }
 
+// Requirement: an imposed fall is linear in the platen's pressure and ends at the floor; without
+// pressure, or under pull, nothing falls.
+TEST(NanoporeCollapse, Imposed) {
+  EXPECT_EQ(law.imposed(-1.0, 1e5), 0.5);
+  EXPECT_EQ(law.imposed(0.0, 1e5), 0.5);
+  EXPECT_DOUBLE_EQ(law.imposed(4e4, 1e5), 0.5 - 0.4 * 0.23);
+  EXPECT_DOUBLE_EQ(law.imposed(1e5, 1e5), 0.27);
+  EXPECT_DOUBLE_EQ(law.imposed(3e5, 1e5), 0.27);
+}
+
 // Requirement: the solid in the sphere is kept; the paper's spheres: 1.316 um at 50 % become 1.16
 // um at 27 % (its three digits).
 TEST(NanoporeCollapse, SolidIsKept) {

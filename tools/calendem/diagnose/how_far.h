@@ -26,6 +26,9 @@ struct RerunModel {
 std::vector<RerunModel> models_to_rerun(const Experiment &experiment, const BankTable &table,
                                         const Diagnosed &diagnosed, double cells);
 
+/// What was measured on the conditions of the data.
+HeldOut held_out_of(const ExperimentData &data);
+
 struct RerunOptions {
   StudyOptions study; ///< folder, program, jobs
   int packings = 4;

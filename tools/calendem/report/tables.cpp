@@ -186,6 +186,9 @@ json headline_of(const Run &run) {
   figures.push_back(figure("Bonds broken at maximum", kPercent * c["broken_fraction"][top], "%", 1,
                            std::isfinite(bonds) ? "of " + shown(bonds, 0) : ""));
   figures.push_back(figure("Cracked bodies", cracked, "", 0, of_bodies));
+  if (s.contains("imposed"))
+    figures.push_back(figure("CBD nanoporosity", kPercent * number_in(s["imposed"], "final"), "%",
+                             1, s["imposed"].value("what", "imposed")));
   figures.push_back(figure("Largest |P top − P bottom| / P",
                            kPercent * worst_imbalance(c, kImbalanceThreshold), "%", 1,
                            "above 5 MPa; limit 5 %"));

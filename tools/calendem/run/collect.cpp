@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "run/collect.h"
+#include "physics/nanopore_collapse.h"
 #include "physics/press_instruments.h"
 #include "run/energy.h"
 #include "spec/provenance.h"
@@ -105,6 +106,19 @@ nlohmann::json quasi_static(const std::vector<RawRow> &rows, double average) {
           {"pressure_difference_max_of_a_row", worst_row},
           {"rows_above_5_MPa", n},
           {"rows_with_difference_above_5_percent", over}};
+}
+
+/// What was put in by hand where a model would need a law; null: nothing.
+nlohmann::json imposed(const Settings &s, double max_pressure) {
+  const double until = s.number("imposed.cbd_nanoporosity_until_MPa"),
+               initial = s.number("effects.cbd_collapse.initial_nanoporosity"),
+               floor = s.number("effects.cbd_collapse.floor_nanoporosity");
+  if (until <= 0.0)
+    return nullptr;
+  const NanoporeCollapse law = {initial, floor, 0.0, 1.0, 1.0};
+  return {{"what", fmt::format("imposed, not predicted: from {:g} to {:g} % at {:g} MPa",
+                               100.0 * initial, 100.0 * floor, until)},
+          {"final", law.imposed(max_pressure, until)}};
 }
 
 std::string platen_stopped(const std::vector<RawRow> &rows, const Settings &s) {
@@ -228,6 +242,8 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   s["bodies"] = bodies;
   s["cracked_bodies"] = cracked;
   s["cracked_criterion"] = "at least 8 % of its bonds broken and more than one fragment";
+  if (const nlohmann::json by_hand = imposed(settings, top.p_top); !by_hand.is_null())
+    s["imposed"] = by_hand;
   s["quasi_static"] = quasi_static(rows, settings.number("numerics.average_us"));
   s["energy_fJ"] = energy_ledger(rows, top);
   const PressInstruments press = instruments_of(settings);

@@ -51,6 +51,9 @@ const std::vector<Key> &case_keys() {
        "the recipe's cbd.nanoporosity_percent"},
       {"effects.cbd_collapse.floor_nanoporosity", "cbd_floor_phi", "0.27", 0, 0.95, "fraction",
        "what no pressure goes below"},
+      {"imposed.cbd_nanoporosity_until_MPa", "cbd_imposed_MPa", "0", 0, 2000, "MPa",
+       "pressure of the platen up to which nanoporosity falls from initial to floor in all CBD "
+       "alike, as Xu et al. impose it; 0: it does not"},
       {"effects.cbd_viscoelasticity.relaxed_fraction", "cbd_relaxed_fraction", "0", 0, 0.95,
        "fraction", "of the stiffness of contacts with CBD that relaxes; 0: elastic"},
       {"effects.cbd_viscoelasticity.time_us", "cbd_relaxation_us", "1", 1e-3, 1e6, "us",
@@ -167,6 +170,16 @@ void check_floor(const Settings &s, Mistakes &mistakes) {
                                             floor, s.text(floor), initial, s.text(initial)));
 }
 
+void check_imposed(const Settings &s, Mistakes &mistakes) {
+  const std::string law = "effects.cbd_collapse.yield_pressure_MPa",
+                    imposed = "imposed.cbd_nanoporosity_until_MPa";
+  if (s.sound({law, imposed}) && s.number(law) > 0.0 && s.number(imposed) > 0.0)
+    mistakes.add(s.line(imposed), fmt::format("{} is {} and {} is {}: nanoporosity follows either "
+                                              "the pressure of each sphere or the platen's. Set "
+                                              "one of them to 0.",
+                                              imposed, s.text(imposed), law, s.text(law)));
+}
+
 void check_target(const Settings &s, Mistakes &mistakes) {
   const std::string control = s.text("platen.control");
   if (control == "pressure" || !s.sound({"platen.control", "platen." + control + "_um"}))
@@ -186,6 +199,7 @@ void check_case(const Settings &s, Mistakes &mistakes) {
   check_collapse(s, "am", "cbd", 0.2, mistakes);
   check_yield(s, mistakes);
   check_floor(s, mistakes);
+  check_imposed(s, mistakes);
   check_relaxed(s, mistakes);
   check_target(s, mistakes);
 }

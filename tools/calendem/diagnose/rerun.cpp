@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The chosen models run again, and how far they are from what was held out.
+#include "compare/observables.h"
+#include "diagnose/how_far.h"
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace calendem {
+using inference::Matrix;
+namespace {
+
+std::string text_of(double value) { return fmt::format("{:.4g}", value); }
+
+/// The models as runs: for each, the packings; for each packing, the pressures. `film`: thickness
+/// of the bank's film over the sample's; an instrument's micrometres do not grow with a film.
+Study study_of(const BankTable &table, const std::vector<RerunModel> &models,
+               const std::vector<double> &pressures, int packings, double film) {
+  const BankSpec &spec = table.spec;
+  Study study;
+  study.file = spec.file;
+  study.name = "how far";
+  study.recipe_file = spec.recipe_file;
+  study.case_file = spec.case_file;
+  study.keep_all = false;
+  study.columns = {"recipe.seed"};
+  for (const BankParameter &p : spec.parameters)
+    study.columns.insert(study.columns.end(), p.keys.begin(), p.keys.end());
+  for (const std::string &name : spec.effects)
+    for (const std::string &key : find_effect(name).parameter.keys)
+      study.columns.push_back("case." + key);
+  study.columns.push_back("case.platen.max_pressure_MPa");
+  std::vector<std::vector<std::string>> rows;
+  for (const RerunModel &m : models)
+    for (int k = 1; k <= packings; ++k)
+      for (const double pressure : pressures) {
+        // seeds that no bank has
+        std::vector<std::string> row = {fmt::format("{}", 100000 + k)};
+        for (std::size_t p = 0; p < spec.parameters.size(); ++p)
+          row.insert(row.end(), spec.parameters[p].keys.size(), text_of(m.base[p]));
+        for (const std::string &name : spec.effects) {
+          const EffectParameter &p = find_effect(name).parameter;
+          const double on_film = find_effect(name).instrument ? film : 1.0;
+          const auto on = m.effect.find(name);
+          row.insert(row.end(), p.keys.size(),
+                     on == m.effect.end() ? p.off : text_of(on_film * on->second));
+        }
+        row.push_back(text_of(pressure));
+        rows.push_back(row);
+      }
+  Mistakes mistakes(spec.file, 20);
+  add_runs(study, rows, mistakes);
+  mistakes.stop_if_any();
+  return study;
+}
+
+/// The runs as rows of a bank's table: each model is a base point, so that the same code finds the
+/// observables.
+BankTable table_of(const BankTable &bank, const std::vector<RerunModel> &models, int packings,
+                   const std::vector<std::string> &folders, const std::vector<double> &pressures) {
+  BankTable out;
+  out.spec = bank.spec;
+  out.spec.pressures = pressures;
+  out.spec.effects.clear();
+  for (std::size_t k = 0; k < folders.size(); ++k) {
+    BankRow row;
+    row.point.base_point = int(k / pressures.size());
+    row.point.packing = row.point.base_point + 1;
+    row.point.base = models[k / pressures.size() / std::size_t(packings)].base;
+    row.run = read_simulated_run(folders[k]);
+    out.rows.push_back(row);
+  }
+  return out;
+}
+
+nlohmann::ordered_json json_of(const Estimate &e) {
+  return {{"value", e.value}, {"low90", e.low90}, {"high90", e.high90}};
+}
+
+/// Pressures of the held-out conditions, rising.
+std::vector<double> pressures_of(const Experiment &e) {
+  std::vector<double> out;
+  for (const Condition &c : e.conditions)
+    if (std::find(e.test.begin(), e.test.end(), c.id) != e.test.end() && c.max_pressure_MPa)
+      out.push_back(c.max_pressure_MPa->value);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+/// What was measured and what the models gave, observable by observable.
+nlohmann::ordered_json observables(const HeldOut &h, const std::vector<inference::Observable> &of,
+                                   const std::vector<RerunModel> &models,
+                                   const std::vector<Matrix> &simulated) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (Eigen::Index i = 0; i < h.measured.size(); ++i) {
+    const inference::Observable &o = of[std::size_t(i)];
+    nlohmann::ordered_json row = {{"condition", o.condition},  {"name", o.name},
+                                  {"stage", o.stage},          {"coordinate", o.coordinate},
+                                  {"measured", h.measured[i]}, {"sd", h.sd[i]}};
+    for (std::size_t m = 0; m < models.size(); ++m)
+      row[models[m].role] = simulated[m].row(i).mean();
+    out.push_back(row);
+  }
+  return out;
+}
+
+nlohmann::ordered_json models_json(const BankSpec &spec, const HeldOut &h,
+                                   const std::vector<RerunModel> &models,
+                                   const std::vector<Matrix> &simulated) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    nlohmann::ordered_json parameters;
+    for (std::size_t p = 0; p < spec.parameters.size(); ++p)
+      parameters[spec.parameters[p].name] = models[m].base[p];
+    for (const auto &[effect, value] : models[m].effect)
+      parameters[find_effect(effect).parameter.keys.front()] = value;
+    out.push_back({{"role", models[m].role},
+                   {"hypothesis", models[m].hypothesis},
+                   {"parameters", parameters},
+                   {"gap", json_of(gap_of_packings(h, simulated[m]))},
+                   {"predicted_gap", json_of(models[m].predicted)}});
+    if (m > 0)
+      out.back()["shrinkage"] = json_of(shrinkage_of(h, simulated[0], simulated[m]));
+  }
+  return out;
+}
+
+/// The answer in a few numbers, from the models as told.
+nlohmann::ordered_json in_short(const nlohmann::ordered_json &models, double floor) {
+  const nlohmann::ordered_json &before = models[0];
+  nlohmann::ordered_json out = {{"before", before["gap"]["value"]}, {"noise_floor", floor}};
+  for (const auto &m : models) {
+    const std::string role = m["role"];
+    if (role == "runner-up")
+      out["runner_up"] = {{"hypothesis", m["hypothesis"]},
+                          {"after", m["gap"]["value"]},
+                          {"fraction", m["shrinkage"]["value"]}};
+    else if (role == "placebo")
+      out["placebo"] = m["shrinkage"]["value"];
+    else if (role == "after") {
+      const nlohmann::ordered_json &share = m["shrinkage"];
+      out["after"] = out["unexplained"] = m["gap"]["value"];
+      out["fraction"] = share["value"];
+      out["interval90"] = {share["low90"], share["high90"]};
+      out["shrinkage"] = share;
+      out["shrinkage"]["predicted"] = 1.0 - m["predicted_gap"]["value"].get<double>() /
+                                                before["predicted_gap"]["value"].get<double>();
+    }
+  }
+  return out;
+}
+
+nlohmann::ordered_json curves(const Experiment &e, const BankTable &runs,
+                              const std::vector<RerunModel> &models, int packings) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const Condition &c : e.conditions) {
+    if (std::find(e.test.begin(), e.test.end(), c.id) == e.test.end())
+      continue;
+    for (const BankRow &row : runs.rows)
+      if (row.point.base_point % packings == 0 && belongs(row.run, c))
+        out.push_back({{"condition", c.id},
+                       {"role", models[std::size_t(row.point.base_point / packings)].role},
+                       {"displacement_um", row.run.displacement},
+                       {"pressure_MPa", row.run.pressure}});
+  }
+  return out;
+}
+
+} // namespace
+
+HeldOut held_out_of(const ExperimentData &data) {
+  return {inference::blocks_of(data.experiment.of), data.experiment.values,
+          data.experiment.covariance.diagonal().cwiseSqrt()};
+}
+
+nlohmann::ordered_json rerun(const Experiment &experiment, const BankTable &table,
+                             const std::vector<RerunModel> &models, const RerunOptions &options) {
+  const std::vector<double> pressures = pressures_of(experiment);
+  const double film = table.rows.front().run.solid_column /
+                      solid_thickness_um(experiment, experiment.recipe.loading);
+  const Study study = study_of(table, models, pressures, options.packings, film);
+  make_study(study, options.study);
+  const BankTable runs =
+      table_of(table, models, options.packings, finished_runs(study, options.study), pressures);
+  const ExperimentData data = data_of(experiment, runs, experiment.test, table);
+  const HeldOut held_out = held_out_of(data);
+  std::vector<Matrix> simulated(models.size(), Matrix(held_out.measured.size(), options.packings));
+  for (std::size_t k = 0; k < data.bank.runs.size(); ++k)
+    simulated[k / std::size_t(options.packings)].col(Eigen::Index(k) % options.packings) =
+        data.bank.runs[k].values.head(held_out.measured.size());
+  nlohmann::ordered_json out = {{"train", experiment.train}, {"held_out", experiment.test}};
+  const auto told = models_json(table.spec, held_out, models, simulated);
+  out.update(in_short(told, noise_floor(held_out, simulated[0])));
+  out.update(
+      {{"unit", "standard deviations of the measurement"},
+       {"packings", options.packings},
+       {"models", told},
+       {"observables", observables(held_out, data.experiment.of, models, simulated)},
+       {"curves", curves(experiment, runs, models, options.packings)},
+       {"said", "The effect was chosen on all conditions, its amplitude and the base parameters "
+                "on the training conditions only."}});
+  return out;
+}
+
+} // namespace calendem
