@@ -170,10 +170,10 @@ bool FixCbdCollapse::decide(const std::vector<double> &sum, std::vector<double> 
     if (!is_mine(i))
       continue;
     const double p = calendem::mean_pressure(sum[i], atom->radius[i]);
-    const double to = imposed_until_ > 0.0
-                          ? law_.imposed(upper_->largest_pressure(), imposed_until_)
-                          : law_.target(p);
-    next[i] = law_.follow(nanoporosity_[i], to, nevery * update->dt);
+    const double phi = nanoporosity_[i], time = nevery * update->dt;
+    next[i] = imposed_until_ > 0.0
+                  ? law_.follow(phi, law_.imposed(upper_->largest_pressure(), imposed_until_), time)
+                  : law_.advance(phi, p, time);
     falls = falls || next[i] < nanoporosity_[i];
     largest_pressure_ = std::fmax(largest_pressure_, p);
   }

@@ -54,6 +54,8 @@ answer "$work/given/copy" "$work/answers" | tee "$work/answer.log"
 mv "$work/away" "$work/round"
 withheld answer "$work/given/copy" -o "$work/again" --bank "$here/bank.toml" >/dev/null
 diff -r -x shrink.json -x rerun -x answers.json "$work/answers" "$work/again" || fail "the same data got another answer"
+list() { grep -v shrink.json "$1/answers.json" | tr -d ,; }
+diff <(list "$work/answers") <(list "$work/again") || fail "the same answers got another list of hashes"
 for k in 001 002 003 004; do # models are run again where an effect is claimed, and are sealed with the answers
   [ -e "$work/answers/$k/shrink.json" ] && again=yes || again=no
   grep -m 1 '"claim"' "$work/answers/$k/gap.json" | grep -qE '"(none|noise|unknown|undecided)"' && effect=no || effect=yes

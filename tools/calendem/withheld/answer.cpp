@@ -70,7 +70,10 @@ class Answering {
 public:
   explicit Answering(const AnswerOptions &o)
       : o_(o), table_(read_bank_table(read_bank_spec(o.bank), o.table)), ids_(ids_of(o.handed_out)),
-        of_bank_(sha256(bytes_of(o.bank) + bytes_of(o.table))) {
+        of_bank_(sha256(bytes_of(o.bank) + bytes_of(o.table))),
+        of_reruns_(o.rerun_packings == 0
+                       ? ""
+                       : fmt::format("{} {}", o.rerun_packings, sha256(bytes_of(o.liggghts)))) {
     for (const std::string &name : table_.spec.effects)
       without_[name] = without_effects(table_, {name});
   }
@@ -101,8 +104,7 @@ public:
   /// Base model, effect and placebo are run again where an effect is claimed.
   void run_again(int k) {
     const std::string &id = ids_[std::size_t(k)], here = o_.folder + "/" + id;
-    const std::string identity = sha256(
-        fmt::format("{} {} {}", identity_of(id), o_.rerun_packings, sha256(bytes_of(o_.liggghts))));
+    const std::string identity = sha256(identity_of(id) + of_reruns_);
     if (made_of(here + "/" + kShrink, identity))
       return;
     fs::remove(here + "/" + kShrink);
@@ -149,7 +151,7 @@ private:
   BankTable table_;
   std::map<std::string, BankTable> without_;
   std::vector<std::string> ids_;
-  std::string of_bank_;
+  std::string of_bank_, of_reruns_; // hashes
   SharedModels models_;
 
   /// Of all that the answer to a case depends on.
