@@ -147,4 +147,24 @@ case $case in
     for text in "Porosity through the thickness" "Tortuosity factor through the plane"; do
       grep -q "$text" "$work/measured/report.html" || fail "the report does not show '$text'"
     done ;;
+  images) # a run's own frames as an experiment's label images: no gap; that of before as after: a gap
+    "$bin/calendem" measure "$work/run" -o "$work/images" --without-tortuosity --voxel-um 0.2 --images
+    experiment() { # IMAGE: of the state after calendering
+      printf '[experiment]\nname = "own frames"\nelectrode = "%s/electrode.toml"\nlabels_cbd = -1\n' "$here"
+      printf '[[condition]]\nid = "p40"\ncontrol = "pressure"\nmax_pressure_MPa = 40\n'
+      printf 'labels_before = "images/before.mha"\nlabels_after = "%s"\n' "$1"
+    }
+    experiment images/after.mha >"$work/own.toml"
+    "$bin/calendem" compare "$work/own.toml" "$work/run" -o "$work/own_gap"
+    mapfile -t residuals < <(number residual "$work/own_gap/gap.json")
+    [ "${#residuals[@]}" -ge 6 ] || fail "${#residuals[@]} rows instead of three for each image at least"
+    for r in "${residuals[@]}"; do holds "$r < 1e-9 && -($r) < 1e-9" "a run differs from its own image by $r"; done
+    experiment images/before.mha >"$work/other.toml"
+    "$bin/calendem" compare "$work/other.toml" "$work/run" -o "$work/other_gap"
+    grep -q '"significant": true' "$work/other_gap/gap.json" || fail "the film of before passed for that of after"
+    (cat "$work/case.toml" && printf '\n[imposed]\ncbd_nanoporosity_until_MPa = 40\n') >"$work/imposed.toml"
+    "$bin/calendem" run "$work/imposed.toml" -o "$work/imposed" --ranks 1 --force
+    "$bin/calendem" compare "$work/own.toml" "$work/imposed" -o "$work/imposed_gap"
+    grep -q 'CBD is imposed, not predicted: from 50 to 27 % at 40 MPa' "$work/imposed_gap/gap.html" ||
+      fail "the page does not say that nanoporosity was imposed" ;;
 esac

@@ -2,6 +2,7 @@
 #include "compare/gap.h"
 #include "compare/heat_map.h"
 #include "compare/observables.h"
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -39,6 +40,19 @@ TEST(FindGap, OneRunIsTheResidualOverTheMeasurementsDeviation) {
   EXPECT_NEAR(gap.p_value, std::erfc(4.0 / std::sqrt(2.0)), 1e-9);
   EXPECT_TRUE(gap.rows[0].significant);
   EXPECT_TRUE(std::isnan(gap.rows[0].sd_seeds));
+}
+
+TEST(FindGap, WhatWasImposedIsTold) {
+  SimulatedRun r = pressed_to(150, 0.28, "a");
+  const auto told = [&r] {
+    const Gap gap = find_gap(paper(), {r});
+    return std::any_of(gap.not_said.begin(), gap.not_said.end(), [&r](const std::string &text) {
+      return text.find(r.folder + ": the nanoporosity of CBD is imposed, not") == 0;
+    });
+  };
+  EXPECT_FALSE(told());
+  r.imposed = "imposed, not predicted: from 50 to 27 % at 150 MPa";
+  EXPECT_TRUE(told());
 }
 
 TEST(FindGap, PressureCountsByTheSlopeOfTheRun) {

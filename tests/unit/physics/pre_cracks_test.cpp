@@ -26,9 +26,11 @@ TEST(PreCracks, AreAsManyAsAsked) {
 }
 
 TEST(PreCracks, GrowWithTheFractionAndKeepThoseThatWereThere) {
-  for (int k = 1; k <= kBonds; ++k)
-    if (pre_crack_factor(0.1, 5, k, k + 1) < 1.0)
+  for (int k = 1; k <= kBonds; ++k) {
+    if (pre_crack_factor(0.1, 5, k, k + 1) < 1.0) {
       EXPECT_EQ(pre_crack_factor(0.2, 5, k, k + 1), kNoStrength);
+    }
+  }
 }
 
 TEST(PreCracks, DoNotDependOnTheOrderOfTags) {

@@ -189,8 +189,9 @@ TEST(VerificationPlaten, WorkIsStoredEnergy) {
     EXPECT_LT(first_law(bonded, "1", none), tolerance);
     EXPECT_NEAR(none, 0.0, 1e-12);
     EXPECT_LT(first_law(bonded, "0.3", damped), tolerance);
-    if (!bonded) // else the bonds' energy hides it
+    if (!bonded) { // else the bonds' energy hides it
       EXPECT_GT(damped, 30.0 * tolerance);
+    }
   }
 }
 

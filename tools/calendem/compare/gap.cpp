@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compare/gap.h"
-#include "compare/observables.h"
+#include "compare/image_observables.h"
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -152,7 +152,10 @@ Gap find_gap(const Experiment &experiment, const std::vector<SimulatedRun> &runs
                           : c.control));
       continue;
     }
-    for (const Observable &o : observables_of(experiment, c, gap.not_said)) {
+    std::vector<Observable> observables = observables_of(experiment, c, gap.not_said);
+    const auto on_images = image_observables_of(experiment, c, gap.not_said);
+    observables.insert(observables.end(), on_images.begin(), on_images.end());
+    for (const Observable &o : observables) {
       Entry e{{}, per_packing(mine, o.simulated)};
       e.row.observable = o.name;
       e.row.stage = o.stage;
@@ -180,6 +183,11 @@ Gap find_gap(const Experiment &experiment, const std::vector<SimulatedRun> &runs
     if (!used.count(&r))
       gap.not_said.push_back(
           fmt::format("{} belongs to no condition ({} {:g}).", r.folder, r.control, r.target));
+  for (const SimulatedRun *r : used)
+    if (!r->imposed.empty())
+      gap.not_said.push_back(fmt::format("{}: the nanoporosity of CBD is {}. Its porosities are no "
+                                         "prediction of the model.",
+                                         r->folder, r->imposed));
   pool_seeds(entries, gap.degrees_of_freedom);
   for (const Entry &e : entries)
     gap.rows.push_back(e.row);

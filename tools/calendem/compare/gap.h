@@ -24,6 +24,7 @@ struct SimulatedRun {
   double cracked_fraction = 0.0;              ///< of the bodies
   std::vector<double> pressure, displacement; ///< of the compression, highest pressure so far
   double porosity_slope = 0.0; ///< d porosity / d pressure under load near the maximum [1/MPa]
+  std::string imposed;         ///< what was imposed on the run, not predicted; empty: nothing
   std::string electrode_hash;  ///< two runs of one packing are no two packings
 };
 

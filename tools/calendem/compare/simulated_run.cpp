@@ -77,6 +77,8 @@ void read_summary(const std::string &folder, SimulatedRun &run, Mistakes &mistak
   run.porosity_initial = number(s, "porosity_initial", file, mistakes);
   run.porosity_at_max = number(s, "porosity_at_max", file, mistakes);
   run.porosity_after = number(s, "porosity_after_relaxation_shown", file, mistakes);
+  if (s.contains("imposed") && s["imposed"].is_object())
+    run.imposed = s["imposed"].value("what", "something that this version does not know");
   const double bodies = number(s, "bodies", file, mistakes);
   run.cracked_fraction = bodies > 0.0 ? number(s, "cracked_bodies", file, mistakes) / bodies : 0.0;
   run.solid_column = number(s, "thickness_at_max_um", file, mistakes) * (1.0 - run.porosity_at_max);

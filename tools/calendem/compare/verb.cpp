@@ -4,6 +4,7 @@
 #include "spec/output_folder.h"
 #include "spec/provenance.h"
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace calendem {
@@ -13,6 +14,20 @@ struct Options {
   std::string experiment, folder = "gap";
   std::vector<std::string> runs;
 };
+
+void print_rows(const std::vector<Residual> &rows) {
+  const auto name = [](const Residual &r) {
+    return r.observable + (r.unit.empty() ? "" : ", " + r.unit);
+  };
+  std::size_t width = 0;
+  for (const Residual &r : rows)
+    width = std::max(width, name(r).size());
+  fmt::print("{:<6} {:<{}} {:>9} {:>9} {:>9} {:>7} {:>6}\n", "", "", width, "measured", "simulated",
+             "differ by", "z", "share");
+  for (const Residual &r : rows)
+    fmt::print("{:<6} {:<{}} {:>9.4g} {:>9.4g} {:>+9.3g} {:>+7.1f} {:>5.0f}%\n", r.condition,
+               name(r), width, r.measured, r.simulated, r.residual, r.z, 100.0 * r.share);
+}
 
 void compare(const Options &o) {
   const Experiment experiment = read_experiment(o.experiment);
@@ -34,12 +49,7 @@ void compare(const Options &o) {
   make_output_folder(o.folder);
   write_file(o.folder + "/gap.json", j.dump(1) + "\n");
   write_file(o.folder + "/gap.html", gap_page(j));
-  fmt::print("{:<6} {:<32} {:>9} {:>9} {:>9} {:>7} {:>6}\n", "", "", "measured", "simulated",
-             "differ by", "z", "share");
-  for (const Residual &r : gap.rows)
-    fmt::print("{:<6} {:<32} {:>9.4g} {:>9.4g} {:>+9.3g} {:>+7.1f} {:>5.0f}%\n", r.condition,
-               r.observable + (r.unit.empty() ? "" : ", " + r.unit), r.measured, r.simulated,
-               r.residual, r.z, 100.0 * r.share);
+  print_rows(gap.rows);
   for (const std::string &text : gap.said)
     fmt::print("* {}\n", text);
   for (const std::string &text : gap.not_said)

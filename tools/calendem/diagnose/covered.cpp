@@ -144,8 +144,8 @@ std::vector<Covered> covered_by(const Experiment &e, const BankSpec &spec,
                                      "are left out.",
                                      c.id, c.dwell_s));
     if (!c.labels_before.empty() || !c.labels_after.empty())
-      not_said.push_back(fmt::format("{}: label images are not looked at here; calendem measure "
-                                     "measures them.",
+      not_said.push_back(fmt::format("{}: label images are not looked at here: the bank keeps no "
+                                     "frames. calendem compare sets them beside runs.",
                                      c.id));
     out.push_back({c, p, observables_of(e, c, not_said)});
   }

@@ -29,7 +29,7 @@ struct Condition {
       loading_mg_cm2, porosity_after_percent, thickness_after_um, mass_mg, cracked_bodies_fraction;
   std::string curve;                       ///< absolute path of a CSV file, empty if none
   double curve_sd_um = 0.0;                ///< of each displacement of the curve; 0: not given
-  std::string labels_before, labels_after; ///< absolute paths of label images
+  std::string labels_before, labels_after; ///< absolute paths of label images, or empty
   double dwell_s = 0.0;
 };
 
@@ -40,6 +40,9 @@ struct Experiment {
   double sample_diameter_mm = 0.0; ///< 0: not given; so are the foil's
   double foil_thickness_um = 0.0;
   double foil_density_g_cm3 = 0.0;
+  int labels_pore = 0;           ///< label of the pores in the label images
+  std::optional<int> labels_cbd; ///< none: the images show no CBD
+  double labels_voxel_um = 0.0;  ///< 0: as the images state
   std::vector<Condition> conditions;
   std::vector<std::string> train, test; ///< ids
 };

@@ -11,6 +11,11 @@ const std::vector<Key> &head_keys() {
       {"sample_diameter_mm", "", "0", 1e-3, 1000, "mm", "of the punched disc"},
       {"foil_thickness_um", "", "0", 1, 100, "um", "of the current collector"},
       {"foil_density_g_cm3", "", "0", 0.5, 20, "g/cm3", "aluminium 2.70, copper 8.96"},
+      {"labels_pore", "", "0", -1e9, 1e9, "", "label of pores in the label images", "", false,
+       true},
+      {"labels_cbd", "", "-", -1e9, 1e9, "", "label of CBD in them; without: all is AM", "", false,
+       true},
+      {"labels_voxel_um", "", "0", 1e-3, 10, "um", "their voxel size, if not as they state"},
   };
   return keys;
 }
@@ -21,7 +26,8 @@ const std::vector<Key> &condition_keys() {
       {"control", "", "", 0, 0, "", "what the calender was set to",
        "pressure|displacement|thickness|roll_gap"},
       {"curve", "", "-", 0, 0, "", "CSV: displacement_um,pressure_MPa[,stage]", "", true},
-      {"labels_before", "", "-", 0, 0, "", "label image before calendering", "", true},
+      {"labels_before", "", "-", 0, 0, "",
+       "label image before calendering, z from the collector up", "", true},
       {"labels_after", "", "-", 0, 0, "", "label image after calendering", "", true},
       {"dwell_s", "", "0", 0, 1e6, "s", "time at the target"},
       {"curve_sd_um", "", "0", 0, 100, "um", "of the curve's displacements, independent"},

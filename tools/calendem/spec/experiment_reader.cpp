@@ -44,6 +44,8 @@ private:
       return "";
     const std::string name = **t.get(key.name)->as_string();
     std::error_code none;
+    if (path.find('%') != std::string::npos) // a series of slices: whoever reads it looks for them
+      return path;
     if (!fs::exists(path, none))
       mistakes_.add(line_of(*t.get(key.name)),
                     fmt::format("{} = \"{}\": there is no file '{}'. Paths are relative to this "
@@ -67,6 +69,16 @@ private:
     e_.sample_diameter_mm = number(head, head_keys()[2]);
     e_.foil_thickness_um = number(head, head_keys()[3]);
     e_.foil_density_g_cm3 = number(head, head_keys()[4]);
+    e_.labels_pore = static_cast<int>(number(head, head_keys()[5]));
+    if (head.contains(head_keys()[6].name))
+      e_.labels_cbd = static_cast<int>(number(head, head_keys()[6]));
+    e_.labels_voxel_um = number(head, head_keys()[7]);
+    if (e_.labels_cbd == e_.labels_pore)
+      mistakes_.add(line_of(*head.get("labels_cbd")),
+                    fmt::format("labels_cbd and labels_pore are both {}: the label of CBD is that "
+                                "of its voxels alone. Leave labels_cbd out if the images show no "
+                                "CBD.",
+                                e_.labels_pore));
     if (!e_.electrode.empty())
       try {
         e_.recipe = read_recipe(e_.electrode);

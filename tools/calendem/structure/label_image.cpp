@@ -25,6 +25,9 @@
 namespace calendem {
 namespace {
 
+constexpr const char *kVoxelSizeKeys =
+    "shapes.voxel_size_um in a recipe, labels_voxel_um in an experiment, --voxel-um to measure";
+
 // What VTK complains about while this lives goes here instead of to the terminal.
 class Complaints {
 public:
@@ -147,13 +150,13 @@ void set_voxel_size(const std::string &file, double voxel_um, LabelImage &image)
   if (voxel_um > 0.0)
     image.voxel.setConstant(voxel_um);
   else if (!stated)
-    refuse_image(file, "the file states no voxel size. Give shapes.voxel_size_um.");
+    refuse_image(file, fmt::format("the file states no voxel size. Give {}.", kVoxelSizeKeys));
   image.voxel = image.voxel.cwiseAbs();
   if (image.voxel.minCoeff() < 1e-3 || image.voxel.maxCoeff() > 10.0)
     refuse_image(file,
                  fmt::format("a voxel is {:g} x {:g} x {:g} um by its header; allowed is 0.001 to "
-                             "10 um. If the header is in mm or m, give shapes.voxel_size_um.",
-                             image.voxel[0], image.voxel[1], image.voxel[2]));
+                             "10 um. If the header is in mm or m, give {}.",
+                             image.voxel[0], image.voxel[1], image.voxel[2], kVoxelSizeKeys));
 }
 
 template <class Writer>

@@ -71,30 +71,38 @@ SimulatedStructure read_frame(const Run &run, const ElectrodeFacts &e, double ti
 
 } // namespace
 
-std::vector<StructureMeasures> measure_run(const std::string &folder,
-                                           const MeasureOptions &options) {
+std::vector<RunMoment> moments_of_run(const std::string &folder) {
   ElectrodeFacts electrode;
   const Run run = read_whole_run(folder, electrode);
-  std::vector<StructureMeasures> moments;
-  const auto measure = [&](const char *name, double time, double height) {
-    StructureMeasures m = measure_spheres(read_frame(run, electrode, time, height), options);
-    m.moment = name;
-    m.time_us = report::closest(run.particles, time).time_us;
+  std::vector<RunMoment> moments;
+  const auto add = [&](const char *name, double time, double height) {
+    const double frame = report::closest(run.particles, time).time_us;
     size_t row = 0;
     for (size_t i = 0; i < run.curve.rows(); ++i)
-      if (std::fabs(run.curve["time_us"][i] - *m.time_us) <
-          std::fabs(run.curve["time_us"][row] - *m.time_us))
+      if (std::fabs(run.curve["time_us"][i] - frame) < std::fabs(run.curve["time_us"][row] - frame))
         row = i;
-    m.pressure_MPa = run.curve["pressure_MPa"][row];
-    moments.push_back(std::move(m));
+    moments.push_back(
+        {name, frame, run.curve["pressure_MPa"][row], read_frame(run, electrode, time, height)});
   };
-  measure("before", run.particles.front().time_us, 0.0);
+  add("before", run.particles.front().time_us, 0.0);
   if (!run.curve.relaxation().empty())
-    measure("max", run.curve["time_us"][run.curve.row_of_max_pressure()], 0.0);
+    add("max", run.curve["time_us"][run.curve.row_of_max_pressure()], 0.0);
   if (run.unfinished.empty())
-    measure("after", run.particles.back().time_us,
-            run.summary.value("thickness_after_relaxation_um", 0.0));
+    add("after", run.particles.back().time_us,
+        run.summary.value("thickness_after_relaxation_um", 0.0));
   return moments;
+}
+
+std::vector<StructureMeasures> measure_run(const std::string &folder,
+                                           const MeasureOptions &options) {
+  std::vector<StructureMeasures> out;
+  for (const RunMoment &moment : moments_of_run(folder)) {
+    out.push_back(measure_spheres(moment.structure, options));
+    out.back().moment = moment.name;
+    out.back().time_us = moment.time_us;
+    out.back().pressure_MPa = moment.pressure_MPa;
+  }
+  return out;
 }
 
 } // namespace calendem

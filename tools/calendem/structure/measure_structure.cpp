@@ -31,9 +31,8 @@ StructureMeasures measure_image(const std::string &file, const MeasureOptions &o
 }
 
 StructureMeasures measure_spheres(const SimulatedStructure &s, const MeasureOptions &options) {
-  constexpr double kVoxel = 0.15; // um
   const PhaseImage image =
-      voxelise(s.spheres, s.cell, s.lattice, options.voxel_um.value_or(kVoxel));
+      voxelise(s.spheres, s.cell, s.lattice, options.voxel_um.value_or(kSimulatedVoxel));
   const PhaseFractions fraction = phase_fractions(image);
   Volumes v;
   v.cell = s.cell.lx * s.cell.ly * s.cell.height;

@@ -13,12 +13,14 @@
 
 namespace calendem {
 
+constexpr double kSimulatedVoxel = 0.15; ///< [um]
+
 struct MeasureOptions {
-  std::optional<double>
-      voxel_um;                ///< of a simulated structure (0.15), or in place of an image's own
-  double slice_um = 1.0;       ///< of the profiles
-  bool tortuosity = true;      ///< takes most of the time
-  std::int32_t background = 0; ///< label of an image's pores
+  /// Of a simulated structure (kSimulatedVoxel), or in place of an image's own.
+  std::optional<double> voxel_um;
+  double slice_um = 1.0;                 ///< of the profiles
+  bool tortuosity = true;                ///< takes most of the time
+  std::int32_t background = 0;           ///< label of an image's pores
   std::optional<std::int32_t> cbd_label; ///< none: an image shows no CBD
   std::optional<double> nanoporosity;    ///< of an image's CBD, 0-1; none: no total porosity
 };
@@ -59,9 +61,18 @@ struct SimulatedStructure {
 StructureMeasures measure_spheres(const SimulatedStructure &structure,
                                   const MeasureOptions &options);
 
-/// A run's directory: before, at the frame nearest the maximum pressure, after. Moments that an
-/// unfinished run has not reached are left out. Throws Failure(2) with every file that is missing
-/// or damaged.
+/// A frame of a run: before, max (the frame nearest the maximum pressure), after.
+struct RunMoment {
+  std::string name;
+  double time_us = 0.0, pressure_MPa = 0.0;
+  SimulatedStructure structure;
+};
+
+/// Moments that an unfinished run has not reached are left out. Throws Failure(2) with every file
+/// that is missing or damaged.
+std::vector<RunMoment> moments_of_run(const std::string &folder);
+
+/// The moments of a run's directory, measured. Throws as moments_of_run does.
 std::vector<StructureMeasures> measure_run(const std::string &folder,
                                            const MeasureOptions &options);
 

@@ -20,7 +20,7 @@ struct Arguments {
   MeasureOptions options;
   double voxel_um = 0.0, nanoporosity_percent = 50.0;
   std::int32_t cbd_label = 0;
-  bool without_tortuosity = false;
+  bool without_tortuosity = false, images = false;
 };
 
 std::string folder_for(const Arguments &a, bool is_run) {
@@ -68,8 +68,21 @@ nlohmann::json provenance(const Arguments &a, bool is_run) {
   return p;
 }
 
+/// Every moment as a label image: pores 0, CBD -1, bodies from 1.
+void write_images(const Arguments &a, const std::string &folder) {
+  for (const RunMoment &moment : moments_of_run(a.input)) {
+    const SimulatedStructure &s = moment.structure;
+    const std::string file = folder + "/" + moment.name + ".mha";
+    write_label_image(
+        voxelise(s.spheres, s.cell, s.lattice, a.options.voxel_um.value_or(kSimulatedVoxel)), file);
+    fmt::print("measure: {}: pores 0, CBD -1, particles from 1\n", file);
+  }
+}
+
 void measure(Arguments a, const CLI::App &verb) {
   const bool is_run = fs::is_directory(a.input);
+  if (a.images && !is_run)
+    throw Failure(kBadInput, fmt::format("--images is for a run; '{}' is no folder.", a.input));
   const std::string folder = folder_for(a, is_run);
   if (a.voxel_um > 0.0)
     a.options.voxel_um = a.voxel_um;
@@ -91,6 +104,8 @@ void measure(Arguments a, const CLI::App &verb) {
   write_file(folder + "/structure.csv", profile_table(moments));
   write_file(folder + "/structure.json", j.dump(2) + "\n");
   fmt::print("measure: {0}/structure.csv, {0}/structure.json\n", folder);
+  if (a.images)
+    write_images(a, folder);
 }
 
 } // namespace
@@ -112,6 +127,8 @@ void add_measure_verb(CLI::App &app) {
       ->capture_default_str()
       ->check(CLI::Range(0.01, 100.0));
   verb->add_flag("--without-tortuosity", a->without_tortuosity, "it takes most of the time");
+  verb->add_flag("--images", a->images,
+                 "write a run's moments as label images too: before.mha, max.mha, after.mha");
   verb->add_option("--background", a->options.background, "label of an image's pores")
       ->capture_default_str();
   verb->add_option("--cbd-label", a->cbd_label, "label of an image's CBD; without it, all is AM");
