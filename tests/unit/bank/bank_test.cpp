@@ -114,6 +114,28 @@ TEST(Bank, MistakesAreTold) {
   }
 }
 
+TEST(Bank, AnEffectMayHaveANarrowerRange) {
+  const std::string effects = "effects = [\"friction\", \"pre_cracks\"]\n";
+  const BankSpec spec = spec_of(kBank + effects + kParameters +
+                                "[[effect]]\nname = \"friction\"\nlow = 0.3\nhigh = 0.35\n");
+  EXPECT_EQ(effect_of(spec, "friction").parameter.low, 0.3);
+  EXPECT_EQ(effect_of(spec, "friction").parameter.high, 0.35);
+  EXPECT_EQ(effect_of(spec, "pre_cracks").parameter.high, find_effect("pre_cracks").parameter.high);
+  for (const BankPoint &p : bank_points(spec))
+    EXPECT_TRUE(p.effect != "friction" || (p.value >= 0.3 && p.value <= 0.35)) << p.value;
+  try {
+    spec_of(kBank + effects + kParameters +
+            "[[effect]]\nname = \"friction\"\nlow = 0.01\nhigh = 0.4\n[[effect]]\nname = "
+            "\"friction\"\nlow = 0.4\nhigh = 0.3\n[[effect]]\nname = \"thickness_zero\"\n");
+    FAIL();
+  } catch (const Failure &e) {
+    const std::string message = e.what();
+    for (const char *part :
+         {"low is 0.01", "from 0.4 to 0.3", "two ranges", "name is \"thickness_zero\"", "friction"})
+      EXPECT_NE(message.find(part), std::string::npos) << part << "\nis not in\n" << message;
+  }
+}
+
 TEST(Bank, PricesOfMeasurementsAreTheUsualOnesUnlessGiven) {
   const BankSpec spec = spec_of(kBank + kParameters +
                                 "[[measurement]]\nname = \"cracked_bodies\"\nhours = 3\nsd = "

@@ -128,6 +128,20 @@ TEST(ExperimentData, AnEffectOfFewPointsIsLeftOutAndTold) {
     EXPECT_NE(run.effect, "friction");
 }
 
+// A bank's narrower range is the prior of what it learnt there.
+TEST(ExperimentData, ABanksRangeIsThePrior) {
+  BankTable table = made_bank();
+  const auto highest = [&table](const char *name) {
+    for (const inference::Effect &e : data_of(made_experiment(kTruth), table, {}).bank.effects)
+      if (e.name == name)
+        return e.parameters[0].prior.value(8.0); // a score of 8: the end of the range
+    return std::nan("");
+  };
+  EXPECT_NEAR(highest("friction"), 0.599, 1e-9);
+  table.spec.ranges["friction"] = {0.05, 0.4};
+  EXPECT_NEAR(highest("friction"), 0.399, 1e-9);
+}
+
 TEST(ExperimentData, MicrometresCountLessInAThickerFilm) {
   const BankTable table = made_bank();
   Experiment thick = made_experiment(kTruth);

@@ -67,7 +67,7 @@ std::vector<BankPoint> bank_points(const BankSpec &spec) {
     out.push_back(p);
   }
   for (std::size_t e = 0; e < spec.effects.size(); ++e) {
-    const Effect &effect = find_effect(spec.effects[e]);
+    const Effect effect = effect_of(spec, spec.effects[e]);
     const auto amplitudes = inference::sobol_points(1, spec.effect_points, spec.seed + 1 + e);
     for (int k = 0; k < spec.effect_points && !effect.instrument; ++k) {
       BankPoint p = out[std::size_t(k)];

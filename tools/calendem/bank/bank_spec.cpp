@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <set>
+#include <tuple>
 
 namespace calendem {
 namespace {
@@ -89,6 +90,29 @@ public:
                                 out.base_points));
   }
 
+  /// A range of one of the bank's effects.
+  void read_range(const toml::node &node, BankSpec &out) {
+    const toml::table *t = node.as_table();
+    if (!t)
+      return mistakes_.add(line_of(node), "write an effect's range as a table: [[effect]].");
+    tell_unknown(*t, {"name", "low", "high"});
+    const int before = mistakes_.count();
+    const std::string name = text(*t, {"name", "", "", 0, 0, "", "of the effect",
+                                       fmt::format("{}", fmt::join(out.effects, "|"))});
+    if (mistakes_.count() > before)
+      return;
+    const EffectParameter &table = find_effect(name).parameter;
+    const double low = number(*t, {"low", "", "", table.low, table.high, "", "end of the range"}),
+                 high = number(*t, {"high", "", "", table.low, table.high, "", "end of it"});
+    if (mistakes_.count() == before && low >= high)
+      mistakes_.add(line_of(node),
+                    fmt::format("the range of {} goes from {:g} to {:g}; low must be "
+                                "below high.",
+                                name, low, high));
+    if (!out.ranges.emplace(name, std::pair(low, high)).second)
+      mistakes_.add(line_of(node), fmt::format("{} has two ranges; keep one.", name));
+  }
+
   /// Changes the price that has this name.
   void read_price(const toml::node &node, std::vector<MeasurementPrice> &prices) {
     const toml::table *t = node.as_table();
@@ -129,6 +153,13 @@ private:
 
 } // namespace
 
+Effect effect_of(const BankSpec &spec, const std::string &name) {
+  Effect effect = find_effect(name);
+  if (const auto range = spec.ranges.find(name); range != spec.ranges.end())
+    std::tie(effect.parameter.low, effect.parameter.high) = range->second;
+  return effect;
+}
+
 BankSpec read_bank_spec(const std::string &file) {
   Mistakes mistakes(file, 20);
   BankSpec out;
@@ -144,12 +175,16 @@ BankSpec read_bank_spec(const std::string &file) {
     else if (key.str() == "measurement" && node.is_array())
       for (const toml::node &measurement : *node.as_array())
         reader.read_price(measurement, out.prices);
-    else if (key.str() != "full_cell" || !node.is_table())
+    else if ((key.str() != "full_cell" || !node.is_table()) &&
+             (key.str() != "effect" || !node.is_array()))
       mistakes.add(line_of(node),
                    fmt::format("unknown '{}'; a bank has tables [bank], [full_cell], "
-                               "[[parameter]] and [[measurement]].",
+                               "[[parameter]], [[effect]] and [[measurement]].",
                                key.str()));
   }
+  if (const toml::array *ranges = parsed.root["effect"].as_array())
+    for (const toml::node &range : *ranges)
+      reader.read_range(range, out); // after [bank]: of its effects
   if (const toml::table *full_cell = parsed.root["full_cell"].as_table())
     reader.read_full_cell(*full_cell, out); // after [bank]: its points are some of the bank's
   if (parsed.whole && !parsed.root.contains("bank"))

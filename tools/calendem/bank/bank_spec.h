@@ -7,15 +7,19 @@
 //   pressures_MPa = [80, 150]        # a run for each at every point
 //   packings = 12                    # seeds 1, 2, ... of the recipe
 //   base_points = 48                 # of the base parameters, without effects
-//   effect_points = 24               # of every effect, each beside a base point of the same
-//   packing effects = ["friction"]           # default: all seed = 1                         # of
-//   the design
+//   effect_points = 24               # of every effect, each beside a base point's run
+//   effects = ["friction"]           # default: all
+//   seed = 1                         # of the design
 //   [[parameter]]                    # of the base model, recalibrated by the diagnosis
 //   name = "E_am"
 //   keys = ["case.material.am.youngs_modulus_GPa"]
 //   low = 100
 //   high = 300
 //   prior = "log-uniform"            # or "uniform"
+//   [[effect]]                       # optional: a narrower range of an effect, in its key's unit
+//   name = "friction"
+//   low = 0.1
+//   high = 0.4
 //   [full_cell]                      # optional: what the bank's small cell does to the observables
 //   recipe = "../demo/electrode.toml"
 //   case = "case.toml"
@@ -29,6 +33,8 @@
 
 #include "bank/measurement_price.h"
 #include "effects/effects.h"
+#include <map>
+#include <utility>
 
 namespace calendem {
 
@@ -52,12 +58,16 @@ struct BankSpec {
   unsigned long seed = 1;
   std::vector<BankParameter> parameters;
   std::vector<std::string> effects;
+  std::map<std::string, std::pair<double, double>> ranges; ///< of effects, where not the table's
   FullCell full_cell;
   std::vector<MeasurementPrice> prices = usual_prices();
 };
 
 /// Throws Failure(2) with every mistake of the file. Recipe and case are read when runs are made.
 BankSpec read_bank_spec(const std::string &file);
+
+/// As find_effect, with the bank's range.
+Effect effect_of(const BankSpec &spec, const std::string &name);
 
 } // namespace calendem
 

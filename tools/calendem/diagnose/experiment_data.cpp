@@ -186,7 +186,7 @@ void fill_bank(const Experiment &e, const BankTable &table, const std::vector<Co
     bank.runs.push_back(bank_run(runs, values_of(all, runs, as_it_is)));
   thin_out(e, points, bank);
   for (std::size_t k = 0; k < table.spec.effects.size(); ++k) {
-    const Effect &effect = find_effect(table.spec.effects[k]);
+    const Effect effect = effect_of(table.spec, table.spec.effects[k]);
     bank.effects.push_back(inference_effect(effect));
     if (effect.instrument)
       add_instrument(effect, table.spec.seed + 100 + k, e, all, points, bank);

@@ -34,7 +34,7 @@ public:
       else if (find_hidden(name))
         t.hidden.push_back(name);
       else
-        t.effects.emplace_back(name, value(find_effect(name).parameter, low, high));
+        t.effects.emplace_back(name, value(effect_of(round_.bank, name).parameter, low, high));
     t.pressure_error = 0.01 * round_.noise.pressure_percent * t.understated * random_.normal();
     return t;
   }
