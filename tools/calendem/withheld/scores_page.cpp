@@ -94,6 +94,17 @@ std::string as_page(const Json &scores) {
   for (const auto &[truth, claims] : scores["confusion"].items())
     for (const auto &[claim, n] : claims.items())
       values["matrix"].push_back({{"truth", truth}, {"claim", claim}, {"n", n.get<int>()}});
+  for (nlohmann::json &c : values["cases"]) {
+    const auto percent = [&c](const char *key) {
+      return c[key].is_number() ? fmt::format("{:.0f} %", 100.0 * c[key].get<double>())
+                                : std::string("–");
+    };
+    const double signal = c["signal_to_noise"].get<double>();
+    c["signal_shown"] = signal > 0.0 ? fmt::format("{:.1f}", signal) : "–";
+    c["predicted_shown"] = percent("shrinkage_predicted");
+    c["rerun_shown"] = percent("shrinkage_rerun");
+    c["placebo_shown"] = percent("shrinkage_placebo");
+  }
   values["json"] = scores.dump();
   return report::fill_template(kScoresHtml, values);
 }
