@@ -209,6 +209,7 @@ void FixBondBpm::post_force(int) {
     std::vector<BreakEvent> events;
     gather_breaks(events);
     apply_breaks(events);
+    set_pressure(events);
     log_breaks(events);
   }
   if (all[1] > 0.0)

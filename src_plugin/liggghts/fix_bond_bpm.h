@@ -137,6 +137,7 @@ private:
   void gather_breaks(std::vector<BreakEvent> &all);
   void apply_breaks(const std::vector<BreakEvent> &all);
   void open_log();
+  void set_pressure(std::vector<BreakEvent> &events) const;
   void log_breaks(const std::vector<BreakEvent> &all);
   void stop_if_overstretched();
   void stop_lost(bigint acting, bigint intact);

@@ -249,15 +249,21 @@ void FixBondBpm::open_log() {
   log_breaks(known);
 }
 
-void FixBondBpm::log_breaks(const std::vector<BreakEvent> &all) {
+// A break happens at the platen's pressure of its step.
+void FixBondBpm::set_pressure(std::vector<BreakEvent> &events) const {
   const int platen = platen_id_.empty() ? -1 : modify->find_fix(platen_id_.c_str());
+  if (platen < 0)
+    return;
+  for (BreakEvent &e : events)
+    e.pressure = modify->fix[platen]->compute_vector(4);
+}
+
+void FixBondBpm::log_breaks(const std::vector<BreakEvent> &all) {
   FILE *fp = comm->me == 0 && !log_file_.empty() ? fopen(log_file_.c_str(), "a") : NULL;
   if (comm->me == 0 && !log_file_.empty() && !fp)
     error->warning(FLERR,
                    "cannot append to the event log of fix bond/bpm; breaks stay in restarts");
-  for (BreakEvent e : all) {
-    if (platen >= 0 && e.pressure == 0.0)
-      e.pressure = modify->fix[platen]->compute_vector(4);
+  for (const BreakEvent &e : all) {
     breaks_.push_back(e);
     if (fp)
       fprintf(fp, "%.9g,%d,%d,%d,%s,%.6g,%.6g,%.6f,%.6f,%.6f,%.6g\n", e.time,

@@ -110,6 +110,36 @@ case $case in
       cmp "$work/run/curve.csv" "$work/kills/curve.csv" || fail "curves differ after $kills kills"
     done
     echo "$kills kills in $runs runs, every one gone on with to the same bytes" ;;
+  rare_rows) # rows five times as far apart: the run ends with one; breaks before first touch are at 0 MPa
+    (cat "$here/case.toml" && printf 'every_us = 0.5\n[effects.pre_cracks]\nfraction = 0.05\n') >"$work/rare.toml"
+    "$bin/calendem" run "$work/rare.toml" -o "$work/rare" --ranks 1 --force
+    grep -q '"finished": true' "$work/rare/summary.json" || fail "the run counts as not finished"
+    number 0.01 "$work/rare/summary.json" >/dev/null || fail "no porosity at the platen's own threshold"
+    awk -F, 'NR > 1 && $1 < 0.01 { n += 1; wrong += $11 != 0 } END { exit !(n > 0 && wrong == 0) }' "$work/rare/breaks.csv" ||
+      fail "breaks before first touch have a pressure: $(head -n 3 "$work/rare/breaks.csv")" ;;
+  refused) # another electrode's restart files, nanoporosity of another recipe, paths LIGGGHTS cannot take
+    refused() { # TEXT ARGUMENT...: exit status 2 and the text
+      local status=0
+      "$bin/calendem" run "${@:2}" --ranks 1 >"$work/said" 2>&1 || status=$?
+      cat "$work/said"
+      [ $status -eq 2 ] || fail "exit status $status instead of 2"
+      grep -qF -- "$1" "$work/said" || fail "'$1' was not said"
+    }
+    rm -rf "$work/other" "$work/begun" "$work/a run"
+    cp -r "$work/electrode" "$work/other"
+    awk '/^Atoms/ { atoms = 1 } atoms && $1 == 1 && NF == 7 { $5 = sprintf("%.17g", $5 + 1e-9) } { print }' \
+      "$work/electrode/electrode.data" >"$work/other/electrode.data"
+    sed 's/"electrode"/"other"/' "$work/case.toml" >"$work/another.toml"
+    "$bin/calendem" run "$work/case.toml" -o "$work/begun" --ranks 1 >"$work/begun.log" 2>&1 &
+    run=$!
+    until [ -s "$work/begun/running.restart" ]; do sleep 0.1; done
+    kill_job $run || fail "the run ended before it could be killed"
+    wait $run && fail "a killed run must not end with exit status 0"
+    refused "holds a run of another electrode" "$work/another.toml" -o "$work/begun" --resume
+    (cat "$work/case.toml" && printf '[effects.cbd_collapse]\nyield_pressure_MPa = 20\ninitial_nanoporosity = 0.4\n') >"$work/pores.toml"
+    refused "initial_nanoporosity is 0.4, but the electrode was packed with a nanoporosity of 0.5" "$work/pores.toml" -o "$work/pores"
+    refused "LIGGGHTS cannot take a path with a blank" "$work/case.toml" -o "$work/a run"
+    [ ! -e "$work/a run" ] || fail "a folder was made for nothing" ;;
   two_ranks) # same bonds, same first break; later the order of sums parts the trajectories
     rm -rf "$work/ranks"
     "$bin/calendem" run "$work/case.toml" -o "$work/ranks" --ranks 2

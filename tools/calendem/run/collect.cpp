@@ -233,6 +233,8 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   for (double f : {0.005, 0.01, 0.02, 0.05})
     if (const auto at = gap_at_loss(rows, f, top.p_top))
       s["porosity_after_relaxation_by_threshold"][fmt::format("{}", f)] = total_porosity(e, *at);
+  if (rows.back().stage > 3.5) // the pressure of every row may lie above what stopped the platen
+    s["porosity_after_relaxation_by_threshold"][fmt::format("{}", lost)] = total_porosity(e, gap);
   if (!frames.empty())
     s["height_of_tops_after_um"] = height_of_tops(folder, frames.back().first);
   s["broken_fraction_at_max"] = top.made > 0 ? top.broken / top.made : 0.0;
@@ -252,9 +254,10 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   s["thickness_after_relaxation_shown_um"] = press.thickness_shown(gap);
   s["porosity_after_relaxation_shown"] = total_porosity(e, press.thickness_shown(gap));
   if (facts.ranks > 0) {
-    s["wall_clock_s"] = facts.wall_clock_s;
+    s["wall_clock_s"] = facts.earlier_s + facts.wall_clock_s;
     s["ranks"] = facts.ranks;
-    s["atom_steps_per_second"] = rows.back().step * e.atoms / facts.wall_clock_s;
+    s["atom_steps_per_second"] =
+        std::max(0.0, rows.back().step - facts.first_step) * e.atoms / facts.wall_clock_s;
   }
   s["timestep_us"] = dt;
   s["steps"] = static_cast<long>(rows.back().step);

@@ -30,7 +30,9 @@ struct UnionVolume {
 
 /// Facts of the run that only its caller knows; 0 ranks: nobody does.
 struct RunFacts {
-  double wall_clock_s = 0.0;
+  double wall_clock_s = 0.0; ///< of this call
+  double earlier_s = 0.0;    ///< of the calls that this one resumed, as far as they could tell
+  double first_step = 0.0;   ///< about where this call began
   int ranks = 0;
   std::string case_hash;
   std::string program;         ///< hash of LIGGGHTS

@@ -122,6 +122,8 @@ ElectrodeFacts describe_electrode(const nlohmann::json &j) {
   e.lattice = std::stod(recipe.at("particles.lattice_um").get<std::string>());
   for (const char *key : {"particles.primary_diameter_um", "cbd.diameter_um"})
     e.widest = std::max(e.widest, std::stod(recipe.at(key).get<std::string>()));
+  if (recipe.contains("cbd.nanoporosity_percent"))
+    e.nanoporosity = 0.01 * std::stod(recipe["cbd.nanoporosity_percent"].get<std::string>());
   e.primaries = j.at("primaries");
   e.am = e.primaries * std::pow(e.lattice, 3);
   e.cbd_envelope = volume * (1.0 - j.at("porosity_macro").get<double>()) - e.am;

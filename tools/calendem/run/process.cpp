@@ -27,6 +27,8 @@ std::vector<std::string> command_line(const LiggghtsJob &job) {
                     fmt::format("{} = {}: LIGGGHTS takes a negative value on its command line "
                                 "for a switch; none of these settings may be negative",
                                 name, value));
+    if (const std::string wrong = wrong_path(value); !wrong.empty())
+      throw Failure(kBadInput, wrong);
     words.insert(words.end(), {"-var", name, value});
   }
   return words;
@@ -101,6 +103,14 @@ std::string wait_for(pid_t pid, const LiggghtsJob &job, int &status,
 }
 
 } // namespace
+
+std::string wrong_path(const std::string &path) {
+  return path.find_first_of(" \t\n\"'$#&") == std::string::npos
+             ? ""
+             : fmt::format("'{}': LIGGGHTS cannot take a path with a blank, a quote, $, # or & in "
+                           "it. Move the folder, or give another one.",
+                           path);
+}
 
 std::string wrong_program(const std::string &program) {
   std::error_code none;

@@ -25,6 +25,9 @@ struct LiggghtsJob {
 /// What is wrong with the program, what to do; empty if it can be started.
 std::string wrong_program(const std::string &program);
 
+/// What is wrong with a path for LIGGGHTS's scripts, what to do; empty if they can take it.
+std::string wrong_path(const std::string &path);
+
 /// Runs the job; calls `tick` about twice a second meanwhile. SIGINT, SIGTERM and SIGHUP are passed
 /// on. Throws Failure(3) with LIGGGHTS's own error if it fails or is stopped, Failure(2) if it
 /// cannot be started.

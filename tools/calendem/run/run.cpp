@@ -9,6 +9,7 @@
 #include "spec/provenance.h"
 #include "spec/recipe.h"
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
@@ -54,12 +55,29 @@ void check_target(const Settings &s, const ElectrodeFacts &e, Mistakes &mistakes
                                 key, s.text(key), target, e.thickness));
 }
 
+/// Where nanopores may fall, they start from what the electrode was packed with.
+void check_nanoporosity(const Settings &s, const ElectrodeFacts &e, Mistakes &mistakes) {
+  constexpr double kSame = 0.005;
+  const std::string key = "effects.cbd_collapse.initial_nanoporosity";
+  const bool falls = s.number("effects.cbd_collapse.yield_pressure_MPa") > 0.0 ||
+                     s.number("imposed.cbd_nanoporosity_until_MPa") > 0.0;
+  if (falls && e.nanoporosity > 0.0 && std::fabs(e.nanoporosity - s.number(key)) > kSame)
+    mistakes.add(0, fmt::format("{} is {}, but the electrode was packed with a nanoporosity of "
+                                "{:.3g} (cbd.nanoporosity_percent of its recipe). Give that.",
+                                key, s.text(key), e.nanoporosity));
+}
+
 void check_case(const Settings &s, const ElectrodeFacts &e, const RunOptions &o) {
   Mistakes mistakes("case");
+  check_nanoporosity(s, e, mistakes);
   check_cell(e, o.ranks, mistakes);
   check_target(s, e, mistakes);
   if (const std::string wrong = wrong_program(o.liggghts); !wrong.empty())
     mistakes.add(0, wrong);
+  for (const std::string &path :
+       {fs::absolute(o.folder).string(), s.text("electrode"), input_scripts()})
+    if (const std::string wrong = wrong_path(path); !wrong.empty())
+      mistakes.add(0, wrong);
   mistakes.stop_if_any();
 }
 
@@ -69,8 +87,27 @@ double target_share(const Settings &s, const RawRow &row) {
   const std::string &control = s.text("platen.control");
   if (control == "pressure")
     return row.p_top / s.number("platen.max_pressure_MPa");
-  return control == "displacement" ? row.displacement / s.number("platen.displacement_um")
-                                   : row.stage > 1.5;
+  if (control == "displacement")
+    return row.displacement / s.number("platen.displacement_um");
+  const double way = row.gap + row.displacement - s.number("platen.thickness_um");
+  return way > 0.0 ? row.displacement / way : 1.0;
+}
+
+/// Simulated time [us] until the compression's target is met: at the platen's speed, or as the
+/// pressure has grown over the last quarter; NaN where that says nothing.
+double time_to_target(const Settings &s, const std::vector<RawRow> &rows) {
+  const RawRow &last = rows.back();
+  if (last.stage > 1.5 || last.stage < 0.5)
+    return std::nan("");
+  const double share = target_share(s, last);
+  if (s.text("platen.control") != "pressure")
+    return share > 0.0 ? (1.0 - share) / share * last.displacement / s.number("platen.speed_m_s")
+                       : std::nan("");
+  const RawRow &before = rows[rows.size() * 3 / 4];
+  const double growth = std::log(last.p_top / before.p_top) / (last.time - before.time);
+  return before.p_top > 0.0 && growth > 0.0 && share > 0.0
+             ? std::max(0.0, -std::log(share)) / growth
+             : std::nan("");
 }
 
 /// Shows the progress line; on a terminal in place, else a line every half minute.
@@ -88,11 +125,17 @@ public:
       return;
     const RawRow &r = rows.back();
     const double share = std::min(1.0, target_share(settings_, r));
-    const std::string text = fmt::format(
+    std::string text = fmt::format(
         "{:11} {:3.0f} %  {:7.2f} MPa  gap {:.2f} um  {:.2f} % of bonds broken  {:.0f} s",
         kStages[static_cast<int>(r.stage)], 100 * share, r.p_top, r.gap,
         r.made > 0 ? 100 * r.broken / r.made : 0.0,
         std::chrono::duration<double>(now - begin_).count());
+    if (std::isnan(from_))
+      from_ = rows.front().time < r.time && rows.size() < 20 ? rows.front().time : r.time;
+    const double left = time_to_target(settings_, rows) / (r.time - from_) *
+                        std::chrono::duration<double>(now - begin_).count();
+    if (std::isfinite(left))
+      text += fmt::format(", about {:.0f} s to the target", left);
     if (isatty(1))
       std::cout << "\r\033[K" << text << std::flush;
     else
@@ -102,6 +145,7 @@ public:
 private:
   std::string curve_;
   const Settings &settings_;
+  double from_ = NAN; ///< simulated time when this program first looked [us]
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now(), shown_ = begin_;
 };
 
@@ -151,14 +195,27 @@ std::string keep_what_there_is(const std::string &folder, const Settings &settin
   return told;
 }
 
+/// Steps and time that a run which goes on has behind it.
+void remember_what_was_done(const std::string &folder, RunFacts &facts) {
+  std::ifstream in(folder + "/summary.json");
+  const nlohmann::json old = nlohmann::json::parse(in, nullptr, false);
+  if (old.is_object() && old.contains("wall_clock_s") && old["wall_clock_s"].is_number())
+    facts.earlier_s = old["wall_clock_s"];
+  const std::vector<RawRow> rows = read_raw(folder + "/curve_raw.csv");
+  facts.first_step = rows.empty() ? 0.0 : rows.back().step;
+}
+
 /// Writes what the run needs; true if it goes on from a restart file.
 bool prepare(const Settings &settings, const ElectrodeFacts &electrode, const RunOptions &o,
-             const std::string &folder, const std::string &hash) {
+             const std::string &hash, const std::string &electrode_hash, RunFacts &facts) {
+  const std::string &folder = o.folder;
   const bool resume =
       o.resume && fs::exists(folder + "/time_step.in") && find_restart(folder, electrode.atoms);
   if (o.resume && !resume)
     fmt::print("run: no restart file in {}; starting from the electrode\n", o.folder);
-  if (!resume)
+  if (resume)
+    remember_what_was_done(folder, facts);
+  else
     clear_old_results(folder);
   write_file(
       folder + "/case.toml",
@@ -166,7 +223,7 @@ bool prepare(const Settings &settings, const ElectrodeFacts &electrode, const Ru
                  fmt::format("# as run by calendem {}; every default filled in\n", version())));
   fs::copy_file(settings.text("electrode") + "/electrode.json", folder + "/electrode.json",
                 fs::copy_options::overwrite_existing);
-  mark_as_running(folder, hash);
+  mark_as_running(folder, hash, electrode_hash, facts.earlier_s);
   return resume;
 }
 
@@ -190,24 +247,24 @@ void run_case(const Settings &settings, RunOptions o) {
   o.liggghts = fs::absolute(o.liggghts).lexically_normal().string(); // it runs in the run's folder
   const ElectrodeFacts electrode = read_electrode(settings.text("electrode"));
   check_case(settings, electrode, o);
+  const std::string electrode_hash = hash_of_file(settings.text("electrode") + "/electrode.data");
   const std::string hash =
-      hash_of_text(run_identity(settings, run_tools(o.liggghts)) +
-                   hash_of_file(settings.text("electrode") + "/electrode.data"));
+      hash_of_text(run_identity(settings, run_tools(o.liggghts)) + electrode_hash);
   const std::string folder = fs::absolute(o.folder).lexically_normal().string();
   o.folder = folder;
   make_output_folder(folder, 2 * room_for_next_files(electrode));
   fs::create_directories(folder + "/vtk");
   const FolderLock lock(folder);
-  if (holds_this_run(o, settings, hash)) {
+  if (holds_this_run(o, settings, hash, electrode_hash)) {
     fmt::print("run: {} already holds this run\n", folder);
     return;
   }
-  const bool resume = prepare(settings, electrode, o, folder, hash);
+  RunFacts facts;
+  const bool resume = prepare(settings, electrode, o, hash, electrode_hash, facts);
   fmt::print("run: {} atoms, {} bonds, {} ranks -> {}\n", electrode.atoms, electrode.bonds, o.ranks,
              folder);
   std::cout << std::flush;
   const auto begin = std::chrono::steady_clock::now();
-  RunFacts facts;
   facts.ranks = o.ranks;
   facts.case_hash = hash;
   facts.program = hash_of_file(o.liggghts);

@@ -37,7 +37,8 @@ struct ElectrodeFacts {
   double am = 0.0;
   double lx = 0.0, ly = 0.0;
   double lattice = 0.0;
-  double widest = 0.0; ///< largest diameter of a primary or a CBD sphere [um]
+  double nanoporosity = 0.0; ///< of CBD, as packed; 0: not known
+  double widest = 0.0;       ///< largest diameter of a primary or a CBD sphere [um]
   long bonds = 0, atoms = 0, bodies = 0, primaries = 0;
 };
 

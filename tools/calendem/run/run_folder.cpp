@@ -47,7 +47,8 @@ FolderLock::~FolderLock() {
     close(file_);
 }
 
-bool holds_this_run(const RunOptions &o, const Settings &settings, const std::string &hash) {
+bool holds_this_run(const RunOptions &o, const Settings &settings, const std::string &hash,
+                    const std::string &electrode) {
   std::ifstream in(o.folder + "/summary.json");
   const nlohmann::json old = nlohmann::json::parse(in, nullptr, false);
   if (!old.is_object()) // none, or cut: what else is there decides
@@ -68,6 +69,14 @@ bool holds_this_run(const RunOptions &o, const Settings &settings, const std::st
                               differs.empty()
                                   ? "\n  the electrode, the program or the input scripts"
                                   : differs));
+  const std::string then =
+      old.value("provenance", nlohmann::json::object()).value("electrode_data", electrode);
+  if (!finished && o.resume && then != electrode)
+    throw Failure(kBadInput,
+                  fmt::format("'{}' holds a run of another electrode (electrode.data then {}, now "
+                              "{}): its restart files do not belong to '{}'. Give the electrode "
+                              "that it began with, another -o, or --force to overwrite it.",
+                              o.folder, then, electrode, settings.text("electrode")));
   if (!finished && !o.resume && fs::exists(o.folder + "/running.restart"))
     throw Failure(kBadInput,
                   fmt::format("'{}' holds an unfinished run: {}. Go on with --resume, or "
@@ -106,9 +115,12 @@ void clear_old_results(const std::string &folder) {
     fs::remove(entry.path());
 }
 
-void mark_as_running(const std::string &folder, const std::string &hash) {
+void mark_as_running(const std::string &folder, const std::string &hash,
+                     const std::string &electrode, double wall_clock_s) {
   const nlohmann::json s = {{"case_hash", hash},
                             {"finished", false},
+                            {"wall_clock_s", wall_clock_s},
+                            {"provenance", {{"electrode_data", electrode}}},
                             {"stopped_because", "still running, or killed without a word"}};
   write_file(folder + "/summary.json", s.dump(2) + "\n");
 }

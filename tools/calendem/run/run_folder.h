@@ -21,10 +21,12 @@ private:
   int file_;
 };
 
-/// True if the folder already holds this run, finished. Throws Failure(2) if it holds another run,
+/// True if the folder already holds this run, finished. `hash`: of all that it depends on;
+/// `electrode`: of electrode.data. Throws Failure(2) if it holds another run,
 /// or an unfinished one and neither --resume nor --force was given; Failure(4) if it holds this run
 /// and its checks did not hold.
-bool holds_this_run(const RunOptions &options, const Settings &settings, const std::string &hash);
+bool holds_this_run(const RunOptions &options, const Settings &settings, const std::string &hash,
+                    const std::string &electrode);
 
 /// True if there is a complete restart file to go on from, which is then running.restart; false if
 /// there is none. Throws Failure(2) if all that there are are cut.
@@ -33,8 +35,10 @@ bool find_restart(const std::string &folder, long atoms);
 /// Removes what an earlier run left.
 void clear_old_results(const std::string &folder);
 
-/// A summary.json that says that the run has not ended; replaced when it ends.
-void mark_as_running(const std::string &folder, const std::string &hash);
+/// A summary.json that says that the run has not ended; replaced when it ends. `wall_clock_s`: of
+/// what a resumed run has done before.
+void mark_as_running(const std::string &folder, const std::string &hash,
+                     const std::string &electrode, double wall_clock_s);
 
 } // namespace calendem
 
