@@ -172,7 +172,11 @@ TEST(Decide, ClaimRuleAndPriors) {
   EXPECT_NEAR(a.judged[0].probability, 0.225 * std::exp(6.0) / (0.225 * std::exp(6.0) + 0.4), 1e-8);
   EXPECT_EQ(decided(0.5, 0.5, 0.5, s).claim, "undecided");
   EXPECT_EQ(decided(6.0, 0.005, 0.5, s).claim, "undecided");
-  EXPECT_EQ(decided(6.0, 0.005, 0.005, s).claim, "unknown");
+  const Which nothing_fits = decided(6.0, 0.005, 0.005, s);
+  EXPECT_EQ(nothing_fits.claim, "unknown");
+  EXPECT_NEAR(nothing_fits.of("unknown").probability, 1.0, 1e-12);
+  EXPECT_EQ(nothing_fits.of("a").probability, 0.0);
+  EXPECT_EQ(nothing_fits.set95, std::vector<std::string>{"unknown"});
   EXPECT_EQ(decided(6.0, 0.5, 0.5, s, 12.0).claim, "undecided"); // an integral few samples carry
   Which noise;
   noise.judged = {judged(Hypothesis::none, {}, "none", 0.0, 0.5),
@@ -189,6 +193,65 @@ TEST(Decide, ClaimRuleAndPriors) {
   EXPECT_EQ(decided(6.0, 0.5, 0.5, s).claim, "a");
   s.priors.weight["a"] = 0.0;
   EXPECT_EQ(decided(6.0, 0.5, 0.5, s).claim, "none");
+}
+
+// Where nothing fits, understated noise and the unknown share what there is: neither is sure.
+TEST(Decide, NoiseOrUnknownWhereNothingFits) {
+  Which w;
+  for (const auto &[kind, name] :
+       {std::pair(Hypothesis::none, "none"), std::pair(Hypothesis::noise, "noise"),
+        std::pair(Hypothesis::unknown, "unknown")}) {
+    Judged j;
+    j.hypothesis = {kind, {}, name, 0.0};
+    j.adequacy_p = kind == Hypothesis::none ? 0.001 : 1.0;
+    w.judged.push_back(j);
+  }
+  w.judged[0].evidence.log_evidence = -1.0; // 0.4 e^-1, 0.5 and 0.1
+  decide(w, {}, 0);
+  EXPECT_EQ(w.claim, "undecided");
+  EXPECT_NEAR(w.of("unknown").probability,
+              (0.1 + 0.4 * std::exp(-1.0)) / (0.6 + 0.4 * std::exp(-1.0)), 1e-12);
+}
+
+// An effect whose posterior lies to 3/4 below its limit: what of it can be seen is a quarter.
+TEST(Decide, EffectsTooSmallToBeSeenCountAsNone) {
+  LinearWorld world(2, 0, 1, 1);
+  Problem problem = world.problem(Vector::Zero(2));
+  problem.effects[0].parameters[0].prior = {Prior::uniform, 0.0, 1.0};
+  const Prior &p = problem.effects[0].parameters[0].prior;
+  // priors 0.4, 0.5 and 0.1: none is left 0.6, the effect 0.32, the unknown 0.08
+  const auto decided = [&](double limit, double none = 0.6, double effect = 0.32,
+                           double adequacy = 1.0) {
+    Which w;
+    const auto add = [&](Hypothesis::Kind kind, std::vector<int> on, const char *name, double of) {
+      Judged j;
+      j.hypothesis = {kind, std::move(on), name, 0.0};
+      j.evidence.log_evidence = std::log(of);
+      j.evidence.draws.resize(Eigen::Index(j.hypothesis.on.size()), 4);
+      for (Eigen::Index k = 0; k < j.evidence.draws.size(); ++k)
+        j.evidence.draws(0, k) = p.score(0.2 * double(k + 1)); // 0.2, 0.4, 0.6, 0.8
+      j.adequacy_p = kind == Hypothesis::none ? adequacy : 1.0;
+      w.judged.push_back(j);
+    };
+    add(Hypothesis::none, {}, "none", none / 0.4);
+    add(Hypothesis::effects, {0}, "effect 0", effect / 0.5);
+    add(Hypothesis::unknown, {}, "unknown", (1.0 - none - effect) / 0.1);
+    set_limits(w, problem, {limit});
+    decide(w, {}, 1);
+    return w;
+  };
+  EXPECT_NEAR(decided(0.7).none_to_be_seen, 0.6 + 0.75 * 0.32, 1e-12);
+  EXPECT_EQ(decided(0.7).claim, "none");
+  for (const Sensitivity &s : decided(0.7).sensitivity) {
+    const bool less = s.change == "none halved" || s.change == "unknown doubled";
+    EXPECT_EQ(s.claim, less ? "undecided" : "none") << s.change;
+  }
+  EXPECT_NEAR(decided(0.5).none_to_be_seen, 0.76, 1e-12); // half of it could be seen
+  EXPECT_EQ(decided(0.5).claim, "undecided");
+  EXPECT_NEAR(decided(std::nan("")).none_to_be_seen, 0.92, 1e-12); // nothing of it ever
+  EXPECT_EQ(decided(std::nan(""), 0.6, 0.1).claim, "undecided");   // the unknown is not none
+  EXPECT_EQ(decided(0.7, 0.6, 0.32, 0.001).claim, "undecided");    // it does not fit
+  EXPECT_EQ(decided(std::nan(""), 0.3, 0.62).claim, "undecided");  // the effect leads
 }
 
 // Signatures with a known angle in white noise, without base parameters.
@@ -218,6 +281,7 @@ TEST(Confounding, CosinesOddsAndLimitsInClosedForm) {
   // sin^2 a^2 / 2 = 3; the rival's grid of 0.1 costs less than 0.05^2 / 2.
   EXPECT_NEAR(c.limits[0].amplitude, std::sqrt(6.0 / 0.64), 0.02);
   EXPECT_EQ(c.limits[0].rival, "effect 1");
+  EXPECT_NEAR(c.limits[0].against_none, std::sqrt(6.0), 0.02);
 }
 
 // A base parameter that moves the features as the effect does takes it up, as far as its prior lets

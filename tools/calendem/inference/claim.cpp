@@ -37,6 +37,11 @@ void set_priors(std::vector<Judged> &judged, const Priors &priors, int effects) 
   }
 }
 
+void sort_by_probability(std::vector<Judged> &judged) {
+  std::stable_sort(judged.begin(), judged.end(),
+                   [](const Judged &a, const Judged &b) { return a.probability > b.probability; });
+}
+
 void set_probabilities(std::vector<Judged> &judged) {
   double top = -INFINITY, sum = 0.0;
   for (const Judged &j : judged)
@@ -46,12 +51,33 @@ void set_probabilities(std::vector<Judged> &judged) {
     sum += j.probability = j.hypothesis.prior * std::exp(j.evidence.log_evidence - top);
   for (Judged &j : judged)
     j.probability /= sum;
-  std::stable_sort(judged.begin(), judged.end(),
-                   [](const Judged &a, const Judged &b) { return a.probability > b.probability; });
+  sort_by_probability(judged);
 }
 
 bool predicts(const Hypothesis &h) {
   return h.kind == Hypothesis::none || h.kind == Hypothesis::effects;
+}
+
+double most_adequate(const std::vector<Judged> &judged) {
+  double most = 0.0;
+  for (const Judged &j : judged)
+    if (predicts(j.hypothesis))
+      most = std::max(most, j.adequacy_p);
+  return most;
+}
+
+/// What no prediction fits is unknown: its probability is that of all predictions too.
+void give_to_unknown(std::vector<Judged> &judged) {
+  double given = 0.0;
+  for (Judged &j : judged)
+    if (predicts(j.hypothesis)) {
+      given += j.probability;
+      j.probability = 0.0;
+    }
+  for (Judged &j : judged)
+    if (j.hypothesis.kind == Hypothesis::unknown)
+      j.probability += given;
+  sort_by_probability(judged);
 }
 
 /// Everything rests on the base model, named none.
@@ -73,14 +99,14 @@ const Judged *unsettled(const std::vector<Judged> &judged) {
 /// Claim and its reason; hypotheses are sorted.
 void claim(Which &w, const WhichSettings &settings) {
   const Judged &best = w.judged.front();
-  double most_adequate = 0.0;
-  w.adequacy_p = -1.0;
+  const double adequate = most_adequate(w.judged);
+  w.adequacy_p = 0.0;
+  for (auto j = w.judged.rbegin(); j != w.judged.rend(); ++j)
+    if (predicts(j->hypothesis))
+      w.adequacy_p = j->adequacy_p; // of the first
+  w.none_to_be_seen = 0.0;
   for (const Judged &j : w.judged)
-    if (predicts(j.hypothesis)) {
-      most_adequate = std::max(most_adequate, j.adequacy_p);
-      if (w.adequacy_p < 0.0)
-        w.adequacy_p = j.adequacy_p;
-    }
+    w.none_to_be_seen += j.probability * j.below_limits;
   const std::string &name = best.hypothesis.name;
   const Judged *few = unsettled(w.judged);
   w.claim = "undecided";
@@ -89,10 +115,20 @@ void claim(Which &w, const WhichSettings &settings) {
     w.claim = name;
     w.why = fmt::format("The errors of the measurement are understated, with probability {:.3g}.",
                         best.probability);
-  } else if (most_adequate < settings.adequacy) {
-    w.claim = "unknown";
+  } else if (adequate < settings.adequacy && best.hypothesis.kind == Hypothesis::unknown &&
+             best.probability >= settings.claim_probability) {
+    w.claim = name;
     w.why = fmt::format("No hypothesis fits: the best has p = {:.2g}, at least {:g} is asked for.",
-                        most_adequate, settings.adequacy);
+                        adequate, settings.adequacy);
+  } else if (best.probability < settings.claim_probability &&
+             best.hypothesis.kind == Hypothesis::none && !few &&
+             best.adequacy_p >= settings.adequacy &&
+             w.none_to_be_seen >= settings.claim_probability &&
+             !rests_on_poor(name, settings.poor)) {
+    w.claim = name;
+    w.why = fmt::format("None has probability {:.3g}; together with effects too small to be seen "
+                        "on these data it is {:.3g}.",
+                        best.probability, w.none_to_be_seen);
   } else if (best.probability < settings.claim_probability) {
     w.why = fmt::format("The most probable, {}, has {:.3g}; a claim needs {:g}.", name,
                         best.probability, settings.claim_probability);
@@ -134,6 +170,8 @@ void set_lists(Which &w) {
 void once(Which &w, const WhichSettings &settings, int effects) {
   set_priors(w.judged, settings.priors, effects);
   set_probabilities(w.judged);
+  if (most_adequate(w.judged) < settings.adequacy)
+    give_to_unknown(w.judged);
   claim(w, settings);
 }
 

@@ -106,36 +106,54 @@ double log_odds(const Signature &truth, const std::vector<Signature> &rival) {
   return least;
 }
 
-/// First amplitude of the prior at which the effect is told from none and from every other effect.
+/// The hardest rival at an amplitude, and the log-odds against it.
+struct Hardest {
+  double odds = 0.0;
+  std::string rival = "none";
+};
+
+/// First amplitude of the prior at which the log-odds are enough, between the steps by their growth
+/// with its square; NaN: none. `rival`: of the last amplitude looked at.
+template <class Odds>
+double first_telling(const Effect &e, const ConfoundingSettings &settings, const Odds &odds,
+                     std::string &rival) {
+  double before = 0.0; // log-odds at the step below
+  for (int k = 1; k <= settings.amplitudes; ++k) {
+    const Hardest here = odds(double(k) / settings.amplitudes);
+    rival = here.rival;
+    if (here.odds >= settings.telling) {
+      const double from = std::sqrt(std::max(before, 0.0));
+      const double within = (std::sqrt(settings.telling) - from) / (std::sqrt(here.odds) - from);
+      const Prior &p = e.parameters[first_amplitude(e)].prior;
+      return std::max((k - 1 + within) / settings.amplitudes * p.upper(), p.value(-kFarthest));
+    }
+    before = here.odds;
+  }
+  return std::nan("");
+}
+
+/// Amplitudes at which the effect is told from none and from every other effect.
 DetectionLimit limit_of(const Problem &problem, int effect,
                         const std::vector<std::vector<Signature>> &grids,
                         const Signatures &signatures, const ConfoundingSettings &settings) {
   const Effect &e = problem.effects[effect];
-  DetectionLimit limit{e.name, "none", std::nan("")};
-  double before = 0.0; // log-odds at the step below
-  for (int k = 1; k <= settings.amplitudes; ++k) {
-    const double share = double(k) / settings.amplitudes;
+  const auto from_none = [&](double share) {
+    return Hardest{
+        odds_between(signatures.of(effect, at_share(e, share, 1)), grids[effect].front())};
+  };
+  const auto from_all = [&](double share) {
     const Signature truth = signatures.of(effect, at_share(e, share, 1));
-    double least = odds_between(truth, grids[effect].front());
-    std::string rival = "none";
-    for (int other = 0; other < int(grids.size()); ++other) {
-      const double odds = other == effect ? INFINITY : log_odds(truth, grids[other]);
-      if (odds < least) {
-        least = odds;
-        rival = problem.effects[other].name;
-      }
-    }
-    limit.rival = rival;
-    if (least >= settings.telling) { // the odds grow with the square of the amplitude
-      const double from = std::sqrt(std::max(before, 0.0));
-      const double within = (std::sqrt(settings.telling) - from) / (std::sqrt(least) - from);
-      const Prior &p = e.parameters[first_amplitude(e)].prior;
-      limit.amplitude =
-          std::max((k - 1 + within) / settings.amplitudes * p.upper(), p.value(-kFarthest));
-      return limit;
-    }
-    before = least;
-  }
+    Hardest least = from_none(share);
+    for (int other = 0; other < int(grids.size()); ++other)
+      if (const double odds = other == effect ? INFINITY : log_odds(truth, grids[other]);
+          odds < least.odds)
+        least = {odds, problem.effects[other].name};
+    return least;
+  };
+  DetectionLimit limit{e.name, "none"};
+  std::string none;
+  limit.amplitude = first_telling(e, settings, from_all, limit.rival);
+  limit.against_none = first_telling(e, settings, from_none, none);
   return limit;
 }
 

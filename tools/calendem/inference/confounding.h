@@ -16,6 +16,7 @@ struct DetectionLimit {
   std::string effect, rival; ///< rival: the hardest to tell from at that amplitude
   /// Of the first amplitude parameter, in its unit, within its prior; NaN: never.
   double amplitude = 0.0;
+  double against_none = 0.0; ///< the same with none as the only rival
 };
 
 struct Confounding {

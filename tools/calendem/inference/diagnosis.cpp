@@ -65,6 +65,11 @@ Diagnosis diagnose(const Model &model, const Bank &bank, const Vector &values,
   for (WhereRow &row : d.where.rows)
     row.z = std::copysign(row.z, d.residual[row.block].residual);
   d.confounding = confounding(problem, d.which, settings.confounding);
+  std::vector<double> limits;
+  for (const DetectionLimit &l : d.confounding.limits)
+    limits.push_back(l.against_none);
+  set_limits(d.which, problem, limits);
+  decide(d.which, rules, int(problem.effects.size()));
   d.next = next_measurements(d.which, model.extensions(values), settings.next);
   d.parameters = parameters_of(bank.base, d.which.judged.front());
   d.effects = effects_of(bank, best_predicting(d.which));

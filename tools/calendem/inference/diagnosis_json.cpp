@@ -58,6 +58,7 @@ Json which_of(const Diagnosis &d) {
   if (!d.next.empty())
     out["next_measurement"] = out["measurements"][0];
   out["adequacy_p"] = w.adequacy_p;
+  out["none_to_be_seen"] = w.none_to_be_seen;
   for (const Sensitivity &s : w.sensitivity)
     out["sensitivity"].push_back(
         {{"priors", s.change}, {"claim", s.claim}, {"probability", s.probability}});
@@ -78,8 +79,10 @@ Json confounding_of(const Diagnosis &d) {
               {"log_odds", matrix(c.log_odds)},
               {"absorbed", std::vector<double>(c.absorbed.begin(), c.absorbed.end())}};
   for (const DetectionLimit &l : c.limits)
-    out["detection_limit"].push_back(
-        {{"effect", l.effect}, {"amplitude", l.amplitude}, {"rival", l.rival}});
+    out["detection_limit"].push_back({{"effect", l.effect},
+                                      {"amplitude", l.amplitude},
+                                      {"rival", l.rival},
+                                      {"against_none", l.against_none}});
   return out;
 }
 

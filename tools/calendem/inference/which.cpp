@@ -55,6 +55,9 @@ std::vector<Place> places_alone(const Problem &problem, const Linearised &base) 
   for (const Block &b : problem.blocks)
     add(b.stage, [&](const Block &o) { return o.stage == b.stage; });
   for (const Block &b : problem.blocks)
+    add(b.name + ", " + b.stage,
+        [&](const Block &o) { return o.name == b.name && o.stage == b.stage; });
+  for (const Block &b : problem.blocks)
     add(b.name + ", " + b.stage + ", " + b.condition, [&](const Block &o) { return &o == &b; });
   for (Eigen::Index f = 0; f < problem.observed.size(); ++f)
     if (!problem.features[f].emulated) {

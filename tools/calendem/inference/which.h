@@ -32,6 +32,8 @@ struct Judged {
   double adequacy_p = 1.0; ///< of its best fit; 1 for unknown and noise, which fit anything
   double probability = 0.0;
   std::string place; ///< of unknown: the most probable of its places
+  /// Share of its posterior in which all its effects are too small to be seen; 0: not known.
+  double below_limits = 0.0;
 };
 
 /// The claim, had the priors been others.
@@ -43,6 +45,7 @@ struct Sensitivity {
 struct Which {
   std::string claim;              ///< an effect, a pair "a + b", none, noise, unknown or undecided
   std::string why;                ///< one sentence
+  double none_to_be_seen = 0.0;   ///< probability that no effect is above its limit
   double adequacy_p = 0.0;        ///< of the best hypothesis that makes a prediction
   std::vector<Judged> judged;     ///< most probable first
   std::vector<std::string> set95; ///< most probable first, until 95 %
@@ -58,15 +61,22 @@ struct Which {
 /// Adequacy: the least of (observed - predicted)^2 / covariance + scores^2 over all scores is
 /// chi-squared with as many degrees of freedom as features in the linear-Gaussian case, n F(n, nu)
 /// with an estimated covariance; p is the chance of more. Nothing is lost to recalibration because
-/// the priors count as data. Claim: see `why`; if no prediction is adequate the claim is unknown.
-/// The unknown may sit everywhere (0.4 of its prior), in one stage, one block or one truncation
-/// residual (0.4 in equal parts), or beside a known effect (0.2 in equal parts for all effects,
-/// the best of which are computed); its evidence is the mean over these places.
+/// the priors count as data. Claim: see `why`; if no prediction is adequate all their
+/// probability is the unknown's.
+/// The unknown may sit everywhere (0.4 of its prior), in one stage, one observable of it, one block
+/// or one truncation residual (0.4 in equal parts), or beside a known effect (0.2 in equal parts
+/// for all effects, the best of which are computed); its evidence is the mean over these places.
 Which which(const Problem &problem, const WhichSettings &settings);
 
 /// The rule alone, on hypotheses that have evidence and adequacy: sets probabilities and sorts.
-/// `effects`: how many single effects there are.
+/// Once limits are set, none is claimed too where it is the most probable and fits, and no effect
+/// above its limit is as probable as a claim asks for: what is too small to be seen can never be
+/// excluded. `effects`: how many single effects there are.
 void decide(Which &which, const WhichSettings &settings, int effects);
+
+/// How much of every effect and pair lies below `limits` (amplitudes, by effect; NaN: it cannot be
+/// seen at all), for another decide.
+void set_limits(Which &which, const Problem &problem, const std::vector<double> &limits);
 
 } // namespace calendem::inference
 
