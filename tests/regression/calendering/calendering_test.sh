@@ -51,6 +51,8 @@ case $case in
     after=$(number porosity_after_relaxation "$work/run/summary.json")
     holds "$after < $before" "porosity $before -> $after did not fall"
     [ "$(rows "$work/run/breaks.csv" | wc -l)" -gt 0 ] || fail "no bond broke"
+    awk -F, 'NR > 1 && !($11 > 0) { wrong = 1 } END { exit wrong }' "$work/run/breaks.csv" ||
+      fail "breaks without the pressure at which they happened"
     # cracks.csv ends as bodies.csv does, with a face of 1.28 x 1.28 um for every broken bond
     awk -F, -v file="$work/run/cracks.csv" 'NR > 1 { broken += $4; cracked += $10; apart += $6 > 1; all += $3 > 0 }
       END { while ((getline line < file) > 0) last = line

@@ -265,6 +265,23 @@ END
     ":18: cracked_bodies_fraction is 30" ":19: dwell_s is -1"
 }
 
+curve_in_other_units() { # of an experiment: mm, Pa, another separator, a stage nobody knows
+  cp "$scripts/cases/paper/electrode.toml" "$work/"
+  printf '%s\n' '[experiment]' 'name = "x"' 'electrode = "electrode.toml"' '[[condition]]' 'id = "a"' \
+    'control = "pressure"' 'max_pressure_MPa = 150' 'curve = "curve.csv"' 'curve_sd_um = 0.1' | file experiment.toml
+  curve() { printf '%b' "$1" >"$work/curve.csv"; }
+  curve 'displacement_um,pressure_MPa\n0,0\n0.02,150\n'
+  refused experiment.toml ":8: '" "displacement_um goes to 0.02; the film of the recipe is 76.6 um thick"
+  curve 'displacement_um,pressure_MPa\n0,0\n20,1.5e8\n'
+  refused experiment.toml ":8: '" "pressure_MPa goes to 1.5e+08, max_pressure_MPa is 150"
+  curve 'displacement_um;pressure_MPa\n0;0\n20,1;150\n'
+  refused experiment.toml "Columns are separated by commas, decimals by points"
+  curve 'displacement_um,pressure_MPa,stage\n0,0,up\n20,150,up\n'
+  refused experiment.toml "stage of row 1 is 'up'; allowed are loading"
+  curve '\xef\xbb\xbfdisplacement_um,pressure_MPa\n0,0\n20,150\n' # as spreadsheets write it
+  expect 0 calendem validate "$work/experiment.toml"
+}
+
 # ---- command line and machine
 ranks_not_a_number() {
   touch "$work/case.toml"

@@ -42,6 +42,39 @@ TEST(FindGap, OneRunIsTheResidualOverTheMeasurementsDeviation) {
   EXPECT_TRUE(std::isnan(gap.rows[0].sd_seeds));
 }
 
+// A value without a deviation, of one packing, cannot be judged, and takes nothing from the others.
+TEST(FindGap, WithoutAnyDeviationThereIsNoZ) {
+  Experiment e = paper();
+  e.conditions[1].cracked_bodies_fraction = Measured{0.0, 0.0};
+  SimulatedRun r = pressed_to(150, 0.2997, "a");
+  for (const double cracked : {0.0, 0.1}) {
+    r.cracked_fraction = cracked;
+    const Gap gap = find_gap(e, {r});
+    ASSERT_EQ(gap.rows.size(), 2u);
+    EXPECT_EQ(gap.rows[0].observable, "total porosity");
+    EXPECT_NEAR(gap.rows[0].share, 1.0, 1e-12);
+    EXPECT_NEAR(gap.p_value, std::erfc(4.0 / std::sqrt(2.0)), 1e-9);
+    EXPECT_TRUE(std::isnan(gap.rows[1].z));
+    EXPECT_FALSE(gap.rows[1].significant);
+    EXPECT_TRUE(to_json(gap)["where"][1]["z"].is_null());
+  }
+  e.conditions[1].porosity_after_percent->sd = 0.0;
+  const Gap gap = find_gap(e, {r});
+  EXPECT_EQ(gap.p_value, 1.0);
+  EXPECT_EQ(gap.rows[0].share, 0.0);
+}
+
+TEST(FindGap, NothingToCompareTellsWhy) {
+  try {
+    find_gap(paper(), {pressed_to(120, 0.3, "a")});
+    FAIL();
+  } catch (const Failure &f) {
+    EXPECT_NE(std::string(f.what()).find("p150: no run has its pressure of 150 MPa"),
+              std::string::npos)
+        << f.what();
+  }
+}
+
 TEST(FindGap, WhatWasImposedIsTold) {
   SimulatedRun r = pressed_to(150, 0.28, "a");
   const auto told = [&r] {
@@ -132,6 +165,7 @@ TEST(Observables, CurveIsComparedAtSharesOfItsLargestPressure) {
   Condition &c = e.conditions[1];
   c.porosity_after_percent.reset();
   c.mass_mg.reset();
+  c.thickness_after_um.reset();
   c.curve = file;
   c.curve_sd_um = 0.02;
   std::vector<std::string> not_said;
@@ -143,6 +177,56 @@ TEST(Observables, CurveIsComparedAtSharesOfItsLargestPressure) {
               1e-9); // between 50 MPa at 10 and 100 at 20; the dip is skipped
   EXPECT_NEAR(all[3].simulated(pressed_to(150, 0.3, "a")), 20.0, 1e-9);
   EXPECT_EQ(all[3].sd, 0.02);
+}
+
+TEST(Observables, ThicknessAfterCountsInMicrometresWhereTheLoadingIsNotKnown) {
+  Experiment e = paper();
+  Condition &c = e.conditions[1];
+  c.porosity_after_percent.reset();
+  c.mass_mg.reset();
+  std::vector<std::string> not_said;
+  const auto all = observables_of(e, c, not_said);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].unit, "um");
+  EXPECT_NEAR(all[0].measured, 75.4 - 22.5, 1e-9);
+  EXPECT_NEAR(all[0].simulated(pressed_to(150, 0.2, "a")), 40.0 / 0.8, 1e-9);
+  ASSERT_EQ(not_said.size(), 1u);
+}
+
+TEST(Observables, UnloadingOfACurveDoesNotCount) {
+  const std::string file = testing::TempDir() + "calendem_compare_stage.csv";
+  std::ofstream(file) << "displacement_um,pressure_MPa,stage\n0,0,loading\n20,100,loading\n"
+                         "19,101,unloading\n";
+  Experiment e = paper();
+  Condition &c = e.conditions[1];
+  c.porosity_after_percent.reset();
+  c.thickness_after_um.reset();
+  c.mass_mg.reset();
+  c.curve = file;
+  std::vector<std::string> not_said;
+  const auto all = observables_of(e, c, not_said);
+  std::filesystem::remove(file);
+  EXPECT_EQ(all.at(3).name, "displacement at 75 MPa");
+}
+
+// A roll gap counts by its pressure, a curve by its largest displacement.
+TEST(Belongs, ControlsThatARunCanHave) {
+  SimulatedRun r = pressed_to(150, 0.3, "a");
+  Condition c = paper().conditions[1];
+  EXPECT_TRUE(belongs(r, c));
+  c.control = "roll_gap";
+  EXPECT_TRUE(belongs(r, c));
+  c.max_pressure_MPa.reset();
+  EXPECT_FALSE(belongs(r, c));
+  const std::string file = testing::TempDir() + "calendem_compare_control.csv";
+  std::ofstream(file) << "displacement_um,pressure_MPa\n0,0\n20,100\n";
+  c.control = r.control = "displacement";
+  c.curve = file;
+  r.target = 20.2;
+  EXPECT_TRUE(belongs(r, c));
+  r.target = 24.0;
+  EXPECT_FALSE(belongs(r, c));
+  std::filesystem::remove(file);
 }
 
 TEST(DisplacementAt, IsLinearBetweenPointsAndNothingBeyond) {

@@ -100,6 +100,11 @@ TEST_F(ImageObservables, ARunWithoutFramesHasNoValue) {
 }
 
 // Requirement: 12 voxels of 0.04 um are 4 of the finest that is compared: too few.
+TEST_F(ImageObservables, ALabelThatIsNotThereIsRefused) {
+  experiment_.labels_cbd = 77;
+  EXPECT_THROW(after(made_image([](int i, int, int) { return i % 2; })), Failure);
+}
+
 TEST_F(ImageObservables, AnImageTooSmallIsRefused) {
   try {
     after(made_image([](int i, int, int) { return i % 2; }, 0.04));

@@ -49,14 +49,14 @@ TEST(ExperimentData, ConditionsThatTheBankLacksAreTold) {
   other.id = "p90";
   other.max_pressure_MPa = Measured{90.0, 0.0};
   e.conditions.push_back(other);
-  other.id = "gap";
-  other.control = "roll_gap";
+  other.id = "d";
+  other.control = "displacement";
   e.conditions.push_back(other);
   const ExperimentData data = data_of(e, made_bank(), {});
   EXPECT_EQ(data.experiment.of.size(), 6u);
   for (const char *part :
        {"p60: the bank's runs do not dwell; its 5 s", "p60: label images",
-        "p90: 90 MPa lies outside the bank's 30 to 60 MPa", "gap: control = \"roll_gap\""})
+        "p90: 90 MPa lies outside the bank's 30 to 60 MPa", "d: control = \"displacement\""})
     EXPECT_TRUE(told(data, part)) << part;
 }
 
@@ -126,6 +126,39 @@ TEST(ExperimentData, AnEffectOfFewPointsIsLeftOutAndTold) {
   ASSERT_EQ(data.bank.effects.size(), 1u);
   for (const inference::Run &run : data.bank.runs)
     EXPECT_NE(run.effect, "friction");
+}
+
+// The error of a condition's loading is common to all of it, and to no other condition.
+TEST(ExperimentData, LoadingErrorIsCommonToACondition) {
+  Experiment e = made_experiment(kTruth);
+  for (Condition &c : e.conditions) {
+    c.max_pressure_MPa->sd = 0.0;
+    c.cracked_bodies_fraction.reset();
+    c.porosity_after_percent.reset();
+    c.thickness_after_um = Measured{40.0, 0.1};
+    c.loading_mg_cm2 = Measured{e.recipe.loading, 0.02 * e.recipe.loading};
+  }
+  const ExperimentData data = data_of(e, made_bank(), {});
+  ASSERT_EQ(data.experiment.of.size(), 4u);
+  const auto &v = data.experiment.values;
+  const auto &s = data.experiment.covariance;
+  EXPECT_NEAR(s(0, 1), 4e-4 * v[0] * v[1], 1e-12);
+  EXPECT_GT(s(0, 0), 4e-4 * v[0] * v[0]); // its own error beside
+  EXPECT_EQ(s(0, 2), 0.0);
+}
+
+// Micrometres of a film say nothing of another: without a loading the recipe's is taken, and told.
+TEST(ExperimentData, AnotherFilmIsComparedOverItsSolid) {
+  Experiment e = made_experiment(kTruth);
+  e.recipe.loading *= 2.0;
+  const ExperimentData data = data_of(e, made_bank(), {});
+  EXPECT_TRUE(told(data, "its mass or loading is not given; taken is the recipe's"));
+  bool over_solid = false;
+  for (const inference::Observable &o : data.experiment.of) {
+    EXPECT_NE(o.name, "thickness");
+    over_solid |= o.name == "thickness over solid thickness";
+  }
+  EXPECT_TRUE(over_solid);
 }
 
 // A bank's narrower range is the prior of what it learnt there.

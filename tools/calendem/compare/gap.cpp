@@ -64,31 +64,38 @@ void pool_seeds(std::vector<Entry> &entries, int &degrees_of_freedom) {
 
 /// |z| that one of n rows crosses by chance in kFalseAlarm of all tables (Sidak); Student's t where
 /// the scatter was estimated.
-double threshold(std::size_t rows, int degrees_of_freedom) {
+double threshold(int rows, int degrees_of_freedom) {
   const double tail = 0.5 * (1.0 - std::pow(1.0 - kFalseAlarm, 1.0 / rows));
   if (degrees_of_freedom > 0)
     return quantile(complement(boost::math::students_t(degrees_of_freedom), tail));
   return quantile(complement(boost::math::normal(), tail));
 }
 
+std::string as_lines(const std::vector<std::string> &texts) {
+  std::string out;
+  for (const std::string &text : texts)
+    out += "\n- " + text;
+  return out;
+}
+
 void finish(Gap &gap) {
+  int judged = 0;
   for (Residual &r : gap.rows) {
     r.sd = std::hypot(r.sd_measurement, std::isnan(r.sd_seeds) ? 0.0 : r.sd_seeds, r.sd_pressure);
-    r.z = r.sd > 0.0 ? r.residual / r.sd : std::copysign(INFINITY, r.residual);
-    gap.chi2 += r.z * r.z;
+    r.z = r.sd > 0.0 ? r.residual / r.sd : std::nan("");
+    judged += r.sd > 0.0;
+    gap.chi2 += r.sd > 0.0 ? r.z * r.z : 0.0;
   }
-  gap.threshold = threshold(gap.rows.size(), gap.degrees_of_freedom);
+  gap.threshold = threshold(std::max(1, judged), gap.degrees_of_freedom);
   for (Residual &r : gap.rows) {
-    r.share = std::isinf(gap.chi2) ? std::isinf(r.z) : r.z * r.z / gap.chi2;
-    r.significant = std::fabs(r.z) > gap.threshold;
+    r.share = r.sd > 0.0 && gap.chi2 > 0.0 ? r.z * r.z / gap.chi2 : 0.0;
+    r.significant = r.sd > 0.0 && std::fabs(r.z) > gap.threshold;
   }
-  if (std::isfinite(gap.chi2))
-    gap.p_value = cdf(complement(boost::math::chi_squared(double(gap.rows.size())), gap.chi2));
-  else
-    gap.p_value = 0.0;
-  std::stable_sort(gap.rows.begin(), gap.rows.end(), [](const Residual &a, const Residual &b) {
-    return std::fabs(a.z) > std::fabs(b.z);
-  });
+  gap.p_value =
+      judged > 0 ? cdf(complement(boost::math::chi_squared(double(judged)), gap.chi2)) : 1.0;
+  const auto size = [](const Residual &r) { return r.sd > 0.0 ? std::fabs(r.z) : -1.0; };
+  std::stable_sort(gap.rows.begin(), gap.rows.end(),
+                   [&size](const Residual &a, const Residual &b) { return size(a) > size(b); });
 }
 
 std::string amount(double value, const std::string &unit) {
@@ -102,11 +109,16 @@ void say(Gap &gap) {
           fmt::format("{}, {} ({}): the simulation is {} too {} (z = {:.1f}, {:.0f} % of the gap).",
                       r.condition, r.observable, r.stage, amount(std::fabs(r.residual), r.unit),
                       r.residual > 0.0 ? "high" : "low", r.z, 100.0 * r.share));
-    else
+    else if (r.sd > 0.0)
       gap.not_said.push_back(fmt::format(
           "{}, {}: a difference of {} cannot be told from none; below {} nothing can be seen here.",
           r.condition, r.observable, amount(std::fabs(r.residual), r.unit),
           amount(gap.threshold * r.sd, r.unit)));
+    else
+      gap.not_said.push_back(fmt::format(
+          "{}, {}: without a standard deviation it cannot be said whether a difference of {} is "
+          "one. Give {{ value = ..., sd = ... }}, or runs of several packings.",
+          r.condition, r.observable, amount(std::fabs(r.residual), r.unit)));
   if (gap.degrees_of_freedom < 0)
     gap.not_said.push_back(
         "Scatter between packings is not known: every condition has one packing. All z are upper "
@@ -145,11 +157,13 @@ Gap find_gap(const Experiment &experiment, const std::vector<SimulatedRun> &runs
         mine.push_back(&r);
     used.insert(mine.begin(), mine.end());
     if (mine.empty()) {
-      gap.not_said.push_back(
-          fmt::format("{}: no run has its {}; nothing is said about it.", c.id,
-                      c.control == "pressure" && c.max_pressure_MPa
-                          ? fmt::format("pressure of {:g} MPa", c.max_pressure_MPa->value)
-                          : c.control));
+      gap.not_said.push_back(fmt::format(
+          "{}: no run has its {}; nothing is said about it.", c.id,
+          by_pressure(c) ? fmt::format("pressure of {:g} MPa", c.max_pressure_MPa->value)
+          : c.control == "roll_gap"
+              ? "roll gap: runs are controlled by pressure, so give max_pressure_MPa as "
+                "the gap was converted into it"
+              : c.control));
       continue;
     }
     std::vector<Observable> observables = observables_of(experiment, c, gap.not_said);
@@ -162,11 +176,11 @@ Gap find_gap(const Experiment &experiment, const std::vector<SimulatedRun> &runs
       e.row.condition = c.id;
       e.row.unit = o.unit;
       e.row.measured = o.measured;
-      e.row.sd_measurement = o.sd;
+      e.row.sd_measurement = std::hypot(o.sd, o.by_loading);
       e.row.simulated = e.packings.mean;
       e.row.residual = e.row.simulated - o.measured;
       e.row.packings = static_cast<int>(e.packings.values.size());
-      if (c.control == "pressure" && c.max_pressure_MPa)
+      if (by_pressure(c))
         e.row.sd_pressure = std::fabs(per_packing(mine, o.slope).mean) * c.max_pressure_MPa->sd;
       if (std::isfinite(e.row.residual))
         entries.push_back(e);
@@ -175,10 +189,11 @@ Gap find_gap(const Experiment &experiment, const std::vector<SimulatedRun> &runs
     }
   }
   if (entries.empty())
-    throw Failure(kBadInput, fmt::format("no run belongs to a condition of '{}'. A run belongs "
-                                         "when its platen has the condition's control and target "
-                                         "within 2 %",
-                                         experiment.name));
+    throw Failure(kBadInput,
+                  fmt::format("nothing of '{}' can be compared with these runs. A run belongs to a "
+                              "condition when its platen has the condition's control and target "
+                              "within 2 %.{}",
+                              experiment.name, as_lines(gap.not_said)));
   for (const SimulatedRun &r : runs)
     if (!used.count(&r))
       gap.not_said.push_back(

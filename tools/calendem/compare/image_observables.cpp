@@ -73,6 +73,10 @@ template <class Value> double sd_by_quarters(const PhaseImage &image, Value valu
 PhaseImage read(const Experiment &e, const std::string &file) {
   const PhaseImage image =
       phases_of(read_label_image(file, e.labels_voxel_um), e.labels_pore, e.labels_cbd);
+  if (e.labels_cbd && phase_fractions(image).cbd == 0.0)
+    throw Failure(kBadInput, fmt::format("{}: no voxel has the label labels_cbd = {}. Correct it, "
+                                         "or leave it out if the image shows no CBD.",
+                                         file, *e.labels_cbd));
   const int stride =
       std::max(1, static_cast<int>(std::ceil(kFinest / image.voxel.maxCoeff() - 1e-9)));
   if (*std::min_element(image.n.begin(), image.n.end()) < kFewest * stride)

@@ -24,12 +24,36 @@ Observable thickness_ratio(const Experiment &e, const Measured &thickness, const
   o.name = "thickness over solid thickness";
   o.stage = stage;
   o.measured = ratio;
-  o.sd = ratio * std::hypot(thickness.sd / h, loading.sd / loading.value);
+  o.sd = ratio * thickness.sd / h;
+  o.by_loading = -ratio * loading.sd / loading.value;
   o.simulated = [of](const SimulatedRun &r) { return r.*of / r.solid_column; };
   o.slope = [of](const SimulatedRun &r) { // of 1/(1 - porosity)
     return r.porosity_slope * std::pow(r.*of / r.solid_column, 2);
   };
   return o;
+}
+
+std::string without_loading(const Condition &c, const std::string &what) {
+  return fmt::format("{}: without a mass or a loading of this sample its {} compared in um, as if "
+                     "it carried the recipe's.",
+                     c.id, what);
+}
+
+/// After relaxation, in um: the sample's loading is not known.
+void add_thickness(const Experiment &e, const Condition &c, const Measured &thickness,
+                   std::vector<Observable> &out, std::vector<std::string> &not_said) {
+  Observable o;
+  o.name = "thickness";
+  o.stage = "relaxation";
+  o.unit = "um";
+  o.measured = coating_thickness_um(e, thickness);
+  o.sd = thickness.sd;
+  o.simulated = [](const SimulatedRun &r) { return r.thickness_after; };
+  o.slope = [](const SimulatedRun &r) {
+    return r.porosity_slope * r.thickness_after / (1.0 - r.porosity_after);
+  };
+  out.push_back(o);
+  not_said.push_back(without_loading(c, "thickness is"));
 }
 
 void porosity_after(const Experiment &e, const Condition &c, std::vector<Observable> &out,
@@ -42,6 +66,8 @@ void porosity_after(const Experiment &e, const Condition &c, std::vector<Observa
   if (!c.porosity_after_percent) {
     if (ratio)
       out.push_back(*ratio);
+    else if (c.thickness_after_um)
+      add_thickness(e, c, *c.thickness_after_um, out, not_said);
     return;
   }
   Observable o = {"total porosity",
@@ -57,26 +83,21 @@ void porosity_after(const Experiment &e, const Condition &c, std::vector<Observa
         "{}: mass and thickness give a porosity of {:.2f} ± {:.2f} %, stated are {:.2f} %. They "
         "are one measurement: only the stated porosity is compared.",
         c.id, 100.0 * (1.0 - 1.0 / ratio->measured),
-        100.0 * ratio->sd / (ratio->measured * ratio->measured), o.measured));
-}
-
-std::string without_loading(const Condition &c, const std::string &what) {
-  return fmt::format("{}: without a mass or a loading of this sample its {} compared in um, as if "
-                     "it carried the recipe's.",
-                     c.id, what);
+        100.0 * std::hypot(ratio->sd, ratio->by_loading) / (ratio->measured * ratio->measured),
+        o.measured));
 }
 
 void under_load(const Experiment &e, const Condition &c, std::vector<Observable> &out,
                 std::vector<std::string> &not_said) {
-  if (c.control != "pressure" && c.max_pressure_MPa)
+  if (!by_pressure(c) && c.max_pressure_MPa)
     out.push_back({"maximum pressure", "compression", "MPa", c.max_pressure_MPa->value,
                    c.max_pressure_MPa->sd, [](const SimulatedRun &r) { return r.max_pressure; },
                    none});
   const std::optional<Measured> loading = loading_of(e, c);
-  if (c.control == "pressure" && c.thickness_at_max_um && loading) {
+  if (by_pressure(c) && c.thickness_at_max_um && loading) {
     out.push_back(thickness_ratio(e, *c.thickness_at_max_um, *loading, "compression",
                                   &SimulatedRun::thickness_at_max));
-  } else if (c.control == "pressure" && c.thickness_at_max_um) {
+  } else if (by_pressure(c) && c.thickness_at_max_um) {
     out.push_back({"thickness", "compression", "um", c.thickness_at_max_um->value,
                    c.thickness_at_max_um->sd,
                    [](const SimulatedRun &r) { return r.thickness_at_max; },
@@ -91,15 +112,17 @@ void under_load(const Experiment &e, const Condition &c, std::vector<Observable>
                    [](const SimulatedRun &r) { return r.cracked_fraction; }, none});
 }
 
-/// Compression of the curve file up to the highest pressure so far.
+/// Loading of the curve file up to the highest pressure so far.
 void read_curve(const std::string &file, std::vector<double> &pressure,
                 std::vector<double> &displacement) {
   std::ifstream in(file);
   const auto table =
       CsvTable::parse({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
   const auto d = table.numbers("displacement_um"), p = table.numbers("pressure_MPa");
+  const auto stage = table.texts("stage");
   for (std::size_t k = 0; k < p.size(); ++k)
-    if (pressure.empty() || p[k] > pressure.back()) {
+    if ((stage.empty() || stage[k] == "loading" || stage[k] == "compression") &&
+        (pressure.empty() || p[k] > pressure.back())) {
       pressure.push_back(p[k]);
       displacement.push_back(d[k]);
     }
@@ -119,15 +142,28 @@ void along_curve(const Experiment &e, const Condition &c, std::vector<Observable
     not_said.push_back(without_loading(c, "displacements are"));
   for (Observable &o : points_of_curve(e, c, pressure.back())) {
     o.measured = displacement_at(pressure, displacement, o.pressure) / solid;
-    o.sd = std::hypot(loading ? o.measured * loading->sd / loading->value : 0.0,
-                      c.curve_sd_um / solid);
+    o.sd = c.curve_sd_um / solid;
+    o.by_loading = loading ? -o.measured * loading->sd / loading->value : 0.0;
     out.push_back(o);
   }
+}
+
+/// As stated, else the largest of the curve [um].
+double displacement_of(const Condition &c) {
+  if (c.displacement_um)
+    return c.displacement_um->value;
+  std::vector<double> pressure, displacement;
+  read_curve(c.curve, pressure, displacement);
+  return displacement.back();
 }
 
 bool near(double a, double b) { return std::fabs(a - b) <= kSameTarget * std::fabs(b); }
 
 } // namespace
+
+bool by_pressure(const Condition &c) {
+  return c.max_pressure_MPa && (c.control == "pressure" || c.control == "roll_gap");
+}
 
 std::optional<Measured> loading_of(const Experiment &e, const Condition &c) {
   if (c.mass_mg)
@@ -171,7 +207,7 @@ std::vector<Observable> observables_of(const Experiment &e, const Condition &c,
   under_load(e, c, out, not_said);
   along_curve(e, c, out, not_said);
   for (const Observable &o : out)
-    if (!(o.sd > 0.0))
+    if (o.sd == 0.0 && o.by_loading == 0.0)
       not_said.push_back(fmt::format("{}: {} has no standard deviation; the measurement counts as "
                                      "exact.",
                                      c.id, o.name));
@@ -179,10 +215,10 @@ std::vector<Observable> observables_of(const Experiment &e, const Condition &c,
 }
 
 bool belongs(const SimulatedRun &r, const Condition &c) {
-  if (c.control == "pressure" && c.max_pressure_MPa)
+  if (by_pressure(c))
     return r.control == "pressure" && near(r.target, c.max_pressure_MPa->value);
-  if (c.control == "displacement" && c.displacement_um)
-    return r.control == "displacement" && near(r.target, c.displacement_um->value);
+  if (c.control == "displacement")
+    return r.control == "displacement" && near(r.target, displacement_of(c));
   if (c.control == "thickness" && c.thickness_at_max_um)
     return r.control == "thickness" && near(r.target, c.thickness_at_max_um->value);
   return false;

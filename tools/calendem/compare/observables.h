@@ -18,11 +18,18 @@ struct Observable {
   std::string curve = {};  ///< of a point of a curve: the curve's name
   double coordinate = 0.0; ///< of a point: its place on the curve, 0-1
   double pressure = 0.0;   ///< of a point [MPa]
+  /// Change of the measured value by one standard deviation of the sample's loading: the same error
+  /// in all of a condition. Not in `sd`.
+  double by_loading = 0.0;
 };
 
 /// All of one condition. What a value needs and lacks is told in `not_said`.
 std::vector<Observable> observables_of(const Experiment &experiment, const Condition &condition,
                                        std::vector<std::string> &not_said);
+
+/// The platen goes to the condition's pressure; a roll gap counts by the pressure it was converted
+/// into.
+bool by_pressure(const Condition &condition);
 
 /// Of the sample [mg/cm2], by its mass if that is given.
 std::optional<Measured> loading_of(const Experiment &experiment, const Condition &condition);

@@ -8,6 +8,8 @@ namespace calendem {
 namespace {
 
 constexpr double kSamePressure = 0.02; // of it
+constexpr double kOtherFilm = 0.1;     // of the film: more than a bank varies it
+constexpr double kLoadingKnown = 0.03; // of a loading that nobody measured
 
 bool near(double a, double b) { return std::fabs(a - b) <= kSamePressure * b; }
 
@@ -39,6 +41,20 @@ Condition bare(const Condition &c) {
   out.max_pressure_MPa = c.max_pressure_MPa;
   out.loading_mg_cm2 = c.loading_mg_cm2;
   out.mass_mg = c.mass_mg;
+  return out;
+}
+
+Condition with_loading(const Experiment &e, const Condition &c, const BankTable &table,
+                       std::vector<std::string> &not_said) {
+  Condition out = c;
+  const double film = table.rows.empty() ? NAN : table.rows.front().run.solid_column;
+  const double other = solid_thickness_um(e, e.recipe.loading) / film;
+  if (loading_of(e, c) || !(std::fabs(other - 1.0) > kOtherFilm))
+    return out;
+  out.loading_mg_cm2 = Measured{e.recipe.loading, kLoadingKnown * e.recipe.loading};
+  not_said.push_back(fmt::format("{}: its mass or loading is not given; taken is the recipe's {:g} "
+                                 "mg/cm2 within {:g} %. Weigh the sample.",
+                                 c.id, e.recipe.loading, 100.0 * kLoadingKnown));
   return out;
 }
 
@@ -98,10 +114,11 @@ void add_curve(Kind &kind, const Experiment &e, const Condition &c) {
   const auto loading = loading_of(e, c);
   const double solid = loading ? solid_thickness_um(e, loading->value) : 1.0;
   std::vector<Observable> points = points_of_curve(e, c, c.max_pressure_MPa->value);
-  for (Observable &o : points)
-    o.sd = std::hypot(kind.sd() / solid,
-                      loading ? kind.expected(c, o.simulated).value * loading->sd / loading->value
-                              : 0.0);
+  for (Observable &o : points) {
+    o.sd = kind.sd() / solid;
+    o.by_loading =
+        loading ? -kind.expected(c, o.simulated).value * loading->sd / loading->value : 0.0;
+  }
   kind.add(c, points);
 }
 
@@ -119,14 +136,15 @@ Condition at_pressure(double pressure, const std::vector<Covered> &covered) {
 
 } // namespace
 
-std::vector<Covered> covered_by(const Experiment &e, const BankSpec &spec,
+std::vector<Covered> covered_by(const Experiment &e, const BankTable &table,
                                 const std::vector<std::string> &wanted,
                                 std::vector<std::string> &not_said) {
+  const BankSpec &spec = table.spec;
   std::vector<Covered> out;
   for (const Condition &c : e.conditions) {
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), c.id) == wanted.end())
       continue;
-    if (c.control != "pressure" || !c.max_pressure_MPa) {
+    if (!by_pressure(c)) {
       not_said.push_back(fmt::format("{}: control = \"{}\" is not in the bank, whose runs go to a "
                                      "pressure; the condition is left out.",
                                      c.id, c.control));
@@ -147,7 +165,8 @@ std::vector<Covered> covered_by(const Experiment &e, const BankSpec &spec,
       not_said.push_back(fmt::format("{}: label images are not looked at here: the bank keeps no "
                                      "frames. calendem compare sets them beside runs.",
                                      c.id));
-    out.push_back({c, p, observables_of(e, c, not_said)});
+    const Condition known = with_loading(e, c, table, not_said);
+    out.push_back({known, p, observables_of(e, known, not_said)});
   }
   return out;
 }

@@ -62,7 +62,8 @@ inference::Observable named(const Covered &c, const Observable &o) {
   return {o.curve.empty() ? o.name : o.curve, o.stage, c.condition.id, o.coordinate};
 }
 
-/// Observables, and their covariance: the pressure's error is common to all of them.
+/// Observables, and their covariance: the pressure's error is common to all of them, the loading's
+/// to those of a condition.
 inference::ObservableVector measured_of(const std::vector<Covered> &all, const Vector &pressure) {
   inference::ObservableVector out;
   std::vector<double> values, sd;
@@ -76,6 +77,13 @@ inference::ObservableVector measured_of(const std::vector<Covered> &all, const V
   out.values = Eigen::Map<Vector>(values.data(), n);
   const Vector s = Eigen::Map<Vector>(sd.data(), n);
   out.covariance = Matrix(s.cwiseAbs2().asDiagonal()) + pressure * pressure.transpose();
+  Eigen::Index next = 0;
+  for (const Covered &c : all) {
+    Vector loading = Vector::Zero(n);
+    for (const Observable &o : c.observables)
+      loading[next++] = o.by_loading;
+    out.covariance += loading * loading.transpose();
+  }
   return out;
 }
 
@@ -118,8 +126,12 @@ void set_experiment(const inference::ObservableVector &measured, const std::vect
     else
       data.told.push_back(told[std::size_t(k)]);
   if (kept.empty())
-    throw Failure(kBadInput, "nothing that was measured can be compared with the bank. Conditions "
-                             "with control = \"pressure\" within the bank's pressures are needed.");
+    throw Failure(kBadInput,
+                  fmt::format("nothing that was measured can be compared with the bank. Conditions "
+                              "with control = \"pressure\" within the bank's pressures are needed."
+                              "{}{}",
+                              data.not_said.empty() ? "" : "\n- ",
+                              fmt::join(data.not_said, "\n- ")));
   data.experiment = only(measured, kept);
 }
 
@@ -215,7 +227,7 @@ ExperimentData data_of(const Experiment &experiment, const BankTable &as_given,
   BankTable table = as_given;
   const std::vector<PointRuns> points =
       enough(points_of(table, data.not_said), table.spec, data.not_said);
-  const std::vector<Covered> now = covered_by(experiment, table.spec, conditions, data.not_said);
+  const std::vector<Covered> now = covered_by(experiment, table, conditions, data.not_said);
   const std::vector<Further> further = further_measurements(experiment, table, now);
   std::vector<Covered> all = now;
   for (const Further &f : further)

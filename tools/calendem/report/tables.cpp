@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <regex>
 
 #include <fmt/format.h>
 
@@ -125,8 +126,11 @@ json fact(std::string name, const json &value) {
                                                                  {"_seconds", "s"},
                                                                  {"_s", "s"}};
   std::string unit;
+  // the unit of a threshold is not that of the value: "difference above 5 MPa"
+  static const std::regex threshold("_(above|below|at)_[0-9.]+_[a-zA-Z0-9]+$");
+  const bool of_threshold = std::regex_search(name, threshold);
   for (const auto &[suffix, shown_as] : kUnits)
-    if (ends_with(name, suffix)) {
+    if (!of_threshold && ends_with(name, suffix)) {
       unit = shown_as;
       name.resize(name.size() - std::string(suffix).size());
       break;

@@ -39,7 +39,8 @@ double number(const std::string &cell) {
 
 CsvTable CsvTable::parse(const std::string &text) {
   CsvTable table;
-  std::istringstream lines(text);
+  const std::string mark = "\xEF\xBB\xBF"; // that spreadsheets put before UTF-8
+  std::istringstream lines(text.rfind(mark, 0) == 0 ? text.substr(mark.size()) : text);
   std::string line;
   for (int n = 1; std::getline(lines, line); ++n) {
     line = trimmed(line);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A comma-separated table with a header line; lines that begin with '#' are comments. Cells are
-// kept as text, numbers are made on request (an empty or unreadable cell is NaN). No quoting: none
-// of the project's tables needs it.
+// A comma-separated table with a header line; lines that begin with '#' are comments,
+// a byte-order mark is skipped. Cells are kept as text, numbers are made on request (an empty or
+// unreadable cell is NaN). No quoting: none of the project's tables needs it.
 #ifndef CALENDEM_SPEC_CSV_TABLE_H
 #define CALENDEM_SPEC_CSV_TABLE_H
 

@@ -12,8 +12,10 @@ namespace calendem {
 void check_foil(const Experiment &experiment, const Condition &condition, const std::string &who,
                 int line, Mistakes &mistakes);
 
-/// A CSV file whose displacements and pressures are numbers; `line` is that of its key.
-void check_curve(const std::string &path, int line, Mistakes &mistakes);
+/// A CSV file whose displacements, pressures and stages can be those of the condition; `line` is
+/// that of its key.
+void check_curve(const Experiment &experiment, const Condition &condition, int line,
+                 Mistakes &mistakes);
 
 } // namespace calendem
 

@@ -25,7 +25,8 @@ const std::vector<Key> &condition_keys() {
       {"id", "", "", 0, 0, "", "name of the condition, as in split", "", true},
       {"control", "", "", 0, 0, "", "what the calender was set to",
        "pressure|displacement|thickness|roll_gap"},
-      {"curve", "", "-", 0, 0, "", "CSV: displacement_um,pressure_MPa[,stage]", "", true},
+      {"curve", "", "-", 0, 0, "",
+       "CSV: displacement_um,pressure_MPa[,stage]; stage: loading, dwell, unloading", "", true},
       {"labels_before", "", "-", 0, 0, "",
        "label image before calendering, z from the collector up", "", true},
       {"labels_after", "", "-", 0, 0, "", "label image after calendering", "", true},
@@ -75,7 +76,7 @@ std::string list_of_experiment_keys() {
     measured.push_back(q.key);
   rows(
       "[[condition]], a number or { value, sd } or { value, sd_relative }; mass and thickness also "
-      "includes_foil",
+      "includes_foil (default: a mass does, a thickness does not)",
       measured);
   return text;
 }

@@ -185,7 +185,7 @@ private:
       needs(t.contains("roll_gap_um"), "roll_gap_um");
     check_foil(e_, c, who, line_of(t), mistakes_);
     if (!c.curve.empty())
-      check_curve(c.curve, line_of(*t.get("curve")), mistakes_);
+      check_curve(e_, c, line_of(*t.get("curve")), mistakes_);
     for (const Condition &other : e_.conditions)
       if (!c.id.empty() && other.id == c.id)
         mistakes_.add(line_of(t),
