@@ -53,6 +53,13 @@ sed 's/^sample_diameter_mm.*//' experiment.toml >no_size.toml
 refuses "or --cells" no_size.toml --bank bank.toml
 sed 's/value = [345]0, sd_relative/value = 90, sd_relative/' experiment.toml >beyond.toml
 refuses "nothing that was measured can be compared" beyond.toml --bank bank.toml
+sed 's/^am_weight_percent.*/am_weight_percent = 90/; s/^carbon_weight_percent.*/carbon_weight_percent = 8/' \
+  ../calendering/electrode.toml >other_electrode.toml
+grep -q '= 90' other_electrode.toml || printf '\n[composition]\nam_weight_percent = 90\ncarbon_weight_percent = 8\n' >>other_electrode.toml
+sed 's|^electrode = .*|electrode = "other_electrode.toml"|' experiment.toml >other.toml
+refuses "not the bank's electrode; composition.am_weight_percent: 90 instead of 96" other.toml --bank bank.toml
+diagnose other.toml -o other --bank bank.toml --other-electrode --no-rerun >other.log || fail "exit status $?"
+grep -q "^note: the sample is not the bank's electrode" other.log || fail "another electrode is not told"
 sed 's/^hours = 5/hours = -5/' bank.toml >price.toml
 refuses "hours is -5" experiment.toml --bank price.toml --table bank.csv
 

@@ -64,6 +64,22 @@ TEST(FindGap, WithoutAnyDeviationThereIsNoZ) {
   EXPECT_EQ(gap.rows[0].share, 0.0);
 }
 
+TEST(FindGap, AnotherElectrodeIsTold) {
+  SimulatedRun r = pressed_to(150, 0.28, "a");
+  const auto told = [&r] {
+    const std::vector<std::string> texts = find_gap(paper(), {r}).not_said;
+    return texts[0].find("its electrode is not the experiment's; density.am_g_cm3: 2.2 instead of "
+                         "4.65") != std::string::npos;
+  };
+  r.recipe = paper().recipe.settings.all();
+  r.recipe["coating.loading_mg_cm2"] = "8"; // that may differ
+  EXPECT_FALSE(told());
+  r.recipe["density.am_g_cm3"] = "2.2";
+  EXPECT_TRUE(told());
+  r.recipe["structure.file"] = "film.data"; // its particles are not the recipe's
+  EXPECT_FALSE(told());
+}
+
 TEST(FindGap, NothingToCompareTellsWhy) {
   try {
     find_gap(paper(), {pressed_to(120, 0.3, "a")});

@@ -199,6 +199,13 @@ Gap find_gap(const Experiment &experiment, const std::vector<SimulatedRun> &runs
       gap.not_said.push_back(
           fmt::format("{} belongs to no condition ({} {:g}).", r.folder, r.control, r.target));
   for (const SimulatedRun *r : used)
+    if (const auto differs = other_electrode(experiment.recipe.settings.all(), r->recipe);
+        !differs.empty())
+      gap.not_said.insert(gap.not_said.begin(),
+                          fmt::format("{}: its electrode is not the experiment's; {}. What differs "
+                                      "by that is no gap of the model.",
+                                      r->folder, fmt::join(differs, "; ")));
+  for (const SimulatedRun *r : used)
     if (!r->imposed.empty())
       gap.not_said.push_back(fmt::format("{}: the nanoporosity of CBD is {}. Its porosities are no "
                                          "prediction of the model.",

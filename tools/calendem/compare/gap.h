@@ -5,6 +5,7 @@
 #define CALENDEM_COMPARE_GAP_H
 
 #include "spec/experiment.h"
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -25,7 +26,8 @@ struct SimulatedRun {
   std::vector<double> pressure, displacement; ///< of the compression, highest pressure so far
   double porosity_slope = 0.0; ///< d porosity / d pressure under load near the maximum [1/MPa]
   std::string imposed;         ///< what was imposed on the run, not predicted; empty: nothing
-  std::string electrode_hash;  ///< two runs of one packing are no two packings
+  std::map<std::string, std::string> recipe; ///< of its electrode
+  std::string electrode_hash;                ///< two runs of one packing are no two packings
 };
 
 /// Reads summary.json, electrode.json, case.toml and curve.csv of a run directory. Throws

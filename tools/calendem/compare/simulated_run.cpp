@@ -107,8 +107,13 @@ SimulatedRun read_simulated_run(const std::string &folder) {
   read_curve(folder + "/curve.csv", run, mistakes);
   const std::string recipe = folder + "/electrode.json";
   const nlohmann::json electrode = json_of(recipe, mistakes);
-  if (electrode.is_object())
+  if (electrode.is_object()) {
     run.electrode_hash = hash_of_file(recipe);
+    const nlohmann::json settings_of_recipe = electrode.value("recipe", nlohmann::json::object());
+    for (const auto &[key, value] : settings_of_recipe.items())
+      if (value.is_string())
+        run.recipe[key] = value;
+  }
   Mistakes of_case(folder + "/case.toml");
   const Settings settings = read_toml(folder + "/case.toml", case_keys(), of_case);
   of_case.stop_if_any();

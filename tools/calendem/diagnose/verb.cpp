@@ -15,7 +15,7 @@ struct Options {
   std::string experiment, folder, bank, table;
   std::vector<std::string> without;
   double cells = 0.0; // 0: from the sample's diameter
-  bool no_rerun = false;
+  bool no_rerun = false, other_electrode = false;
   RerunOptions rerun;
 };
 
@@ -75,14 +75,36 @@ void how_far(Options &o, const Experiment &experiment, const BankTable &table, D
                m["hypothesis"].get<std::string>(), m["gap"]["value"].get<double>());
 }
 
+/// A bank says nothing of another electrode.
+std::string of_another_electrode(const Options &o, const Experiment &e, const BankSpec &bank) {
+  const auto differs =
+      other_electrode(read_recipe(bank.recipe_file).settings.all(), e.recipe.settings.all());
+  if (differs.empty())
+    return "";
+  const std::string text =
+      fmt::format("the sample is not the bank's electrode; {}", fmt::join(differs, "; "));
+  if (!o.other_electrode)
+    throw Failure(kBadInput, fmt::format("{}. Make a bank of it (calendem bank; copy {} and change "
+                                         "its recipe), or go on with --other-electrode if that "
+                                         "does not matter to you.",
+                                         text, o.bank));
+  return text + ": what follows holds as far as that does not matter.";
+}
+
 void run(Options o) {
   if (o.table.empty())
     o.table = std::filesystem::path(o.bank).replace_extension("csv").string();
   const Experiment experiment = read_experiment(o.experiment);
   const BankTable table =
       without_effects(read_bank_table(read_bank_spec(o.bank), o.table), o.without);
+  const std::string another = of_another_electrode(o, experiment, table.spec);
   SharedModels models;
   Diagnosed d = diagnosed(experiment, table, o.cells, models);
+  if (!another.empty()) {
+    d.data.not_said.insert(d.data.not_said.begin(), another);
+    d.gap["not_said"] = d.data.not_said;
+    fmt::print("note: {}\n", another);
+  }
   nlohmann::ordered_json &provenance = d.gap["provenance"];
   provenance["experiment_file"] = hash_of_file(o.experiment);
   provenance["bank"] = hash_of_file(o.bank);
@@ -112,6 +134,8 @@ void add_diagnose_verb(CLI::App &app) {
                    "how many of the bank's cells the sample is as large as (scatter between "
                    "packings counts with its inverse); default: from sample_diameter_mm")
       ->check(CLI::Range(1.0, 1e12));
+  verb->add_flag("--other-electrode", o->other_electrode,
+                 "go on though the sample's recipe is not the bank's");
   verb->add_flag("--no-rerun", o->no_rerun, "where and which only: run nothing again");
   verb->add_option("--packings", o->rerun.packings, "new packings that models are run again on")
       ->check(CLI::Range(2, 1000));

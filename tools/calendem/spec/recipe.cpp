@@ -199,4 +199,26 @@ Recipe read_recipe(const std::string &file) {
   return r;
 }
 
+std::vector<std::string> other_electrode(const std::map<std::string, std::string> &wanted,
+                                         const std::map<std::string, std::string> &recipe) {
+  constexpr double kSame = 0.02;
+  std::vector<std::string> out;
+  for (const auto *one : {&wanted, &recipe})
+    if (const auto file = one->find("structure.file"); file != one->end() && file->second != "none")
+      return out;
+  for (const char *key :
+       {"composition.am_weight_percent", "composition.carbon_weight_percent",
+        "composition.binder_weight_percent", "density.am_g_cm3", "density.cbd_solid_g_cm3",
+        "coating.porosity_total_percent", "particles.median_um", "particles.sigma_ln",
+        "cbd.nanoporosity_percent", "cbd.diameter_um"}) {
+    const auto a = wanted.find(key), b = recipe.find(key);
+    if (a == wanted.end() || b == recipe.end())
+      continue;
+    const double x = std::stod(a->second), y = std::stod(b->second);
+    if (std::fabs(x - y) > kSame * std::max(std::fabs(x), std::fabs(y)))
+      out.push_back(fmt::format("{}: {} instead of {}", key, b->second, a->second));
+  }
+  return out;
+}
+
 } // namespace calendem

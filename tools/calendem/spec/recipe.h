@@ -60,6 +60,12 @@ void check_recipe(const Settings &settings, const Recipe &recipe, Mistakes &mist
 /// Throws Failure(2) with every mistake of the file.
 Recipe read_recipe(const std::string &file);
 
+/// In what a recipe's settings make another electrode than `wanted`, by more than 2 %: composition,
+/// densities, porosity before calendering, sizes, CBD. "key: 2.2 instead of 4.65". Loading, cell
+/// and seed may differ. Empty where either takes its particles from a structure.
+std::vector<std::string> other_electrode(const std::map<std::string, std::string> &wanted,
+                                         const std::map<std::string, std::string> &recipe);
+
 } // namespace calendem
 
 #endif
