@@ -182,7 +182,8 @@ Chart both_pressures(const std::vector<Run> &runs) {
                                 c["pressure_bottom_MPa"], kRed, "5 4", look_of(runs, i)));
   }
   chart.note =
-      "Equal pressures mean that no stress wave carries the load: the run is quasi-static.";
+      "Equal pressures mean that no stress wave carries the load. How far they differ, and "
+      "whether the run counts as quasi-static: next chart.";
   return chart;
 }
 

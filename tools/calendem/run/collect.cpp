@@ -108,6 +108,17 @@ nlohmann::json quasi_static(const std::vector<RawRow> &rows, double average) {
           {"rows_with_difference_above_5_percent", over}};
 }
 
+std::string speed_warning(const nlohmann::json &check) {
+  const int over = check["rows_with_difference_above_5_percent"];
+  return over == 0
+             ? ""
+             : fmt::format("the pressures on platen and collector differ by more than 5 % in {} of "
+                           "{} rows above 5 MPa (by {:.1f} % at most): there the run is not "
+                           "quasi-static. A lower platen.speed_m_s makes it so",
+                           over, check["rows_above_5_MPa"].get<int>(),
+                           100.0 * check["pressure_difference_max_above_5_MPa"].get<double>());
+}
+
 /// What was put in by hand where a model would need a law; null: nothing.
 nlohmann::json imposed(const Settings &s, double max_pressure) {
   const double until = s.number("imposed.cbd_nanoporosity_until_MPa"),
@@ -275,8 +286,10 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   else
     s["stopped_because"] = facts.stopped_because;
   write_file(folder + "/summary.json", s.dump(2) + "\n");
-  if (const std::string warning = ledger_warning(s["energy_fJ"]); !warning.empty())
-    fmt::print(stderr, "warning: {}\n", warning);
+  for (const std::string &warning :
+       {ledger_warning(s["energy_fJ"]), speed_warning(s["quasi_static"])})
+    if (!warning.empty())
+      fmt::print(stderr, "warning: {}\n", warning);
   return s;
 }
 

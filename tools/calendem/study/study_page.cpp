@@ -13,6 +13,8 @@ namespace calendem {
 extern const char *const kStudyHtml;
 namespace {
 
+constexpr double kQuasiStatic = 0.05; // difference of the pressures on platen and collector
+
 std::string shown(const Spread &s, double factor, const char *format) {
   if (s.n == 0)
     return "–";
@@ -46,8 +48,9 @@ nlohmann::json row_of(const StudyTable &table, const StudyGroup &group) {
   cells.push_back(shown(table.spread(group, "porosity_after_relaxation"), 100.0, "{:.1f}"));
   cells.push_back(porosity_distance(table, group));
   cells.push_back(shown(table.spread(group, "springback"), 100.0, "{:.1f}"));
-  cells.push_back(
-      shown(table.spread(group, "pressure_difference_max_above_5_MPa"), 100.0, "{:.1f}"));
+  const Spread difference = table.spread(group, "pressure_difference_max_above_5_MPa");
+  cells.push_back(shown(difference, 100.0, "{:.1f}") +
+                  (difference.mean > kQuasiStatic ? " !" : ""));
   return {{"cells", cells}};
 }
 
