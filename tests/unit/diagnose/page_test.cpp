@@ -150,13 +150,13 @@ TEST(ConfoundingPart, AnEffectThatNoAmplitudeShowsIsInvisible) {
                                                     {"value", nullptr}}})}}},
       {"emulators", nlohmann::json::array({{{"effect", "a"}, {"poor", true}}})}};
   const nlohmann::json part = confounding_part(gap);
-  EXPECT_EQ(part["limits"][0]["claim"], "no: poor emulators");
+  EXPECT_EQ(part["limits"][0]["claim"], "too poor");
   nlohmann::json base_poor = gap;
   base_poor["emulators"][0]["effect"] = "base";
-  EXPECT_EQ(confounding_part(base_poor)["limits"][0]["claim"], "no: poor emulators");
+  EXPECT_EQ(confounding_part(base_poor)["limits"][0]["claim"], "too poor");
   base_poor["emulators"][0]["poor"] = false;
-  EXPECT_EQ(confounding_part(base_poor)["limits"][0]["claim"], "yes");
-  EXPECT_EQ(part["limits"][0]["value"], "invisible here");
+  EXPECT_EQ(confounding_part(base_poor)["limits"][0]["claim"], "good enough");
+  EXPECT_EQ(part["limits"][0]["value"], "nowhere");
   EXPECT_EQ(part["limits"][0]["absorbed"], "25");
   EXPECT_EQ(part["alike"][0], "a, b");
 }

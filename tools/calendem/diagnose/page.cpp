@@ -55,6 +55,8 @@ json measurements_of(const json &which) {
   return rows;
 }
 
+constexpr double kSaysMuch = 0.5; // Q2 below which an emulator explains little
+
 json emulators_of(const json &gap) {
   json rows = json::array();
   for (const json &e : gap["emulators"])
@@ -62,7 +64,9 @@ json emulators_of(const json &gap) {
                     {"runs", e["runs"]},
                     {"q2", shown(e["q2"], "{:.3f}")},
                     {"error", shown(e["error"], "{:.2g}")},
-                    {"verdict", e["poor"] ? "too poor: cannot be claimed" : "good enough"}});
+                    {"verdict", e["poor"]                           ? "too poor: cannot be claimed"
+                                : e["q2"].get<double>() < kSaysMuch ? "hardly moves these data"
+                                                                    : "good enough"}});
   return rows;
 }
 

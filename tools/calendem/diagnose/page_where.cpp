@@ -94,9 +94,9 @@ json confounding_part(const json &gap) {
     limits.push_back(
         {{"effect", l["effect"]},
          {"key", fmt::format("{}", fmt::join(l["keys"].get<std::vector<std::string>>(), ", "))},
-         {"value", l["value"].is_number() ? shown(l["value"], "{:.3g}") : "invisible here"},
+         {"value", l["value"].is_number() ? shown(l["value"], "{:.3g}") : "nowhere"},
          {"rival", l["rival"]},
-         {"claim", poor.count("base") + poor.count(l["effect"]) > 0 ? "no: poor emulators" : "yes"},
+         {"claim", poor.count("base") + poor.count(l["effect"]) > 0 ? "too poor" : "good enough"},
          {"absorbed", fmt::format("{:.0f}", 100.0 * c["absorbed"][k].get<double>())}});
   }
   for (const json &set : gap["which"]["indistinguishable"])
