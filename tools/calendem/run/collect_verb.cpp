@@ -53,8 +53,9 @@ Settings read_settings(const std::string &file, const std::string &electrode) {
     }
     const auto found = values.find(key.variable);
     if (found == values.end())
-      mistakes.add(
-          0, fmt::format("'{}' is missing: the file is cut. Run the scripts again.", key.variable));
+      mistakes.add(0, fmt::format("'{}' is missing: the run was made by an older version, or the "
+                                  "file is cut. Run the scripts again.",
+                                  key.variable));
     else
       s.set(key.name, found->second);
   }
