@@ -116,7 +116,7 @@ case $case in
     (cat "$here/case.toml" && printf 'every_us = 0.5\n[effects.pre_cracks]\nfraction = 0.05\n') >"$work/rare.toml"
     "$bin/calendem" run "$work/rare.toml" -o "$work/rare" --ranks 1 --force
     grep -q '"finished": true' "$work/rare/summary.json" || fail "the run counts as not finished"
-    number 0.01 "$work/rare/summary.json" >/dev/null || fail "no porosity at the platen's own threshold"
+    [ -n "$(number '0\.01' "$work/rare/summary.json")" ] || fail "no porosity at the platen's own threshold"
     awk -F, 'NR > 1 && $1 < 0.01 { n += 1; wrong += $11 != 0 } END { exit !(n > 0 && wrong == 0) }' "$work/rare/breaks.csv" ||
       fail "breaks before first touch have a pressure: $(head -n 3 "$work/rare/breaks.csv")" ;;
   refused) # another electrode's restart files, nanoporosity of another recipe, paths LIGGGHTS cannot take

@@ -71,13 +71,6 @@ double threshold(int rows, int degrees_of_freedom) {
   return quantile(complement(boost::math::normal(), tail));
 }
 
-std::string as_lines(const std::vector<std::string> &texts) {
-  std::string out;
-  for (const std::string &text : texts)
-    out += "\n- " + text;
-  return out;
-}
-
 void finish(Gap &gap) {
   int judged = 0;
   for (Residual &r : gap.rows) {
@@ -193,7 +186,7 @@ Gap find_gap(const Experiment &experiment, const std::vector<SimulatedRun> &runs
                   fmt::format("nothing of '{}' can be compared with these runs. A run belongs to a "
                               "condition when its platen has the condition's control and target "
                               "within 2 %.{}",
-                              experiment.name, as_lines(gap.not_said)));
+                              experiment.name, as_list(gap.not_said)));
   for (const SimulatedRun &r : runs)
     if (!used.count(&r))
       gap.not_said.push_back(

@@ -129,9 +129,8 @@ void set_experiment(const inference::ObservableVector &measured, const std::vect
     throw Failure(kBadInput,
                   fmt::format("nothing that was measured can be compared with the bank. Conditions "
                               "with control = \"pressure\" within the bank's pressures are needed."
-                              "{}{}",
-                              data.not_said.empty() ? "" : "\n- ",
-                              fmt::join(data.not_said, "\n- ")));
+                              "{}",
+                              as_list(data.not_said)));
   data.experiment = only(measured, kept);
 }
 

@@ -113,13 +113,14 @@ struct Hardest {
 };
 
 /// First amplitude of the prior at which the log-odds are enough, between the steps by their growth
-/// with its square; NaN: none. `rival`: of the last amplitude looked at.
+/// with its square; NaN: none. `odds`: at the k-th step, from 0. `rival`: of the last amplitude
+/// looked at.
 template <class Odds>
 double first_telling(const Effect &e, const ConfoundingSettings &settings, const Odds &odds,
                      std::string &rival) {
   double before = 0.0; // log-odds at the step below
   for (int k = 1; k <= settings.amplitudes; ++k) {
-    const Hardest here = odds(double(k) / settings.amplitudes);
+    const Hardest here = odds(k - 1);
     rival = here.rival;
     if (here.odds >= settings.telling) {
       const double from = std::sqrt(std::max(before, 0.0));
@@ -137,15 +138,16 @@ DetectionLimit limit_of(const Problem &problem, int effect,
                         const std::vector<std::vector<Signature>> &grids,
                         const Signatures &signatures, const ConfoundingSettings &settings) {
   const Effect &e = problem.effects[effect];
-  const auto from_none = [&](double share) {
-    return Hardest{
-        odds_between(signatures.of(effect, at_share(e, share, 1)), grids[effect].front())};
+  std::vector<Signature> truths;
+  for (int k = 1; k <= settings.amplitudes; ++k)
+    truths.push_back(signatures.of(effect, at_share(e, double(k) / settings.amplitudes, 1)));
+  const auto from_none = [&](int k) {
+    return Hardest{odds_between(truths[k], grids[effect].front())};
   };
-  const auto from_all = [&](double share) {
-    const Signature truth = signatures.of(effect, at_share(e, share, 1));
-    Hardest least = from_none(share);
+  const auto from_all = [&](int k) {
+    Hardest least = from_none(k);
     for (int other = 0; other < int(grids.size()); ++other)
-      if (const double odds = other == effect ? INFINITY : log_odds(truth, grids[other]);
+      if (const double odds = other == effect ? INFINITY : log_odds(truths[k], grids[other]);
           odds < least.odds)
         least = {odds, problem.effects[other].name};
     return least;

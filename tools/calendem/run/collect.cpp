@@ -97,7 +97,7 @@ nlohmann::json quasi_static(const std::vector<RawRow> &rows, double average) {
       worst = std::max(worst, averaged[i]);
       worst_row = std::max(worst_row, std::fabs(1.0 - rows[i].p_bottom / rows[i].p_top));
       sum += averaged[i];
-      over += averaged[i] > 0.05;
+      over += averaged[i] > kQuasiStatic;
       ++n;
     }
   return {{"window_us", std::max(average, kImbalanceWindow)},

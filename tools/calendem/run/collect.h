@@ -19,6 +19,9 @@ struct RawRow {
       cohesion, damped, friction;
 };
 
+/// |P platen - P collector| / P platen within which a run counts as quasi-static.
+constexpr double kQuasiStatic = 0.05;
+
 /// Rows by time; after a resumption the last of equal steps counts. Cut lines are dropped.
 std::vector<RawRow> read_raw(const std::string &file);
 

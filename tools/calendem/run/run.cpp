@@ -130,10 +130,12 @@ public:
         kStages[static_cast<int>(r.stage)], 100 * share, r.p_top, r.gap,
         r.made > 0 ? 100 * r.broken / r.made : 0.0,
         std::chrono::duration<double>(now - begin_).count());
-    if (std::isnan(from_))
-      from_ = rows.front().time < r.time && rows.size() < 20 ? rows.front().time : r.time;
+    if (std::isnan(from_)) {
+      from_ = r.time;
+      looked_ = now;
+    }
     const double left = time_to_target(settings_, rows) / (r.time - from_) *
-                        std::chrono::duration<double>(now - begin_).count();
+                        std::chrono::duration<double>(now - looked_).count();
     if (std::isfinite(left))
       text += fmt::format(", about {:.0f} s to the target", left);
     if (isatty(1))
@@ -145,7 +147,8 @@ public:
 private:
   std::string curve_;
   const Settings &settings_;
-  double from_ = NAN; ///< simulated time when this program first looked [us]
+  double from_ = NAN; ///< simulated time at the first look, which was at looked_ [us]
+  std::chrono::steady_clock::time_point looked_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now(), shown_ = begin_;
 };
 

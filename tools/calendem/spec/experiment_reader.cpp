@@ -44,7 +44,8 @@ private:
       return "";
     const std::string name = **t.get(key.name)->as_string();
     std::error_code none;
-    if (path.find('%') != std::string::npos) // a series of slices: whoever reads it looks for them
+    const bool image = key.name.rfind("labels_", 0) == 0;
+    if (image && path.find('%') != std::string::npos) // slices: who reads them looks for them
       return path;
     if (!fs::exists(path, none))
       mistakes_.add(line_of(*t.get(key.name)),

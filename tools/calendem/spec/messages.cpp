@@ -33,4 +33,11 @@ void Mistakes::stop_if_any() const {
     throw Failure(kBadInput, text());
 }
 
+std::string as_list(const std::vector<std::string> &texts) {
+  std::string out;
+  for (const std::string &text : texts)
+    out += "\n- " + text;
+  return out;
+}
+
 } // namespace calendem

@@ -25,6 +25,9 @@ private:
   int exit_status_;
 };
 
+/// Each on a line of its own, after "- "; begins with a line's end.
+std::string as_list(const std::vector<std::string> &texts);
+
 /// The mistakes of one file.
 class Mistakes {
 public:

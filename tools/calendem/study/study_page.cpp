@@ -3,6 +3,7 @@
 #include "report/embedded.h"
 #include "report/page_template.h"
 #include "report/paper_reference.h"
+#include "run/collect.h"
 #include "spec/messages.h"
 #include "spec/provenance.h"
 #include <cmath>
@@ -12,8 +13,6 @@
 namespace calendem {
 extern const char *const kStudyHtml;
 namespace {
-
-constexpr double kQuasiStatic = 0.05; // difference of the pressures on platen and collector
 
 std::string shown(const Spread &s, double factor, const char *format) {
   if (s.n == 0)
