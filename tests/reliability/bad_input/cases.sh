@@ -224,6 +224,28 @@ film_cell_too_small() { # spheres would touch two images of another; no folder i
   says 'the largest sphere of the slurry is' 'at most 4.70 um' 'particles.max_um'
   [ ! -e "$work/film" ] || fail "a folder was made"
 }
+kind_wrong() { # a file for another verb is one message
+  local cases=$scripts/cases
+  expect 2 calendem run "$cases/demo/electrode.toml" -o "$work/run"
+  says "this is an electrode's recipe (it has 'cell', 'coating'); a case is wanted here. Give it to calendem pack"
+  [ "$(wc -l <"$work/said")" -eq 1 ] || fail "more than one line"
+  expect 2 calendem pack "$cases/demo/case.toml" -o "$work/run"
+  says "this is a case" "Give it to calendem run"
+  expect 2 calendem dry "$cases/demo/case.toml" -o "$work/run"
+  says "this is a case" "the recipe of a film is wanted here"
+  expect 2 calendem pack "$cases/chain/film.toml" -o "$work/run"
+  says "this is the recipe of a film" "Give it to calendem dry"
+  expect 2 calendem tomogram "$cases/demo/electrode.toml" -o "$work/run"
+  says "the description of a tomogram is wanted here"
+  expect 2 calendem study "$cases/bank/bank.toml" -o "$work/run"
+  says "this is a bank" "a study is wanted here"
+  expect 2 calendem bank "$cases/studies/cells.toml" -o "$work/run"
+  says "this is a study" "Give it to calendem study"
+  expect 2 calendem diagnose "$cases/demo/case.toml" -o "$work/run"
+  says "this is a case" "an experiment is wanted here"
+  expect 2 calendem withheld make "$cases/paper/experiment.toml" -o "$work/run"
+  says "this is an experiment" "Give it to calendem compare or diagnose"
+}
 kinds_of_file() {
   expect 0 calendem validate "$scripts"/cases/{demo,paper}/*.toml "$scripts"/cases/image/tomogram.toml
   says "demo/electrode.toml: a valid recipe" "demo/case.toml: a valid case" \

@@ -92,11 +92,27 @@ TEST_F(ImageObservables, ParticlesInPieces) {
   EXPECT_NE(not_said_[0].find("numbers the pieces one by one"), std::string::npos);
 }
 
+// Requirement: a run without frames has no value, and the gap says why, once for all of an image.
 TEST_F(ImageObservables, ARunWithoutFramesHasNoValue) {
   SimulatedRun run;
   run.folder = (folder_ / "no_run").string();
-  for (const Observable &o : after(made_image([](int i, int, int) { return i % 2; })))
+  run.control = "pressure";
+  run.target = experiment_.conditions[1].max_pressure_MPa->value;
+  const auto list = after(made_image([](int i, int, int) { return i % 2; }));
+  for (const Observable &o : list) {
     EXPECT_TRUE(std::isnan(o.simulated(run))) << o.name;
+    EXPECT_NE(o.why_none(run).find("no_run"), std::string::npos) << o.why_none(run);
+  }
+  experiment_.conditions[1].labels_after = (folder_ / "after.mha").string();
+  int told = 0;
+  for (const std::string &text : find_gap(experiment_, {run}).not_said)
+    if (text.find("no value for") != std::string::npos) {
+      ++told;
+      for (const Observable &o : list)
+        EXPECT_NE(text.find(o.name), std::string::npos) << text;
+      EXPECT_NE(text.find(": " + list[0].why_none(run)), std::string::npos) << text;
+    }
+  EXPECT_EQ(told, 1);
 }
 
 // Requirement: 12 voxels of 0.04 um are 4 of the finest that is compared: too few.

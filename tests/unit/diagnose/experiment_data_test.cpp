@@ -208,6 +208,22 @@ TEST(ExperimentData, WhatHappensAtTheFacesCountsLessInAThickerFilm) {
   }
 }
 
+TEST(ExperimentData, EffectsThatTheBankHasNoRunsOfAreTold) {
+  const BankTable table = made_bank();
+  const ExperimentData data = data_of(made_experiment(kTruth), table, {});
+  const auto &own = table.spec.effects;
+  int told = 0;
+  for (const std::string &text : data.not_said)
+    if (text.rfind("Cannot be named", 0) == 0) {
+      ++told;
+      for (const Effect &e : effects())
+        EXPECT_EQ(text.find(e.name) == std::string::npos,
+                  std::find(own.begin(), own.end(), e.name) != own.end())
+            << e.name << " in: " << text;
+    }
+  EXPECT_EQ(told, 1);
+}
+
 TEST(ExperimentData, NumbersAreToldWithUnitAndPressure) {
   const ExperimentData data = data_of(made_experiment(kTruth), made_bank(), {});
   ASSERT_EQ(data.told.size(), data.experiment.of.size());

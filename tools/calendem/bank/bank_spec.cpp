@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "bank/bank_spec.h"
+#include "spec/file_kind.h"
 #include "spec/table_reader.h"
 #include <algorithm>
 #include <fmt/format.h>
@@ -164,7 +165,7 @@ BankSpec read_bank_spec(const std::string &file) {
   Mistakes mistakes(file, 20);
   BankSpec out;
   out.file = file;
-  const TomlFile parsed = parse_toml(file, mistakes);
+  const TomlFile parsed = parse_toml(file, FileKind::Bank, mistakes);
   Reader reader(file, parsed.whole, mistakes);
   for (const auto &[key, node] : parsed.root) {
     if (key.str() == "bank" && node.is_table())

@@ -136,6 +136,13 @@ void say_changes(Gap &gap) {
     }
 }
 
+std::string why_none(const Observable &o, const std::vector<const SimulatedRun *> &runs) {
+  for (const SimulatedRun *r : runs)
+    if (o.why_none && !std::isfinite(o.simulated(*r)))
+      return o.why_none(*r);
+  return "";
+}
+
 } // namespace
 
 Gap find_gap(const Experiment &experiment, const std::vector<SimulatedRun> &runs) {
@@ -162,6 +169,7 @@ Gap find_gap(const Experiment &experiment, const std::vector<SimulatedRun> &runs
     std::vector<Observable> observables = observables_of(experiment, c, gap.not_said);
     const auto on_images = image_observables_of(experiment, c, gap.not_said);
     observables.insert(observables.end(), on_images.begin(), on_images.end());
+    std::map<std::string, std::vector<std::string>> without; // by the reason
     for (const Observable &o : observables) {
       Entry e{{}, per_packing(mine, o.simulated)};
       e.row.observable = o.name;
@@ -178,8 +186,11 @@ Gap find_gap(const Experiment &experiment, const std::vector<SimulatedRun> &runs
       if (std::isfinite(e.row.residual))
         entries.push_back(e);
       else
-        gap.not_said.push_back(fmt::format("{}: the runs have no value for {}.", c.id, o.name));
+        without[why_none(o, mine)].push_back(o.name);
     }
+    for (const auto &[why, names] : without)
+      gap.not_said.push_back(fmt::format("{}: the runs have no value for {}{}", c.id,
+                                         fmt::join(names, "; "), why.empty() ? "." : ": " + why));
   }
   if (entries.empty())
     throw Failure(kBadInput,

@@ -20,6 +20,7 @@ struct Seen {
   ImageMeasures of_volume;
   double in_pieces = 0.0; ///< of the whole particles; NaN where there is none
   int whole = 0;
+  std::string why_none = {}; ///< why nothing is seen
 };
 
 Seen seen_in(const PhaseImage &image) {
@@ -45,14 +46,16 @@ private:
 
   Seen look(const std::string &folder) const {
     constexpr double none = NAN;
+    std::string why = fmt::format("{} has no frame of the electrode {}", folder, moment_);
     try {
       for (const RunMoment &m : moments_of_run(folder))
         if (m.name == moment_)
           return seen_in(
               voxelise(m.structure.spheres, m.structure.cell, m.structure.lattice, voxel_));
-    } catch (const Failure &) { // no frames: find_gap tells that the run has no value
+    } catch (const Failure &f) { // not the comparison's end: find_gap tells it
+      why = f.what();
     }
-    return {{none, none, none, none}, none, 0};
+    return {{none, none, none, none}, none, 0, why};
   }
 };
 
@@ -97,6 +100,7 @@ void compare_image(const Experiment &e, const std::string &file, bool after,
   const Seen seen = seen_in(image);
   const std::string where = after ? ", image after" : ", image before";
   using Value = std::function<double(const ImageMeasures &)>;
+  const auto why_none = [frames](const SimulatedRun &r) { return frames->of(r).why_none; };
   const auto add = [&](const char *name, const Value &value, const auto &slope) {
     Observable o;
     o.name = name + where;
@@ -108,6 +112,7 @@ void compare_image(const Experiment &e, const std::string &file, bool after,
       return 100.0 * value(frames->of(r).of_volume);
     };
     o.slope = slope;
+    o.why_none = why_none;
     out.push_back(o);
   };
   const auto none = [](const SimulatedRun &) { return 0.0; };
@@ -141,6 +146,7 @@ void compare_image(const Experiment &e, const std::string &file, bool after,
   cracks.sd = std::sqrt(p * (1.0 - p) / seen.whole);
   cracks.simulated = [frames](const SimulatedRun &r) { return frames->of(r).in_pieces; };
   cracks.slope = none;
+  cracks.why_none = why_none;
   out.push_back(cracks);
 }
 

@@ -21,6 +21,8 @@ struct Observable {
   /// Change of the measured value by one standard deviation of the sample's loading: the same error
   /// in all of a condition. Not in `sd`.
   double by_loading = 0.0;
+  /// Why a run has no value; empty function: it needs no reason.
+  std::function<std::string(const SimulatedRun &)> why_none = {};
 };
 
 /// All of one condition. What a value needs and lacks is told in `not_said`.

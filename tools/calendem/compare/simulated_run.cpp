@@ -115,7 +115,7 @@ SimulatedRun read_simulated_run(const std::string &folder) {
         run.recipe[key] = value;
   }
   Mistakes of_case(folder + "/case.toml");
-  const Settings settings = read_toml(folder + "/case.toml", case_keys(), of_case);
+  const Settings settings = read_toml(folder + "/case.toml", FileKind::Case, case_keys(), of_case);
   of_case.stop_if_any();
   mistakes.stop_if_any();
   run.control = settings.text("platen.control");

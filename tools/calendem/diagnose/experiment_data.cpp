@@ -188,6 +188,18 @@ std::vector<PointRuns> enough(std::vector<PointRuns> points, BankSpec &spec,
   return points;
 }
 
+/// Effects that have no part in the diagnosis.
+void tell_other_effects(const BankSpec &spec, std::vector<std::string> &not_said) {
+  std::vector<std::string> others;
+  for (const Effect &e : effects())
+    if (std::find(spec.effects.begin(), spec.effects.end(), e.name) == spec.effects.end())
+      others.push_back(e.name);
+  if (!others.empty())
+    not_said.push_back(fmt::format("Cannot be named, because the bank has no runs of them or they "
+                                   "were left out: {}.",
+                                   fmt::join(others, ", ")));
+}
+
 void fill_bank(const Experiment &e, const BankTable &table, const std::vector<Covered> &all,
                const std::vector<PointRuns> &points, inference::Bank &bank) {
   for (const BankParameter &p : table.spec.parameters)
@@ -223,6 +235,7 @@ ExperimentData data_of(const Experiment &experiment, const BankTable &table,
 ExperimentData data_of(const Experiment &experiment, const BankTable &as_given,
                        const std::vector<std::string> &conditions, const BankTable &full_cell) {
   ExperimentData data;
+  tell_other_effects(as_given.spec, data.not_said);
   BankTable table = as_given;
   const std::vector<PointRuns> points =
       enough(points_of(table, data.not_said), table.spec, data.not_said);

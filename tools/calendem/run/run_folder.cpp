@@ -20,7 +20,7 @@ namespace {
 /// The settings in which two cases differ: "key: then X, now Y".
 std::string differences(const std::string &old_case, const Settings &now) {
   Mistakes ignored(old_case);
-  const Settings then = read_toml(old_case, case_keys(), ignored);
+  const Settings then = read_toml(old_case, FileKind::Case, case_keys(), ignored);
   std::string text;
   for (const Key &key : case_keys())
     if (key.name != "electrode" && then.text(key.name) != now.text(key.name))

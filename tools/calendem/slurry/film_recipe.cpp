@@ -77,7 +77,7 @@ double FilmRecipe::wet_density() const {
 
 FilmRecipe read_film_recipe(const std::string &file) {
   Mistakes mistakes(file);
-  const Settings s = read_toml(file, film_keys(), mistakes);
+  const Settings s = read_toml(file, FileKind::Film, film_keys(), mistakes);
   FilmRecipe f;
   f.recipe = recipe_of(s);
   f.recipe.file = file;

@@ -207,7 +207,7 @@ void check_case(const Settings &s, Mistakes &mistakes) {
 Settings read_case(const std::string &file) {
   namespace fs = std::filesystem;
   Mistakes mistakes(file);
-  Settings s = read_toml(file, case_keys(), mistakes);
+  Settings s = read_toml(file, FileKind::Case, case_keys(), mistakes);
   check_case(s, mistakes);
   mistakes.stop_if_any();
   const fs::path electrode = s.text("electrode");

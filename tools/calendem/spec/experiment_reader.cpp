@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "spec/experiment_checks.h"
 #include "spec/experiment_keys.h"
+#include "spec/file_kind.h"
 #include "spec/table_reader.h"
 #include <algorithm>
 #include <cmath>
@@ -242,7 +243,7 @@ private:
 
 Experiment read_experiment(const std::string &file) {
   Mistakes mistakes(file);
-  const TomlFile parsed = parse_toml(file, mistakes);
+  const TomlFile parsed = parse_toml(file, FileKind::Experiment, mistakes);
   Experiment e;
   if (!parsed.root.empty())
     e = ExperimentReader(file, parsed.whole, mistakes).read(parsed);

@@ -189,7 +189,7 @@ int most_ranks(double lx, double ly, double diameter) {
 
 Recipe read_recipe(const std::string &file) {
   Mistakes mistakes(file);
-  const Settings s = read_toml(file, recipe_keys(), mistakes);
+  const Settings s = read_toml(file, FileKind::Recipe, recipe_keys(), mistakes);
   Recipe r = recipe_of(s);
   r.file = file;
   r.shapes = read_shapes(s, file, mistakes);

@@ -110,9 +110,10 @@ std::string path_of(const Settings &s, const std::string &key, const std::string
              : (std::filesystem::absolute(file).parent_path() / given).lexically_normal().string();
 }
 
-Settings read_toml(const std::string &file, const std::vector<Key> &keys, Mistakes &mistakes) {
+Settings read_toml(const std::string &file, FileKind kind, const std::vector<Key> &keys,
+                   Mistakes &mistakes) {
   Settings out;
-  const TomlFile parsed = parse_toml(file, mistakes);
+  const TomlFile parsed = parse_toml(file, kind, mistakes);
   Reader(keys, out, mistakes).walk("", parsed.root);
   for (const Key &key : keys) {
     if (out.all().count(key.name))

@@ -3,6 +3,7 @@
 #ifndef CALENDEM_SPEC_TOML_READER_H
 #define CALENDEM_SPEC_TOML_READER_H
 
+#include "spec/file_kind.h"
 #include "spec/key.h"
 #include "spec/messages.h"
 #include <initializer_list>
@@ -34,7 +35,8 @@ private:
 };
 
 /// All mistakes go to `mistakes`; what could be read is returned, defaults filled in.
-Settings read_toml(const std::string &file, const std::vector<Key> &keys, Mistakes &mistakes);
+Settings read_toml(const std::string &file, FileKind kind, const std::vector<Key> &keys,
+                   Mistakes &mistakes);
 
 /// The path that a key gives, relative to the file it stands in, as an absolute one; empty for
 /// "none".

@@ -2,6 +2,7 @@
 #include "study/study_file.h"
 #include "spec/case.h"
 #include "spec/csv_table.h"
+#include "spec/file_kind.h"
 #include "spec/table_reader.h"
 #include <algorithm>
 #include <fmt/format.h>
@@ -238,7 +239,7 @@ Study read_study(const std::string &file) {
   Mistakes mistakes(file, 20);
   Study out;
   out.file = file;
-  const TomlFile parsed = parse_toml(file, mistakes);
+  const TomlFile parsed = parse_toml(file, FileKind::Study, mistakes);
   Reader reader(file, parsed.whole, mistakes);
   std::vector<Group> groups;
   for (const auto &[key, node] : parsed.root) {

@@ -27,7 +27,7 @@ const std::vector<Key> &tomogram_keys() {
 
 TomogramSpec read_tomogram_spec(const std::string &file) {
   Mistakes mistakes(file);
-  const Settings s = read_toml(file, tomogram_keys(), mistakes);
+  const Settings s = read_toml(file, FileKind::Tomogram, tomogram_keys(), mistakes);
   mistakes.stop_if_any();
   TomogramSpec t;
   t.seed = static_cast<unsigned long>(s.number("seed"));

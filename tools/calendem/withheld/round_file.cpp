@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/round_file.h"
+#include "spec/file_kind.h"
 #include "spec/table_reader.h"
 #include "withheld/hidden_changes.h"
 #include <algorithm>
@@ -98,7 +99,7 @@ Round read_round(const std::string &file) {
   Mistakes mistakes(file, 20);
   Round out;
   out.file = file;
-  const TomlFile parsed = parse_toml(file, mistakes);
+  const TomlFile parsed = parse_toml(file, FileKind::Round, mistakes);
   Reader reader(file, parsed.whole, mistakes);
   for (const auto &[key, node] : parsed.root)
     if (key.str() == "round" && node.is_table())
