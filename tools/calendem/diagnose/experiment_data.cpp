@@ -224,7 +224,7 @@ inference::Effect inference_effect(const Effect &effect) {
   if (low > high)
     std::swap(low, high);
   const Spread spread = p.scale == AmplitudeScale::Logarithm ? Spread::Uniform : p.spread;
-  return {effect.name, {{"amplitude", prior_of(spread, low, high), true}}};
+  return {effect.name, {{"amplitude", prior_of(spread, low, high), true}}, effect.instrument};
 }
 
 ExperimentData data_of(const Experiment &experiment, const BankTable &table,

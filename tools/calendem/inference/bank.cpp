@@ -108,6 +108,7 @@ void add_measurement_fault(Bank &bank, const Effect &fault, const FaultAction &a
     bank.runs.push_back(std::move(shown));
   }
   bank.effects.push_back(fault);
+  bank.effects.back().computed = true;
 }
 
 } // namespace calendem::inference

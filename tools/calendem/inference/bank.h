@@ -13,6 +13,8 @@ namespace calendem::inference {
 struct Effect {
   std::string name;
   std::vector<Parameter> parameters; ///< at least one with `amplitude`
+  /// Its runs are computed from those of the base model: they scatter with them, not on their own.
+  bool computed = false;
 };
 
 struct Run {

@@ -5,6 +5,10 @@
 namespace calendem::inference {
 namespace {
 
+// Of the base model's variance between runs, in a difference of two: what is chaotic in both counts
+// twice, what the base parameters do that the emulator misses cancels.
+constexpr double kOfDifference = 1.5;
+
 /// Scaled base parameters and effect's parameters; amplitudes as shares of their upper end.
 struct Point {
   Vector input, amplitudes;
@@ -92,6 +96,8 @@ Emulators::Emulators(const Bank &bank, const Matrix &features)
       for (std::size_t k = 0; k < pairs.size(); ++k)
         difference.values[Eigen::Index(k)] =
             features(f, pairs[k].second) - features(f, pairs[k].first);
+      difference.usual_noise =
+          effect.computed ? 0.0 : kOfDifference * base_[std::size_t(f)].run_variance();
       effects_.back().emplace_back(difference);
     }
   }

@@ -19,6 +19,7 @@ constexpr double kNothing = 1e-24; // square of values, relative to their size, 
 constexpr double kVarianceMean = -2.0, kVarianceSpread = 2.0;
 constexpr double kLengthMean = 1.6, kLengthSpread = 0.5;
 constexpr double kOwnLengthMean = 0.0; // of an effect's amplitudes: it may saturate
+constexpr double kUsualSpread = 0.7;   // of the noise, where it is known about
 
 struct Matern {
   double value, slope; // slope: d value / d ln(length) is slope * (difference / length)^2
@@ -127,10 +128,13 @@ double GaussianProcess::misfit(const Vector &x, Vector &gradient) const {
     gradient[2 + repeated_ + m] = 0.5 * signal * sum * inverse[m];
   }
   for (int m = 0; m < x.size(); ++m) {
-    const bool length = m >= 2 + repeated_;
-    const double spread = length ? kLengthSpread : kVarianceSpread;
+    const bool length = m >= 2 + repeated_, usual = m == 1 && training_.usual_noise > 0.0;
+    const double spread = length ? kLengthSpread : usual ? kUsualSpread : kVarianceSpread;
     const bool own = m >= x.size() - training_.amplitudes.rows();
-    const double mean = !length ? kVarianceMean : own ? kOwnLengthMean : kLengthMean;
+    const double mean = usual     ? std::log(training_.usual_noise / square_)
+                        : !length ? kVarianceMean
+                        : own     ? kOwnLengthMean
+                                  : kLengthMean;
     const double off = (x[m] - mean) / spread;
     value += 0.5 * off * off;
     gradient[m] += off / spread;

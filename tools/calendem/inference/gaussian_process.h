@@ -14,6 +14,7 @@ struct Training {
   Matrix amplitudes;        ///< of an effect, 0..1, amplitudes x runs; 0 rows: the base model
   std::vector<int> packing; ///< number of each run's packing
   Vector values;            ///< of the runs; for an effect the differences on - off
+  double usual_noise = 0.0; ///< variance between runs that is expected; 0: not known
 };
 
 struct Mean {
