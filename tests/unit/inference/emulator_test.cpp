@@ -167,8 +167,9 @@ TEST(PooledScatter, RunsOfOnePackingMayScatterTogether) {
   }
   const Scatter s = pooled_scatter(all, t.packing);
   EXPECT_NEAR(std::sqrt(s.covariance(0, 0)), 0.3, 3.0 * 0.3 / std::sqrt(2.0 * 55.0));
-  EXPECT_NEAR(correlation_of(s.covariance)(0, 1), 0.8 * (1.0 - s.shrinkage),
-              3.0 * 0.36 / std::sqrt(55.0));
+  const double correlation =
+      s.covariance(0, 1) / std::sqrt(s.covariance(0, 0) * s.covariance(1, 1));
+  EXPECT_NEAR(correlation, 0.8 * (1.0 - s.shrinkage), 3.0 * 0.36 / std::sqrt(55.0));
   EXPECT_LT(s.shrinkage, 0.1);
 }
 
@@ -212,6 +213,29 @@ TEST(Emulators, WhatIsComputedDoesNotScatterOnItsOwn) {
     return p.variance[kCurve] - off.variance[kCurve];
   };
   EXPECT_LT(variance(true), 0.1 * variance(false));
+}
+
+// Of the base model's 12 runs and two effects' 12 each; the third is computed. Mean squares of base
+// runs lie below 1 by what their 12 runs are adapted to, and not far.
+TEST(Emulators, ResidualsAreThoseOfAllThatIsSimulated) {
+  Bank bank = synthetic_bank(12, 0.05);
+  bank.effects[1].computed = true;
+  Matrix values(16, Eigen::Index(bank.runs.size()));
+  for (int i = 0; i < values.cols(); ++i)
+    values.col(i) = bank.runs[i].values;
+  const Emulators learnt(bank, values);
+  const Matrix residuals = learnt.residuals();
+  ASSERT_EQ(residuals.rows(), 36);
+  ASSERT_EQ(residuals.cols(), 16);
+  const GaussianProcess &g = learnt.base()[kCurve];
+  const double sd = std::sqrt(g.run_variance() + g.packing_variance());
+  EXPECT_NEAR(residuals(5, kCurve), g.residuals()[5] / sd, 1e-12);
+  EXPECT_NEAR(residuals(12 + 12 + 5, kCurve),
+              learnt.effect(2)[kCurve].residuals()[5] /
+                  std::sqrt(learnt.effect(2)[kCurve].run_variance()),
+              1e-12);
+  EXPECT_LT(residuals.topRows(12).squaredNorm() / (12.0 * 16.0), 1.0);
+  EXPECT_GT(residuals.topRows(12).squaredNorm() / (12.0 * 16.0), 0.1);
 }
 
 std::vector<Observable> curve_of(int points) {

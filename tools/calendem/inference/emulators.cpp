@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "inference/emulators.h"
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace calendem::inference {
@@ -101,6 +103,26 @@ Emulators::Emulators(const Bank &bank, const Matrix &features)
       effects_.back().emplace_back(difference);
     }
   }
+}
+
+Matrix Emulators::residuals() const {
+  std::vector<const std::vector<GaussianProcess> *> simulated{&base_};
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    if (!table_[e].computed)
+      simulated.push_back(&effects_[e]);
+  const auto features = Eigen::Index(base_.size());
+  Matrix all(0, features);
+  for (const auto *group : simulated) {
+    const Eigen::Index before = all.rows(),
+                       runs = group->empty() ? 0 : group->front().residuals().size();
+    all.conservativeResize(before + runs, features);
+    for (Eigen::Index f = 0; f < features && runs > 0; ++f) {
+      const GaussianProcess &g = (*group)[std::size_t(f)];
+      const double sd = std::sqrt(g.run_variance() + g.packing_variance());
+      all.col(f).tail(runs) = g.residuals() / std::max(sd, 1e-300);
+    }
+  }
+  return all;
 }
 
 void Emulators::predict(const Vector &base_scores, const std::vector<Applied> &on, double share,

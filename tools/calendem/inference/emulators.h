@@ -21,6 +21,9 @@ public:
 
   const std::vector<GaussianProcess> &base() const { return base_; }
   const std::vector<GaussianProcess> &effect(int which) const { return effects_[which]; }
+  /// What base model and simulated effects (not computed ones) miss in their own runs, in standard
+  /// deviations of the runs' scatter: runs x features, in an order that depends on the bank only.
+  Matrix residuals() const;
   /// Number of the packing of each base run.
   const std::vector<int> &packing() const { return packing_; }
 

@@ -31,6 +31,12 @@ Vector left_by_line(const Bank &bank, const Matrix &values) {
   return left.colwise().squaredNorm() / degrees;
 }
 
+/// Emulators err between features as the runs lie off them.
+Matrix correlation_of_errors(const Matrix &residuals) {
+  double weight = 0.0;
+  return shrunk_correlation(residuals, weight);
+}
+
 } // namespace
 
 Matrix unknown_covariance(const std::vector<Observable> &observables, const Vector &sd) {
@@ -128,7 +134,7 @@ Problem Model::problem(const Vector &values) const {
   p.scatter = Matrix::Zero(all, all);
   p.scatter.topLeftCorner(n, n) = share * scatter_.covariance;
   p.correlation = Matrix::Identity(all, all);
-  p.correlation.topLeftCorner(n, n) = correlation_of(scatter_.covariance);
+  p.correlation.topLeftCorner(n, n) = correlation_of_errors(emulators_->residuals());
   p.degrees_of_freedom = mixed_degrees(p.measurement, p.scatter, scatter_.degrees_of_freedom);
   p.base_parameters = base_parameters_;
   p.effects = effects_;
@@ -167,7 +173,10 @@ std::vector<Extension> Model::extensions(const Vector &values) const {
       return both;
     };
     p.scatter = joined(p.scatter, share * extra.scatter);
-    p.correlation = joined(p.correlation, correlation_of(extra.scatter));
+    Matrix residuals = emulators_->residuals();
+    residuals.conservativeResize(Eigen::NoChange, n + added);
+    residuals.rightCols(added) = extra.emulators->residuals();
+    p.correlation = joined(p.correlation, correlation_of_errors(residuals));
     for (int f = 0; f < added; ++f)
       p.features.push_back({int(p.blocks.size()), true});
     p.predict = [first = emulators_, second = extra.emulators, share, old,

@@ -114,13 +114,6 @@ Scatter pooled_scatter(const std::vector<GaussianProcess> &features,
   return s;
 }
 
-Matrix correlation_of(const Matrix &covariance) {
-  const Vector inverse = covariance.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  Matrix correlation = inverse.asDiagonal() * covariance * inverse.asDiagonal();
-  correlation.diagonal().setOnes();
-  return correlation;
-}
-
 double mixed_degrees(const Matrix &known, const Matrix &estimated, double degrees_of_freedom) {
   const Cholesky total(known + estimated);
   const double share = total.solve(estimated).trace() / double(known.rows());

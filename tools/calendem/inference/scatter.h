@@ -29,9 +29,6 @@ Scatter shrunk_covariance(const Matrix &samples);
 Scatter pooled_scatter(const std::vector<GaussianProcess> &features,
                        const std::vector<int> &packing);
 
-/// Covariance over the product of standard deviations; of what never changes, none.
-Matrix correlation_of(const Matrix &covariance);
-
 /// Degrees of freedom of `known + estimated`, whose second part has `degrees_of_freedom`: divided
 /// by the square of its mean share, trace((known + estimated)^-1 estimated) / n. At most kNormal.
 double mixed_degrees(const Matrix &known, const Matrix &estimated, double degrees_of_freedom);
