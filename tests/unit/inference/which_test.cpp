@@ -282,6 +282,13 @@ TEST(Confounding, CosinesOddsAndLimitsInClosedForm) {
   EXPECT_NEAR(c.limits[0].amplitude, std::sqrt(6.0 / 0.64), 0.02);
   EXPECT_EQ(c.limits[0].rival, "effect 1");
   EXPECT_NEAR(c.limits[0].against_none, std::sqrt(6.0), 0.02);
+  // Alone: a^2 / 2 = 3 + ln(10 / sqrt(2 pi)), the width of its prior over the data's of 1.
+  problem.effects.resize(1);
+  const Confounding alone = confounding(problem, w, settings);
+  EXPECT_NEAR(alone.limits[0].amplitude,
+              std::sqrt(6.0 + 2.0 * std::log(10.0 / std::sqrt(2.0 * M_PI))), 0.02);
+  EXPECT_EQ(alone.limits[0].rival, "none");
+  EXPECT_NEAR(alone.limits[0].against_none, std::sqrt(6.0), 0.02);
 }
 
 // A base parameter that moves the features as the effect does takes it up, as far as its prior lets

@@ -126,7 +126,7 @@ TEST(Scores, AnEffectLeftOutIsACaseOfItsOwnWhereItWasTheTruth) {
        {{"claim", "friction"}, {"probability", {{"friction", 0.9}}}, {"set95", {"friction"}}}},
       {"parameters", {{{"parameter", "E"}, {"low90", 1.0}, {"high90", 2.0}}}},
       {"fitted_effects", {{{"effect", "friction"}, {"low90", 0.1}, {"high90", 0.2}}}},
-      {"confounding", {{"detection_limit", {{{"effect", "friction"}, {"amplitude", 0.1}}}}}}};
+      {"confounding", {{"detection_limit", {{{"effect", "friction"}, {"against_none", 0.1}}}}}}};
   nlohmann::json truth = {{"id", "001"},
                           {"block", "single"},
                           {"point", 7},

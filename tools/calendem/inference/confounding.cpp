@@ -133,6 +133,22 @@ double first_telling(const Effect &e, const ConfoundingSettings &settings, const
   return std::nan("");
 }
 
+/// What having an amplitude to choose costs the effect's evidence beside none's, at each step: ln
+/// of the amplitude's prior width over the width that the data leave it, by Laplace's integral.
+std::vector<double> occam_of(const Effect &e, const std::vector<Signature> &truths,
+                             const Signature &off) {
+  const Prior &p = e.parameters[first_amplitude(e)].prior;
+  const double step = p.upper() / double(truths.size());
+  std::vector<double> cost;
+  for (std::size_t k = 0; k < truths.size(); ++k) {
+    const Vector &below = k == 0 ? off.mean : truths[k - 1].mean;
+    const double slope = (truths[k].mean - below).norm() / step; // standard deviations per unit
+    const double widths = slope / (std::sqrt(2.0 * M_PI) * p.density(double(k + 1) * step));
+    cost.push_back(widths > 1.0 ? std::log(widths) : 0.0);
+  }
+  return cost;
+}
+
 /// Amplitudes at which the effect is told from none and from every other effect.
 DetectionLimit limit_of(const Problem &problem, int effect,
                         const std::vector<std::vector<Signature>> &grids,
@@ -144,8 +160,10 @@ DetectionLimit limit_of(const Problem &problem, int effect,
   const auto from_none = [&](int k) {
     return Hardest{odds_between(truths[k], grids[effect].front())};
   };
+  const std::vector<double> occam = occam_of(e, truths, signatures.off());
   const auto from_all = [&](int k) {
     Hardest least = from_none(k);
+    least.odds -= occam[std::size_t(k)];
     for (int other = 0; other < int(grids.size()); ++other)
       if (const double odds = other == effect ? INFINITY : log_odds(truths[k], grids[other]);
           odds < least.odds)

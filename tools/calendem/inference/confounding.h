@@ -16,7 +16,7 @@ struct DetectionLimit {
   std::string effect, rival; ///< rival: the hardest to tell from at that amplitude
   /// Of the first amplitude parameter, in its unit, within its prior; NaN: never.
   double amplitude = 0.0;
-  double against_none = 0.0; ///< the same with none as the only rival
+  double against_none = 0.0; ///< by the distance from none alone: what can be seen
 };
 
 struct Confounding {
@@ -38,7 +38,9 @@ struct Confounding {
 /// of the distance in the rival's covariance + ln det of the rival's over the truth's + what noise
 /// adds to the squares), covariances of recalibration, measurement, scatter and the effects' own
 /// emulators. Without emulators' errors that is half the squared distance (Box and Hill,
-/// Technometrics 9 (1967) 57). Occam's factors of the parameters are left out.
+/// Technometrics 9 (1967) 57). The factor that an amplitude to choose costs an effect counts beside
+/// none, which has none to choose, in `limits` (not in against_none); beside each other's they
+/// cancel, about.
 Confounding confounding(const Problem &problem, const Which &which,
                         const ConfoundingSettings &settings);
 

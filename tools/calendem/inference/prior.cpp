@@ -36,6 +36,12 @@ double Prior::scaled(double value) const {
   return 2.0 * share - 1.0;
 }
 
+double Prior::density(double value) const {
+  if (kind == normal)
+    return pdf(kNormal, (value - a) / b) / b;
+  return kind == uniform ? 1.0 / (b - a) : 1.0 / (std::clamp(value, a, b) * std::log(b / a));
+}
+
 double Prior::upper() const { return kind == normal ? a + 2.0 * b : b; }
 
 void check(const Parameter &p) {

@@ -20,6 +20,8 @@ struct Prior {
   double score(double value) const;
   /// -1 at the lower bound (mean - 2 sd), 1 at the upper (mean + 2 sd).
   double scaled(double value) const;
+  /// Per unit of the value, which counts as the bound beyond one.
+  double density(double value) const;
   /// Largest value the prior reaches, for the scale of an amplitude: b, or a + 2 b.
   double upper() const;
 };

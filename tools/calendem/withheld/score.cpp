@@ -30,8 +30,8 @@ void must_be(const std::string &is, const std::string &should, const std::string
 /// Signal-to-noise of a single effect: it grows with the amplitude.
 double signal_to_noise(const Json &gap, const std::string &effect, double amplitude) {
   for (const Json &limit : gap.at("confounding").value("detection_limit", Json::array()))
-    if (limit.at("effect") == effect && limit.at("amplitude").is_number())
-      return kDetectable * std::fabs(amplitude) / limit.at("amplitude").get<double>();
+    if (limit.at("effect") == effect && limit.at("against_none").is_number())
+      return kDetectable * std::fabs(amplitude) / limit.at("against_none").get<double>();
   return 0.0;
 }
 
