@@ -8,6 +8,8 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <random>
+#include <unistd.h>
 #include <vector>
 
 namespace calendem {
@@ -69,17 +71,22 @@ std::string input_scripts() {
 std::string liggghts_program() { return (program_folder() / "liggghts").string(); }
 
 void write_file(const std::string &name, const std::string &content) {
-  const std::string part = name + ".part";
+  // Of this process: tasks of a cluster may write the same file at the same time.
+  static const unsigned host = std::random_device{}(); // pids of two machines may be the same
+  const std::string part = fmt::format("{}.{}-{:08x}.part", name, getpid(), host);
   std::ofstream out(part, std::ios::binary);
   out << content;
   out.close();
   std::error_code error;
   if (out)
     fs::rename(part, name, error);
-  if (!out || error)
+  if (!out || error) {
+    std::error_code none;
+    fs::remove(part, none);
     throw Failure(kBadInput, fmt::format("cannot write '{}'. Is the disk full or the folder "
                                          "read-only? What was there before is kept.",
                                          name));
+  }
 }
 
 } // namespace calendem

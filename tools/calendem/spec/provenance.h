@@ -27,7 +27,8 @@ std::string liggghts_program();
 /// The file's bytes; empty if it cannot be read.
 std::string text_of_file(const std::string &file);
 
-/// Writes via a file `name.part` that is renamed when complete; throws Failure(2) on a full disk.
+/// Writes via a file of this process beside it that is renamed when complete, so that several may
+/// write it at once; throws Failure(2) on a full disk.
 void write_file(const std::string &name, const std::string &content);
 
 } // namespace calendem

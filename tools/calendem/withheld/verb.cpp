@@ -3,6 +3,7 @@
 #include "spec/provenance.h"
 #include "withheld/answer.h"
 #include "withheld/make.h"
+#include "withheld/rehearsal.h"
 #include "withheld/score.h"
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -63,16 +64,36 @@ void add_score(CLI::App &app) {
   verb->callback([a] { score_round(a->round, a->answers, a->folder); });
 }
 
+void add_rehearse(CLI::App &app) {
+  auto o = std::make_shared<RehearsalOptions>();
+  o->bank = input_scripts() + "/cases/bank/bank.toml";
+  CLI::App *verb = app.add_subcommand("rehearse", "How well a bank can diagnose: each packing left "
+                                                  "out in turn, its runs taken for samples");
+  verb->add_option("-o,--output", o->folder, "folder for rehearsal.csv and the samples")
+      ->required();
+  verb->add_option("--bank", o->bank, "bank (TOML) that the table was made from");
+  verb->add_option("--table", o->table,
+                   "the bank's table; default: beside the bank, with its name");
+  verb->add_option("--jobs", o->jobs, "packings at a time")->check(CLI::Range(1, 4096));
+  verb->callback([o] {
+    if (o->table.empty())
+      o->table = std::filesystem::path(o->bank).replace_extension("csv").string();
+    rehearse(*o);
+  });
+}
+
 } // namespace
 
 void add_withheld_verb(CLI::App &app) {
   CLI::App *verb = app.add_subcommand("withheld", "The sealed test of the diagnosis");
   verb->require_subcommand(1);
-  verb->footer("make and score are for whoever keeps the truths, answer for whoever does not.\n"
+  verb->footer("make and score are for whoever keeps the truths, answer for whoever does not;\n"
+               "rehearse needs neither, it asks a bank about itself.\n"
                "A round says what is drawn: see input_scripts/cases/withheld/round_1.toml.");
   add_make(*verb);
   add_answer(*verb);
   add_score(*verb);
+  add_rehearse(*verb);
 }
 
 } // namespace calendem

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A bank asked about itself.
+#include "bank/bank_table.h"
+#include "spec/csv_table.h"
+#include "spec/messages.h"
+#include "spec/provenance.h"
+#include "support/test_folder.h"
+#include "withheld/rehearsal.h"
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace calendem;
+
+const std::string kBank = CALENDEM_CASES "/bank/bank.toml";
+
+/// The shipped bank's base points and its runs of friction, of packings 1 to `packings`.
+std::string part_of_shipped(int packings, const std::filesystem::path &folder) {
+  BankTable table = read_bank_table(read_bank_spec(kBank), CALENDEM_CASES "/bank/bank.csv");
+  table.rows.erase(std::remove_if(table.rows.begin(), table.rows.end(),
+                                  [&](const BankRow &row) {
+                                    return row.point.packing > packings ||
+                                           (!row.point.effect.empty() &&
+                                            row.point.effect != "friction");
+                                  }),
+                   table.rows.end());
+  const std::string file = (folder / "part.csv").string();
+  write_file(file, write_bank_table(table));
+  return file;
+}
+
+// Seven packings with three base points and one run of friction each; friction is what shows most
+// in a bank: it is the most probable wherever it is strong enough to be told from none.
+TEST(Rehearsal, EveryPackingIsLeftOutOnce) {
+  const auto folder = calendem_test::test_folder();
+  RehearsalOptions o;
+  o.bank = kBank;
+  o.table = part_of_shipped(7, folder);
+  o.folder = (folder / "one").string();
+  rehearse(o);
+  const CsvTable t = CsvTable::parse(text_of_file(o.folder + "/rehearsal.csv"));
+  ASSERT_EQ(t.rows(), 21u + 2u * 7u);
+  const auto effect = t.texts("effect"), first = t.texts("most_probable");
+  const auto left_out = t.numbers("left_out"), amplitude = t.numbers("amplitude"),
+             limit = t.numbers("limit_against_none"), truths = t.numbers("truths_probability"),
+             unknowns = t.numbers("unknowns_probability");
+  int strong = 0, named = 0;
+  for (std::size_t k = 0; k < t.rows(); ++k) {
+    if (left_out[k] == 1.0) {
+      EXPECT_EQ(truths[k], unknowns[k]);
+      EXPECT_NE(first[k], "friction");
+    } else if (effect[k] == "friction" && amplitude[k] >= limit[k]) {
+      ++strong;
+      named += first[k] == "friction";
+    }
+  }
+  EXPECT_GE(strong, 5);
+  EXPECT_EQ(named, strong);
+  o.folder = (folder / "two").string();
+  o.jobs = 2;
+  rehearse(o);
+  EXPECT_EQ(text_of_file(o.folder + "/rehearsal.csv"),
+            text_of_file((folder / "one/rehearsal.csv").string()));
+}
+
+TEST(Rehearsal, TwoPackingsAreTooFew) {
+  const auto folder = calendem_test::test_folder();
+  RehearsalOptions o;
+  o.bank = kBank;
+  o.table = part_of_shipped(2, folder);
+  o.folder = (folder / "few").string();
+  try {
+    rehearse(o);
+    FAIL();
+  } catch (const Failure &f) {
+    EXPECT_EQ(f.exit_status(), kBadInput);
+    EXPECT_NE(std::string(f.what()).find("has 2 packings"), std::string::npos) << f.what();
+  }
+}
+
+// Of two nulls one is claimed; of three effects two are above their limit and one of these is named
+// first; of the two claimed one is right.
+TEST(Rehearsal, TheSummaryCounts) {
+  std::vector<Rehearsed> cases(5);
+  for (int k = 0; k < 5; ++k) {
+    cases[std::size_t(k)].packing = k;
+    cases[std::size_t(k)].claim = cases[std::size_t(k)].most_probable = "none";
+  }
+  cases[1].claim = "friction";
+  for (int k = 2; k < 5; ++k) {
+    cases[std::size_t(k)].effect = "pre_cracks";
+    cases[std::size_t(k)].limit = 0.5;
+    cases[std::size_t(k)].amplitude = k == 4 ? -0.4 : -0.6; // beyond the limit either way
+    cases[std::size_t(k)].of_truth = std::exp(-1.0);
+  }
+  cases[2].claim = cases[2].most_probable = "pre_cracks";
+  cases[3].claim = "friction";
+  const std::vector<std::string> lines = summary_of(cases);
+  ASSERT_EQ(lines.size(), 5u);
+  const auto has = [&](int line, const std::string &part) {
+    EXPECT_NE(lines[std::size_t(line)].find(part), std::string::npos) << lines[std::size_t(line)];
+  };
+  has(0, "2 samples of the base model: claimed to be none 0.50");
+  has(0, "to have an effect 0.50");
+  has(1, "3 samples with an effect, 2 above its limit: of these named first 0.50");
+  has(2, "effects claimed in 2 of them: right 0.50");
+  has(2, "probability 1.00");
+  has(3, "claimed to be unknown not known");
+}
+
+} // namespace

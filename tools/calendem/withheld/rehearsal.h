@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// How well a bank can diagnose, without a simulation more: every packing is left out in turn, and
+// its runs, with a laboratory's noise, are samples of which the others know nothing.
+#ifndef CALENDEM_WITHHELD_REHEARSAL_H
+#define CALENDEM_WITHHELD_REHEARSAL_H
+
+#include <string>
+#include <vector>
+
+namespace calendem {
+
+struct RehearsalOptions {
+  std::string bank, table, folder;
+  int jobs = 1; ///< packings at a time
+};
+
+/// One diagnosis. A sample is as large as the bank's cell.
+struct Rehearsed {
+  std::string effect; ///< that was on; empty: none
+  int base_point = 0, packing = 0;
+  bool left_out = false;     ///< the effect may not be named: right is "unknown"
+  double amplitude = 0.0;    ///< of the effect
+  double limit = 0.0;        ///< amplitude from which on it can be told from none; NaN: never
+  std::string most_probable; ///< hypothesis
+  double its_probability = 0.0, of_truth = 0.0, of_unknown = 0.0;
+  std::string claim;
+  double adequacy_p = 0.0;
+
+  std::string truth() const { return left_out ? "unknown" : effect.empty() ? "none" : effect; }
+  bool above_limit() const { return amplitude >= limit || -amplitude >= limit; }
+};
+
+/// The lines that tell them, with 90 % intervals over packings.
+std::vector<std::string> summary_of(const std::vector<Rehearsed> &cases);
+
+/// Writes samples/ and rehearsal.csv into the folder and prints the summary. Every effect is
+/// diagnosed twice: with all effects, and without itself. Throws Failure(2) for a bank without its
+/// table, or of fewer than three packings.
+void rehearse(const RehearsalOptions &options);
+
+} // namespace calendem
+
+#endif
