@@ -13,6 +13,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
+#include <iostream>
 #include <map>
 
 namespace calendem {
@@ -213,6 +214,7 @@ void rehearse(const RehearsalOptions &o) {
     parts[std::size_t(k)] = of_packing(o, table, packings[std::size_t(k)]);
     fmt::print("rehearsal: packing {} left out, {} diagnoses\n", packings[std::size_t(k)],
                parts[std::size_t(k)].size());
+    std::cout << std::flush;
   });
   std::vector<Rehearsed> cases;
   for (const auto &part : parts)
