@@ -224,27 +224,25 @@ film_cell_too_small() { # spheres would touch two images of another; no folder i
   says 'the largest sphere of the slurry is' 'at most 4.70 um' 'particles.max_um'
   [ ! -e "$work/film" ] || fail "a folder was made"
 }
-kind_wrong() { # a file for another verb is one message
-  local cases=$scripts/cases
-  expect 2 calendem run "$cases/demo/electrode.toml" -o "$work/run"
-  says "this is an electrode's recipe (it has 'cell', 'coating'); a case is wanted here. Give it to calendem pack"
+of_other_kind() { # "VERB" FILE TEXT...: the verb refuses the case's file in one line
+  local verb=$1 given=$2
+  shift 2
+  # shellcheck disable=SC2086 # a verb may be two words
+  expect 2 calendem $verb "$scripts/cases/$given" -o "$work/run"
+  says "$@"
   [ "$(wc -l <"$work/said")" -eq 1 ] || fail "more than one line"
-  expect 2 calendem pack "$cases/demo/case.toml" -o "$work/run"
-  says "this is a case" "Give it to calendem run"
-  expect 2 calendem dry "$cases/demo/case.toml" -o "$work/run"
-  says "this is a case" "the recipe of a film is wanted here"
-  expect 2 calendem pack "$cases/chain/film.toml" -o "$work/run"
-  says "this is the recipe of a film" "Give it to calendem dry"
-  expect 2 calendem tomogram "$cases/demo/electrode.toml" -o "$work/run"
-  says "the description of a tomogram is wanted here"
-  expect 2 calendem study "$cases/bank/bank.toml" -o "$work/run"
-  says "this is a bank" "a study is wanted here"
-  expect 2 calendem bank "$cases/studies/cells.toml" -o "$work/run"
-  says "this is a study" "Give it to calendem study"
-  expect 2 calendem diagnose "$cases/demo/case.toml" -o "$work/run"
-  says "this is a case" "an experiment is wanted here"
-  expect 2 calendem withheld make "$cases/paper/experiment.toml" -o "$work/run"
-  says "this is an experiment" "Give it to calendem compare or diagnose"
+}
+kind_wrong() {
+  of_other_kind run demo/electrode.toml "this is an electrode's recipe (it has 'cell', 'coating')" \
+    "a case is wanted here. Give it to calendem pack"
+  of_other_kind pack demo/case.toml "this is a case" "Give it to calendem run"
+  of_other_kind dry demo/case.toml "this is a case" "the recipe of a film is wanted here"
+  of_other_kind pack chain/film.toml "this is the recipe of a film" "Give it to calendem dry"
+  of_other_kind tomogram demo/electrode.toml "the description of a tomogram is wanted here"
+  of_other_kind study bank/bank.toml "this is a bank" "a study is wanted here"
+  of_other_kind bank studies/cells.toml "this is a study" "Give it to calendem study"
+  of_other_kind diagnose demo/case.toml "this is a case" "an experiment is wanted here"
+  of_other_kind "withheld make" paper/experiment.toml "this is an experiment" "compare or diagnose"
 }
 kinds_of_file() {
   expect 0 calendem validate "$scripts"/cases/{demo,paper}/*.toml "$scripts"/cases/image/tomogram.toml

@@ -16,8 +16,8 @@ using namespace calendem;
 
 const std::string kBank = CALENDEM_CASES "/bank/bank.toml";
 
-/// The shipped bank's base points and its runs of friction, of packings 1 to `packings`.
-std::string part_of_shipped(int packings, const std::filesystem::path &folder) {
+/// Of the shipped bank's base points and its runs of friction, of packings 1 to `packings`.
+RehearsalOptions part_of_shipped(int packings, const std::filesystem::path &folder) {
   BankTable table = read_bank_table(read_bank_spec(kBank), CALENDEM_CASES "/bank/bank.csv");
   table.rows.erase(std::remove_if(table.rows.begin(), table.rows.end(),
                                   [&](const BankRow &row) {
@@ -26,19 +26,16 @@ std::string part_of_shipped(int packings, const std::filesystem::path &folder) {
                                             row.point.effect != "friction");
                                   }),
                    table.rows.end());
-  const std::string file = (folder / "part.csv").string();
-  write_file(file, write_bank_table(table));
-  return file;
+  const RehearsalOptions o = {kBank, (folder / "part.csv").string(), (folder / "one").string()};
+  write_file(o.table, write_bank_table(table));
+  return o;
 }
 
 // Seven packings with three base points and one run of friction each; friction is what shows most
 // in a bank: it is the most probable wherever it is strong enough to be told from none.
 TEST(Rehearsal, EveryPackingIsLeftOutOnce) {
   const auto folder = calendem_test::test_folder();
-  RehearsalOptions o;
-  o.bank = kBank;
-  o.table = part_of_shipped(7, folder);
-  o.folder = (folder / "one").string();
+  RehearsalOptions o = part_of_shipped(7, folder);
   rehearse(o);
   const CsvTable t = CsvTable::parse(text_of_file(o.folder + "/rehearsal.csv"));
   ASSERT_EQ(t.rows(), 21u + 2u * 7u);
@@ -67,10 +64,7 @@ TEST(Rehearsal, EveryPackingIsLeftOutOnce) {
 
 TEST(Rehearsal, TwoPackingsAreTooFew) {
   const auto folder = calendem_test::test_folder();
-  RehearsalOptions o;
-  o.bank = kBank;
-  o.table = part_of_shipped(2, folder);
-  o.folder = (folder / "few").string();
+  RehearsalOptions o = part_of_shipped(2, folder);
   try {
     rehearse(o);
     FAIL();

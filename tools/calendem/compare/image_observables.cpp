@@ -46,7 +46,8 @@ private:
 
   Seen look(const std::string &folder) const {
     constexpr double none = NAN;
-    std::string why = fmt::format("{} has no frame of the electrode {}", folder, moment_);
+    std::string why = fmt::format(
+        "{} has no frame of the electrode {} it was pressed; let the run end.", folder, moment_);
     try {
       for (const RunMoment &m : moments_of_run(folder))
         if (m.name == moment_)

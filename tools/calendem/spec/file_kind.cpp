@@ -9,7 +9,7 @@ namespace {
 struct Described {
   FileKind kind;
   const char *what, *verbs;
-  std::vector<std::string> tables; ///< and keys that no other kind has, but for those shared
+  std::vector<std::string> tables; ///< and keys that tell it, alone or together
 };
 
 const std::vector<Described> &kinds() {

@@ -5,7 +5,7 @@
 #include "slurry/film_recipe.h"
 #include "spec/case.h"
 #include "spec/experiment.h"
-#include "spec/toml_file.h"
+#include "spec/file_kind.h"
 #include "study/study_file.h"
 #include "tomogram/tomogram.h"
 #include "withheld/truths.h"
@@ -15,8 +15,6 @@
 
 namespace calendem {
 namespace {
-
-enum class Kind { Recipe, Case, Tomogram, Film, Experiment, Study, Bank, Round };
 
 int keys_known(const toml::table &table, const std::string &prefix, const std::vector<Key> &keys) {
   int known = 0;
@@ -33,53 +31,53 @@ int keys_known(const toml::table &table, const std::string &prefix, const std::v
 }
 
 /// By what is in it: the kind that knows most of its keys and tables; of equals a recipe.
-Kind kind_of(const std::string &file) {
+FileKind kind_of(const std::string &file) {
   Mistakes elsewhere(file); // the reader of that kind tells them
   const toml::table root = parse_toml(file, elsewhere).root;
   if (root.contains("experiment") || root.contains("condition"))
-    return Kind::Experiment;
+    return FileKind::Experiment;
   if (root.contains("study") || root.contains("vary"))
-    return Kind::Study;
+    return FileKind::Study;
   if (root.contains("bank"))
-    return Kind::Bank;
+    return FileKind::Bank;
   if (root.contains("round"))
-    return Kind::Round;
-  Kind best = Kind::Recipe;
+    return FileKind::Round;
+  FileKind best = FileKind::Recipe;
   int most = keys_known(root, "", recipe_keys());
-  const auto consider = [&](Kind kind, const std::vector<Key> &keys) {
+  const auto consider = [&](FileKind kind, const std::vector<Key> &keys) {
     if (const int known = keys_known(root, "", keys); known > most) {
       best = kind;
       most = known;
     }
   };
-  consider(Kind::Case, case_keys());
-  consider(Kind::Tomogram, tomogram_keys());
-  consider(Kind::Film, film_keys());
+  consider(FileKind::Case, case_keys());
+  consider(FileKind::Tomogram, tomogram_keys());
+  consider(FileKind::Film, film_keys());
   return best;
 }
 
 std::string name_after_check(const std::string &file) {
   switch (kind_of(file)) {
-  case Kind::Experiment:
+  case FileKind::Experiment:
     return fmt::format("experiment of {} conditions", read_experiment(file).conditions.size());
-  case Kind::Study:
+  case FileKind::Study:
     return fmt::format("study of {} runs", read_study(file).runs.size());
-  case Kind::Bank: {
+  case FileKind::Bank: {
     const BankSpec spec = read_bank_spec(file);
     return fmt::format("bank of {} runs", bank_study(spec, bank_points(spec)).runs.size());
   }
-  case Kind::Round: {
+  case FileKind::Round: {
     const Round round = read_round(file);
     const Study study = truth_study(round, draw_truths(round, "any"));
     return fmt::format("withheld round of {} runs", study.runs.size());
   }
-  case Kind::Case:
+  case FileKind::Case:
     read_case(file);
     return "case";
-  case Kind::Tomogram:
+  case FileKind::Tomogram:
     read_tomogram_spec(file);
     return "tomogram";
-  case Kind::Film:
+  case FileKind::Film:
     read_film_recipe(file);
     return "recipe of a film";
   default:

@@ -7,6 +7,7 @@
 #include "spec/provenance.h"
 #include "study/job_pool.h"
 #include "withheld/baselines.h"
+#include "withheld/round_file.h"
 #include "withheld/sealing.h"
 #include <algorithm>
 #include <filesystem>
@@ -61,9 +62,8 @@ std::string most_probable_effect(const inference::Which &which) {
   return name;
 }
 
-bool names_effect(const std::string &gap_file) {
-  const std::string claim = nlohmann::json::parse(bytes_of(gap_file)).at("which").at("claim");
-  return claim != "none" && claim != "unknown" && claim != "noise" && claim != "undecided";
+std::string claim_in(const std::string &gap_file) {
+  return nlohmann::json::parse(bytes_of(gap_file)).at("which").at("claim");
 }
 
 class Answering {
@@ -108,7 +108,7 @@ public:
     if (made_of(here + "/" + kShrink, identity))
       return;
     fs::remove(here + "/" + kShrink);
-    if (!names_effect(here + "/" + kFiles[0]))
+    if (!names_effect(claim_in(here + "/" + kFiles[0])))
       return;
     const Experiment experiment = experiment_in(o_.handed_out + "/" + id);
     const Diagnosed d = diagnosed(experiment, table_, 0.0, models_);

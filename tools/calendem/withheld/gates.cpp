@@ -125,7 +125,7 @@ void add_reported(const All &cases, std::vector<Metric> &out) {
         },
         right));
   };
-  between("below their detection limit", 0.0, kDetectable);
+  between("below their limit against none", 0.0, kDetectable);
   between("from there to signal-to-noise 6", kDetectable, kLoudEnough);
   out.push_back(share_of("pair: a measurement that would tell more is named", cases,
                          in_block({"pair"}), [](const auto &c) { return c.next_named; }));

@@ -22,12 +22,9 @@ namespace {
 constexpr int kFewestPackings = 3;
 constexpr std::uint64_t kPurpose = 0x402;
 
-bool names_effect(const std::string &claim) {
-  return claim != "none" && claim != "unknown" && claim != "noise" && claim != "undecided";
-}
-
-/// The runs of a point, by pressure; empty unless all are there.
 using Point = std::pair<std::string, int>; // effect, base point
+
+/// Runs of the packing's points, by pressure; of those points that have all.
 std::map<Point, std::vector<PressedSamples>> points_of_packing(const BankTable &table,
                                                                int packing) {
   std::map<Point, std::vector<PressedSamples>> out;

@@ -116,4 +116,8 @@ Round read_round(const std::string &file) {
   return out;
 }
 
+bool names_effect(const std::string &claim) {
+  return claim != "none" && claim != "unknown" && claim != "noise" && claim != "undecided";
+}
+
 } // namespace calendem

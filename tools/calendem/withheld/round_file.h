@@ -51,6 +51,9 @@ Round read_round(const std::string &file);
 std::vector<std::string> names_in(const std::string &joined);
 std::string joined(const std::vector<std::string> &names);
 
+/// The claim of a diagnosis is an effect, a pair or a fault of the press.
+bool names_effect(const std::string &claim);
+
 } // namespace calendem
 
 #endif
