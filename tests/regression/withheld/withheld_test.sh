@@ -29,7 +29,8 @@ samples = 2
 open = ["displacement_scale"]
 faults = ["friction + noise"]
 T
-make_round() { withheld make "$work/round.toml" -o "$work/round"; }
+# A seed: a truth drawn at random may be one that no platen can press to its pressure, and is left out then.
+make_round() { withheld make "$work/round.toml" -o "$work/round" --seed 1; }
 make_round
 [ "$(names "$work/round/handed_out")" = 001,002,003,004,commitment.json ] || fail "not the cases of the round"
 
