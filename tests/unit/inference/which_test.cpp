@@ -2,6 +2,7 @@
 #include "inference/confounding.h"
 #include "inference/which.h"
 #include "linear_world.h"
+#include <boost/math/tools/minima.hpp>
 #include <gtest/gtest.h>
 
 namespace calendem::inference {
@@ -289,6 +290,36 @@ TEST(Confounding, CosinesOddsAndLimitsInClosedForm) {
               std::sqrt(6.0 + 2.0 * std::log(10.0 / std::sqrt(2.0 * M_PI))), 0.02);
   EXPECT_EQ(alone.limits[0].rival, "none");
   EXPECT_NEAR(alone.limits[0].against_none, std::sqrt(6.0), 0.02);
+}
+
+// One feature of variance 1, r (e^b - 1) of the base parameter b, and an amplitude of 0 to 10
+// added: the base model follows further than its tangent r b at 0. The least of (a - r (e^b - 1))^2
+// + b^2 is 6 at the limit a.
+TEST(Confounding, LimitsAllowForWhatRecalibrationCanReallyReach) {
+  const double r = 0.5;
+  LinearWorld world(1, 1, 1, 1);
+  world.covariance.setIdentity();
+  Problem problem = world.problem(Vector::Zero(1));
+  problem.effects[0].parameters[0].prior = {Prior::uniform, 0.0, 10.0};
+  problem.predict = [&](const Vector &base, const std::vector<Applied> &on) {
+    Prediction out{Vector::Constant(1, r * std::expm1(base[0])), Vector::Zero(1)};
+    for (const Applied &a : on)
+      out.mean[0] += problem.effects[0].parameters[0].prior.value(a.scores[0]);
+    return out;
+  };
+  Which w;
+  w.base = linearise(problem, Vector::Zero(1));
+  ConfoundingSettings settings;
+  settings.amplitudes = 400; // steps of 0.025
+  const auto least = [&](double a) {
+    const auto square = [&](double b) { return std::pow(a - r * std::expm1(b), 2) + b * b; };
+    return boost::math::tools::brent_find_minima(square, 0.0, 5.0, 40).second;
+  };
+  double low = 0.0, high = 10.0;
+  while (high - low > 1e-9)
+    (least(0.5 * (low + high)) < 6.0 ? low : high) = 0.5 * (low + high);
+  EXPECT_GT(low, 1.2 * std::sqrt(6.0 * (1.0 + r * r))); // the tangent's
+  EXPECT_NEAR(confounding(problem, w, settings).limits[0].against_none, low, 0.025);
 }
 
 // A base parameter that moves the features as the effect does takes it up, as far as its prior lets

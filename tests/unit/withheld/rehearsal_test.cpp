@@ -62,6 +62,44 @@ TEST(Rehearsal, EveryPackingIsLeftOutOnce) {
             text_of_file((folder / "one/rehearsal.csv").string()));
 }
 
+// Nothing is left out: one sample of the base model in each draw, two diagnoses of every effect's
+// (friction, and two faults of measurements that no bank needs runs of). The larger the sample,
+// the less packings scatter, the smaller what can be seen.
+TEST(Rehearsal, DrawnSamplesAreWhatTheBankForetells) {
+  const auto folder = calendem_test::test_folder();
+  RehearsalOptions o = part_of_shipped(7, folder);
+  o.draws = 2;
+  rehearse(o);
+  const CsvTable one = CsvTable::parse(text_of_file(o.folder + "/rehearsal.csv"));
+  ASSERT_EQ(one.rows(), 2u * 7u);
+  const auto effect = one.texts("effect");
+  const auto left_out = one.numbers("left_out"), amplitude = one.numbers("amplitude"),
+             limit = one.numbers("limit_against_none");
+  for (std::size_t k = 0; k < one.rows(); ++k) {
+    EXPECT_EQ(one.numbers("packing")[k], double(k / 7 + 1));
+    EXPECT_EQ(effect[k].empty(), k % 7 == 0);
+    EXPECT_EQ(left_out[k], k % 7 != 0 && k % 7 % 2 == 0 ? 1.0 : 0.0);
+    if (left_out[k] == 1.0) {
+      EXPECT_EQ(effect[k], effect[k - 1]);
+      EXPECT_EQ(amplitude[k], amplitude[k - 1]);
+    }
+  }
+  EXPECT_NE(amplitude[1], amplitude[8]);
+  o.folder = (folder / "two").string();
+  o.jobs = 2;
+  rehearse(o);
+  EXPECT_EQ(text_of_file(o.folder + "/rehearsal.csv"),
+            text_of_file((folder / "one/rehearsal.csv").string()));
+  o.cells = 100.0;
+  o.draws = 1;
+  rehearse(o);
+  const CsvTable large = CsvTable::parse(text_of_file(o.folder + "/rehearsal.csv"));
+  ASSERT_EQ(large.rows(), 7u);
+  for (std::size_t k = 0; k < large.rows(); ++k)
+    if (effect[k] == "machine_compliance") // friction's is below its prior in both
+      EXPECT_LT(large.numbers("limit_against_none")[k], limit[k]);
+}
+
 TEST(Rehearsal, TwoPackingsAreTooFew) {
   const auto folder = calendem_test::test_folder();
   RehearsalOptions o = part_of_shipped(2, folder);

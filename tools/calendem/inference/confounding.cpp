@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "inference/confounding.h"
+#include "inference/signatures.h"
 #include "inference/sobol_points.h"
 #include <algorithm>
 #include <cmath>
@@ -10,62 +11,9 @@ namespace {
 
 constexpr int kShapes = 3;        // values of each parameter that is not the first amplitude
 constexpr double kFarthest = 8.0; // score of a prior's lower end
-
-/// What effects add to the features, whitened by the recalibrated covariance. What is expected to
-/// be seen of a rival has that covariance, I here, and the errors of its emulators.
-struct Signature {
-  Vector mean;
-  Matrix precision;                          ///< inverse of that sum; empty: I
-  double log_determinant = 0.0, trace = 0.0; ///< of the sum; of its inverse
-};
-
-class Signatures {
-public:
-  Signatures(const Problem &problem, const Which &which)
-      : problem_(problem), base_(which.base), factor_(recalibrated_covariance(which.base)),
-        base_variance_(problem.predict(base_.at, {}).variance) {}
-  Vector raw(const std::vector<Applied> &on) const {
-    return problem_.predict(base_.at, on).mean - base_.mean;
-  }
-  Vector white(const std::vector<Applied> &on) const { return factor_.matrixL().solve(raw(on)); }
-  Signature of(int effect, const Vector &scores) const {
-    const Prediction p = problem_.predict(base_.at, {{effect, scores}});
-    Signature s{factor_.matrixL().solve(p.mean - base_.mean), {}, 0.0, double(p.mean.size())};
-    const Vector variance = (p.variance - base_variance_).cwiseMax(0.0);
-    if (variance.maxCoeff() == 0.0)
-      return s;
-    const auto identity = Matrix::Identity(variance.size(), variance.size());
-    const Matrix half = factor_.matrixL().solve(emulator_errors(problem_, variance));
-    const Cholesky sum(Matrix(identity + factor_.matrixL().solve(half.transpose())));
-    s.precision = sum.solve(identity);
-    s.log_determinant = 2.0 * Matrix(sum.matrixL()).diagonal().array().log().sum();
-    s.trace = s.precision.trace();
-    return s;
-  }
-  Signature off() const {
-    return {Vector::Zero(base_.mean.size()), {}, 0.0, double(base_.mean.size())};
-  }
-  /// Share of the squared length that recalibration takes up.
-  double absorbed(int effect, const Vector &scores) const {
-    const Vector s = raw({{effect, scores}});
-    const double before = s.dot(Cholesky(base_.covariance).solve(s));
-    return before > 0.0 ? 1.0 - s.dot(factor_.solve(s)) / before : 0.0;
-  }
-
-private:
-  const Problem &problem_;
-  const Linearised &base_;
-  Cholesky factor_;
-  Vector base_variance_;
-};
-
-/// Expected log-odds of a true signature, seen with the recalibrated covariance, against a rival's.
-double odds_between(const Signature &truth, const Signature &rival) {
-  const Vector apart = rival.mean - truth.mean;
-  const double square =
-      rival.precision.size() == 0 ? apart.squaredNorm() : apart.dot(rival.precision * apart);
-  return 0.5 * (square + rival.log_determinant - truth.log_determinant + rival.trace - truth.trace);
-}
+// Rivals whose linear log-odds are beyond this many times what tells them apart are not
+// recalibrated: the tangents overrate a distance by up to two.
+constexpr double kLookAgain = 4.0;
 
 int first_amplitude(const Effect &effect) {
   for (int j = 0; j < int(effect.parameters.size()); ++j)
@@ -95,15 +43,16 @@ std::vector<Signature> grid_of(const Signatures &signatures, const Problem &prob
   std::vector<Signature> grid{signatures.off()};
   for (int s = 0; s < shapes; ++s)
     for (int k = 0; k < steps; ++k)
-      grid.push_back(signatures.of(effect, at_share(e, (k + 1.0) / steps, shapes == 1 ? 1 : s)));
+      grid.push_back(
+          signatures.of({{effect, at_share(e, (k + 1.0) / steps, shapes == 1 ? 1 : s)}}));
   return grid;
 }
 
-double log_odds(const Signature &truth, const std::vector<Signature> &rival) {
-  double least = INFINITY;
-  for (const Signature &r : rival)
-    least = std::min(least, odds_between(truth, r));
-  return least;
+/// The amplitude and shape at which the rival is hardest to tell from the truth.
+const Signature &nearest(const Signature &truth, const std::vector<Signature> &rival) {
+  return *std::min_element(rival.begin(), rival.end(), [&](const Signature &a, const Signature &b) {
+    return Signatures::odds(truth, a) < Signatures::odds(truth, b);
+  });
 }
 
 /// The hardest rival at an amplitude, and the log-odds against it.
@@ -156,18 +105,21 @@ DetectionLimit limit_of(const Problem &problem, int effect,
   const Effect &e = problem.effects[effect];
   std::vector<Signature> truths;
   for (int k = 1; k <= settings.amplitudes; ++k)
-    truths.push_back(signatures.of(effect, at_share(e, double(k) / settings.amplitudes, 1)));
+    truths.push_back(signatures.of({{effect, at_share(e, double(k) / settings.amplitudes, 1)}}));
   const auto from_none = [&](int k) {
-    return Hardest{odds_between(truths[k], grids[effect].front())};
+    return Hardest{signatures.odds_recalibrated(truths[k], grids[effect].front())};
   };
   const std::vector<double> occam = occam_of(e, truths, signatures.off());
   const auto from_all = [&](int k) {
     Hardest least = from_none(k);
     least.odds -= occam[std::size_t(k)];
-    for (int other = 0; other < int(grids.size()); ++other)
-      if (const double odds = other == effect ? INFINITY : log_odds(truths[k], grids[other]);
-          odds < least.odds)
+    for (int other = 0; other < int(grids.size()); ++other) {
+      const Signature &rival = nearest(truths[k], grids[other]);
+      if (other == effect || Signatures::odds(truths[k], rival) > kLookAgain * settings.telling)
+        continue;
+      if (const double odds = signatures.odds_recalibrated(truths[k], rival); odds < least.odds)
         least = {odds, problem.effects[other].name};
+    }
     return least;
   };
   DetectionLimit limit{e.name, "none"};
@@ -223,7 +175,7 @@ std::vector<std::vector<std::string>> alike(const Problem &problem, const Which 
 
 Confounding confounding(const Problem &problem, const Which &which,
                         const ConfoundingSettings &settings) {
-  const Signatures signatures(problem, which);
+  const Signatures signatures(problem, which.base);
   const int n = int(problem.effects.size());
   Confounding c;
   c.absorbed = Vector::Zero(n);
@@ -234,9 +186,9 @@ Confounding confounding(const Problem &problem, const Which &which,
   for (int e = 0; e < n; ++e) {
     const Vector scores = at_share(problem.effects[e], 0.5, 1);
     c.effects.push_back(problem.effects[e].name);
-    half_way.push_back(signatures.of(e, scores));
+    half_way.push_back(signatures.of({{e, scores}}));
     half.col(e) = half_way.back().mean;
-    c.absorbed[e] = signatures.absorbed(e, scores);
+    c.absorbed[e] = signatures.absorbed({{e, scores}});
     grids.push_back(grid_of(signatures, problem, e, settings.amplitudes));
   }
   const Vector length = half.colwise().norm().cwiseMax(1e-300);
@@ -244,8 +196,9 @@ Confounding confounding(const Problem &problem, const Which &which,
              length.cwiseInverse().asDiagonal();
   for (int e = 0; e < n; ++e) {
     for (int other = 0; other < n; ++other)
-      c.log_odds(e, other) = other == e ? 0.0 : log_odds(half_way[e], grids[other]);
-    c.log_odds(e, n) = odds_between(half_way[e], grids[e].front());
+      c.log_odds(e, other) =
+          other == e ? 0.0 : Signatures::odds(half_way[e], nearest(half_way[e], grids[other]));
+    c.log_odds(e, n) = Signatures::odds(half_way[e], grids[e].front());
     c.limits.push_back(limit_of(problem, e, grids, signatures, settings));
   }
   c.indistinguishable = alike(problem, which, signatures, settings.telling);

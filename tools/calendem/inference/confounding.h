@@ -34,13 +34,12 @@ struct Confounding {
   std::vector<std::vector<std::string>> indistinguishable;
 };
 
-/// Expected log-odds, truths and rivals at amplitudes from a grid, base linearised: half of (square
-/// of the distance in the rival's covariance + ln det of the rival's over the truth's + what noise
-/// adds to the squares), covariances of recalibration, measurement, scatter and the effects' own
-/// emulators. Without emulators' errors that is half the squared distance (Box and Hill,
-/// Technometrics 9 (1967) 57). The factor that an amplitude to choose costs an effect counts beside
-/// none, which has none to choose, in `limits` (not in against_none); beside each other's they
-/// cancel, about.
+/// Expected log-odds (Signatures), truths and rivals at amplitudes from a grid. Without emulators'
+/// errors that is half the squared distance (Box and Hill, Technometrics 9 (1967) 57). Limits are
+/// where the log-odds reach `telling`, the rivals recalibrated as far as their emulators say;
+/// cosines, shares and the table take the base model for linear. The factor that an amplitude to
+/// choose costs an effect counts beside none, which has none to choose, in `limits` (not in
+/// against_none); beside each other's they cancel, about.
 Confounding confounding(const Problem &problem, const Which &which,
                         const ConfoundingSettings &settings);
 

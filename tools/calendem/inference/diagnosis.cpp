@@ -51,25 +51,33 @@ std::vector<FittedEffect> effects_of(const Bank &bank, const Judged &best) {
 
 } // namespace
 
+Told told(const Model &model, const Problem &problem, const Settings &settings) {
+  WhichSettings rules = settings.which;
+  for (const std::string &name : model.poor_effects())
+    rules.poor.push_back(name);
+  Told t;
+  t.which = which(problem, rules);
+  t.confounding = confounding(problem, t.which, settings.confounding);
+  std::vector<double> limits;
+  for (const DetectionLimit &l : t.confounding.limits)
+    limits.push_back(l.against_none);
+  set_limits(t.which, problem, limits);
+  decide(t.which, rules, int(problem.effects.size()));
+  return t;
+}
+
 Diagnosis diagnose(const Model &model, const Bank &bank, const Vector &values,
                    const Settings &settings) {
   Diagnosis d;
   const Problem problem = model.problem(values);
-  WhichSettings rules = settings.which;
-  for (const std::string &name : model.poor_effects())
-    rules.poor.push_back(name);
   d.blocks = problem.blocks;
-  d.which = which(problem, rules);
+  Told t = told(model, problem, settings);
+  d.which = std::move(t.which);
+  d.confounding = std::move(t.confounding);
   d.where = where(problem, d.which.base, settings.where);
   d.residual = residuals_of(model, values, d.which.base.mean.head(model.map().emulated()));
   for (WhereRow &row : d.where.rows)
     row.z = std::copysign(row.z, d.residual[row.block].residual);
-  d.confounding = confounding(problem, d.which, settings.confounding);
-  std::vector<double> limits;
-  for (const DetectionLimit &l : d.confounding.limits)
-    limits.push_back(l.against_none);
-  set_limits(d.which, problem, limits);
-  decide(d.which, rules, int(problem.effects.size()));
   d.next = next_measurements(d.which, model.extensions(values), settings.next);
   d.parameters = parameters_of(bank.base, d.which.judged.front());
   d.effects = effects_of(bank, best_predicting(d.which));

@@ -52,6 +52,14 @@ struct Diagnosis {
   double degrees_of_freedom = 0.0, shrinkage = 0.0; ///< of the scatter between packings
 };
 
+/// What is told from what, and from which amplitude on.
+struct Told {
+  Which which;
+  Confounding confounding;
+};
+/// By the rules, what cannot be seen counting as none; effects with poor emulators are not claimed.
+Told told(const Model &model, const Problem &problem, const Settings &settings);
+
 /// Deterministic: the same model, values and settings give the same bytes. A quarter of a minute on
 /// one core for 20 features, 10 effects and 60 runs of each.
 Diagnosis diagnose(const Model &model, const Bank &bank, const Vector &values,

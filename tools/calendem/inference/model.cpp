@@ -69,6 +69,7 @@ Model::Model(const Bank &bank, const ObservableVector &experiment, const ModelSe
   const auto learnt = std::make_shared<Emulators>(bank, map_->emulated_of(values));
   emulators_ = learnt;
   scatter_ = pooled_scatter(learnt->base(), learnt->packing());
+  correlation_ = correlation_of_errors(learnt->residuals());
   judge_emulators();
   for (const Candidate &c : candidates)
     extra_.push_back(learn_extra(bank, c));
@@ -81,13 +82,18 @@ Model::Extra Model::learn_extra(const Bank &bank, const Candidate &candidate) co
   const Vector sd =
       (candidate.covariance.diagonal() + left_by_line(bank, values) / settings_.packings_in_sample)
           .cwiseSqrt();
-  Extra extra{candidate, nullptr, nullptr, {}};
+  Extra extra{candidate, nullptr, nullptr, {}, {}};
   extra.map = std::make_shared<FeatureMap>(candidate.of, values, sd, candidate.covariance);
   const auto learnt = std::make_shared<Emulators>(bank, extra.map->emulated_of(values));
   extra.emulators = learnt;
   std::vector<GaussianProcess> all = emulators_->base();
   all.insert(all.end(), learnt->base().begin(), learnt->base().end());
   extra.scatter = pooled_scatter(all, learnt->packing()).covariance;
+  Matrix residuals = emulators_->residuals();
+  const auto n = residuals.cols(), added = learnt->residuals().cols();
+  residuals.conservativeResize(Eigen::NoChange, n + added);
+  residuals.rightCols(added) = learnt->residuals();
+  extra.correlation = correlation_of_errors(residuals);
   return extra;
 }
 
@@ -134,7 +140,7 @@ Problem Model::problem(const Vector &values) const {
   p.scatter = Matrix::Zero(all, all);
   p.scatter.topLeftCorner(n, n) = share * scatter_.covariance;
   p.correlation = Matrix::Identity(all, all);
-  p.correlation.topLeftCorner(n, n) = correlation_of_errors(emulators_->residuals());
+  p.correlation.topLeftCorner(n, n) = correlation_;
   p.degrees_of_freedom = mixed_degrees(p.measurement, p.scatter, scatter_.degrees_of_freedom);
   p.base_parameters = base_parameters_;
   p.effects = effects_;
@@ -173,10 +179,7 @@ std::vector<Extension> Model::extensions(const Vector &values) const {
       return both;
     };
     p.scatter = joined(p.scatter, share * extra.scatter);
-    Matrix residuals = emulators_->residuals();
-    residuals.conservativeResize(Eigen::NoChange, n + added);
-    residuals.rightCols(added) = extra.emulators->residuals();
-    p.correlation = joined(p.correlation, correlation_of_errors(residuals));
+    p.correlation = joined(p.correlation, extra.correlation);
     for (int f = 0; f < added; ++f)
       p.features.push_back({int(p.blocks.size()), true});
     p.predict = [first = emulators_, second = extra.emulators, share, old,

@@ -63,7 +63,7 @@ private:
     Candidate candidate;
     std::shared_ptr<const FeatureMap> map;
     std::shared_ptr<const Emulators> emulators;
-    Matrix scatter; ///< of old and new emulated features
+    Matrix scatter, correlation; ///< of old and new emulated features
   };
   std::vector<Observable> observables_;
   std::vector<Effect> effects_;
@@ -73,6 +73,7 @@ private:
   std::shared_ptr<const FeatureMap> map_;
   std::shared_ptr<const Emulators> emulators_;
   Scatter scatter_;
+  Matrix correlation_; ///< of the emulators' errors between emulated features
   std::vector<EmulatorQuality> quality_;
   std::vector<Extra> extra_;
   int base_parameters_ = 0;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "inference/problem.h"
+#include "inference/scatter.h"
+#include <boost/math/distributions/chi_squared.hpp>
 
 namespace calendem::inference {
 namespace {
@@ -7,6 +9,32 @@ namespace {
 constexpr double kStep = 0.05; // of sensitivities, in standard deviations of the prior
 
 } // namespace
+
+Problem without_effect(const Problem &problem, int effect) {
+  Problem out = problem;
+  out.effects.erase(out.effects.begin() + effect);
+  out.predict = [predict = problem.predict, effect](const Vector &base,
+                                                    const std::vector<Applied> &on) {
+    std::vector<Applied> among_all = on;
+    for (Applied &a : among_all)
+      a.effect += a.effect >= effect;
+    return predict(base, among_all);
+  };
+  return out;
+}
+
+Vector drawn(const Problem &problem, const Vector &base, const std::vector<Applied> &on,
+             Random &random) {
+  const Prediction p = problem.predict(base, on);
+  Vector normal(p.mean.size());
+  for (double &v : normal)
+    v = random.normal();
+  const double nu = problem.degrees_of_freedom, u = random.uniform();
+  const double stretch =
+      nu < kNormal ? std::sqrt(nu / quantile(boost::math::chi_squared(nu), u)) : 1.0;
+  const Cholesky factor(covariance_about(problem, p));
+  return p.mean + factor.matrixL() * Vector(stretch * normal);
+}
 
 Matrix emulator_errors(const Problem &problem, const Vector &variance) {
   if (problem.correlation.size() == 0)

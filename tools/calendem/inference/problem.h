@@ -5,6 +5,7 @@
 
 #include "inference/bank.h"
 #include "inference/feature_map.h"
+#include "pack/random.h"
 #include <functional>
 
 namespace calendem::inference {
@@ -34,6 +35,14 @@ struct Problem {
   Matrix discrepancy;              ///< covariance of the unknown, of one standard deviation
   std::function<Prediction(const Vector &base, const std::vector<Applied> &)> predict;
 };
+
+/// Data of this problem without the effect among the hypotheses.
+Problem without_effect(const Problem &problem, int effect);
+
+/// Features as they would be measured if the base parameters and effects were these and all that
+/// the problem says of its errors were true.
+Vector drawn(const Problem &problem, const Vector &base, const std::vector<Applied> &on,
+             Random &random);
 
 /// Covariance of emulators' errors of these variances, correlated as the problem says.
 Matrix emulator_errors(const Problem &problem, const Vector &variance);

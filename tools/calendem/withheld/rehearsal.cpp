@@ -2,7 +2,6 @@
 #include "withheld/rehearsal.h"
 #include "bank/bank_design.h"
 #include "diagnose/diagnose.h"
-#include "inference/scores.h"
 #include "pack/random.h"
 #include "spec/messages.h"
 #include "spec/output_folder.h"
@@ -12,15 +11,15 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <functional>
 #include <iostream>
 #include <map>
+#include <memory>
 
 namespace calendem {
 namespace {
 
 constexpr int kFewestPackings = 3;
-constexpr std::uint64_t kPurpose = 0x402;
+constexpr std::uint64_t kPurpose = 0x402, kDrawn = 0x403;
 
 using Point = std::pair<std::string, int>; // effect, base point
 
@@ -62,10 +61,10 @@ Experiment sample_of(const std::string &folder, const BankTable &table, const Po
   return read_experiment(folder + "/samples/" + id + "/experiment.toml");
 }
 
-Rehearsed judged(const Diagnosed &d, Rehearsed out) {
-  const inference::Which &which = d.diagnosis.which;
+Rehearsed judged(const inference::Which &which, const inference::Confounding &confounding,
+                 Rehearsed out) {
   out.limit = std::nan("");
-  for (const inference::DetectionLimit &l : d.diagnosis.confounding.limits)
+  for (const inference::DetectionLimit &l : confounding.limits)
     if (l.effect == out.effect)
       out.limit = l.against_none;
   out.most_probable = which.judged.front().hypothesis.name;
@@ -77,6 +76,10 @@ Rehearsed judged(const Diagnosed &d, Rehearsed out) {
   out.claim = which.claim;
   out.adequacy_p = which.adequacy_p;
   return out;
+}
+
+Rehearsed judged(const Diagnosed &d, const Rehearsed &sample) {
+  return judged(d.diagnosis.which, d.diagnosis.confounding, sample);
 }
 
 /// All samples of one packing, diagnosed by a bank that has not seen it.
@@ -109,90 +112,73 @@ std::vector<Rehearsed> of_packing(const RehearsalOptions &o, const BankTable &ta
   return out;
 }
 
-std::string table_of(const std::vector<Rehearsed> &cases) {
-  std::string out = "effect,base_point,packing,left_out,amplitude,limit_against_none,most_probable,"
-                    "its_probability,truths_probability,unknowns_probability,claim,adequacy_p\n";
-  for (const Rehearsed &r : cases)
-    out +=
-        fmt::format("{},{},{},{},{:.5g},{:.5g},{},{:.4g},{:.4g},{:.4g},{},{:.4g}\n", r.effect,
-                    r.base_point, r.packing, int(r.left_out), r.amplitude, r.limit, r.most_probable,
-                    r.its_probability, r.of_truth, r.of_unknown, r.claim, r.adequacy_p);
-  return out;
-}
-
-std::string interval(const std::vector<Rehearsed> &cases,
-                     const std::function<double(const std::vector<int> &)> &statistic) {
-  std::vector<int> packings, all;
-  for (std::size_t k = 0; k < cases.size(); ++k) {
-    packings.push_back(cases[k].packing);
-    all.push_back(int(k));
+/// What the bank foretells of samples like its own base points'.
+class Foretold {
+public:
+  Foretold(const RehearsalOptions &o, const BankTable &table) {
+    const int first = table.rows.front().point.packing;
+    const auto points = points_of_packing(table, first);
+    if (points.empty())
+      throw Failure(kBadInput, fmt::format("{}: no point of packing {} has runs to all pressures; "
+                                           "run calendem bank to the end.",
+                                           o.table, first));
+    settings_.model.packings_in_sample = o.cells;
+    const Experiment like =
+        sample_of(o.folder, table, points.begin()->first, points.begin()->second);
+    const ExperimentData data = data_of(like, table, {});
+    model_ = std::make_unique<inference::Model>(data.bank, data.experiment, settings_.model);
+    problem_ = model_->problem(data.experiment.values);
   }
-  const double value = statistic(all);
-  if (!std::isfinite(value))
-    return "not known";
-  const auto [low, high] = inference::clustered_bootstrap(packings, statistic);
-  return fmt::format("{:.2f} (90 %: {:.2f}–{:.2f})", value, low, high);
-}
 
-using Choice = std::function<bool(const Rehearsed &)>;
+  /// One sample of the base model and of each effect.
+  std::vector<Rehearsed> of_draw(int draw) const {
+    std::vector<Rehearsed> out;
+    Random random(std::uint64_t(draw), kDrawn);
+    for (int e = -1; e < int(problem_.effects.size()); ++e) {
+      Rehearsed r;
+      r.base_point = r.packing = draw;
+      inference::Problem sample = problem_;
+      sample.observed =
+          drawn(problem_, scores(problem_.base_parameters, random), applied(e, random, r), random);
+      out.push_back(told_of(sample, r));
+      if (e < 0)
+        continue;
+      r.left_out = true;
+      const double limit = out.back().limit;
+      out.push_back(told_of(without_effect(sample, e), r));
+      out.back().limit = limit;
+    }
+    return out;
+  }
 
-/// Of the cases that `among` chooses, the share that `hit` chooses too.
-std::string share(const std::vector<Rehearsed> &cases, const Choice &among, const Choice &hit) {
-  return interval(cases, [&](const std::vector<int> &drawn) {
-    double hits = 0.0, trials = 0.0;
-    for (const int k : drawn)
-      if (among(cases[std::size_t(k)])) {
-        trials += 1.0;
-        hits += hit(cases[std::size_t(k)]);
-      }
-    return trials > 0.0 ? hits / trials : std::nan("");
-  });
-}
+private:
+  inference::Settings settings_;
+  std::unique_ptr<inference::Model> model_;
+  inference::Problem problem_;
 
-std::string unknown_told(const std::vector<Rehearsed> &cases, const Choice &among) {
-  return interval(cases, [&](const std::vector<int> &drawn) {
-    std::vector<double> scores;
-    std::vector<bool> unknown;
-    for (const int k : drawn)
-      if (const Rehearsed &r = cases[std::size_t(k)]; !r.effect.empty() && among(r)) {
-        scores.push_back(r.of_unknown);
-        unknown.push_back(r.left_out);
-      }
-    return inference::auroc(scores, unknown);
-  });
-}
+  static inference::Vector scores(int count, Random &random) {
+    inference::Vector out(count);
+    for (double &v : out)
+      v = random.normal();
+    return out;
+  }
+  /// The effect at scores from its prior; none for -1.
+  std::vector<inference::Applied> applied(int effect, Random &random, Rehearsed &r) const {
+    if (effect < 0)
+      return {};
+    const inference::Effect &e = problem_.effects[std::size_t(effect)];
+    const inference::Vector at = scores(int(e.parameters.size()), random);
+    r.effect = e.name;
+    r.amplitude = e.parameters[0].prior.value(at[0]);
+    return {{effect, at}};
+  }
+  Rehearsed told_of(const inference::Problem &sample, const Rehearsed &r) const {
+    const inference::Told t = told(*model_, sample, settings_);
+    return judged(t.which, t.confounding, r);
+  }
+};
 
 } // namespace
-
-std::vector<std::string> summary_of(const std::vector<Rehearsed> &cases) {
-  const auto count = [&](const Choice &of) {
-    return std::count_if(cases.begin(), cases.end(), of);
-  };
-  const Choice null = [](const Rehearsed &r) { return r.effect.empty(); };
-  const Choice known = [](const Rehearsed &r) { return !r.effect.empty() && !r.left_out; };
-  const Choice gone = [](const Rehearsed &r) { return r.left_out; };
-  const Choice named = [](const Rehearsed &r) { return names_effect(r.claim); };
-  const Choice first = [](const Rehearsed &r) { return r.most_probable == r.truth(); };
-  const Choice right = [](const Rehearsed &r) { return r.claim == r.truth(); };
-  const Choice strong = [&](const Rehearsed &r) { return known(r) && r.above_limit(); };
-  const Choice claimed = [&](const Rehearsed &r) { return known(r) && named(r); };
-  double score = 0.0;
-  for (const Rehearsed &r : cases)
-    score -= known(r) ? std::log(std::max(r.of_truth, 1e-6)) : 0.0;
-  return {fmt::format("{} samples of the base model: claimed to be none {}, to have an effect {}",
-                      count(null), share(cases, null, right), share(cases, null, named)),
-          fmt::format("{} samples with an effect, {} above its limit: of these named first {}",
-                      count(known), count(strong), share(cases, strong, first)),
-          fmt::format("effects claimed in {} of them: right {}; mean -ln of the truth's "
-                      "probability {:.2f}",
-                      count(claimed), share(cases, claimed, right),
-                      score / std::max<double>(1.0, double(count(known)))),
-          fmt::format("the same without their effect: claimed to be unknown {}, to be another {}",
-                      share(cases, gone, right), share(cases, gone, named)),
-          fmt::format("unknown told from known, area under the ROC curve: {}; above the limits {}",
-                      unknown_told(cases, [](const Rehearsed &) { return true; }),
-                      unknown_told(cases, [](const Rehearsed &r) { return r.above_limit(); }))};
-}
 
 void rehearse(const RehearsalOptions &o) {
   const BankTable table = read_bank_table(read_bank_spec(o.bank), o.table);
@@ -206,11 +192,16 @@ void rehearse(const RehearsalOptions &o) {
                                          "out.",
                                          o.table, packings.size(), kFewestPackings));
   make_output_folder(o.folder);
-  std::vector<std::vector<Rehearsed>> parts(packings.size());
-  in_parallel(int(packings.size()), o.jobs, [&](int k) {
-    parts[std::size_t(k)] = of_packing(o, table, packings[std::size_t(k)]);
-    fmt::print("rehearsal: packing {} left out, {} diagnoses\n", packings[std::size_t(k)],
-               parts[std::size_t(k)].size());
+  const std::unique_ptr<Foretold> foretold =
+      o.draws > 0 ? std::make_unique<Foretold>(o, table) : nullptr;
+  std::vector<std::vector<Rehearsed>> parts(foretold ? std::size_t(o.draws) : packings.size());
+  in_parallel(int(parts.size()), o.jobs, [&](int k) {
+    std::vector<Rehearsed> &part = parts[std::size_t(k)];
+    part = foretold ? foretold->of_draw(k + 1) : of_packing(o, table, packings[std::size_t(k)]);
+    fmt::print("rehearsal: {}, {} diagnoses\n",
+               foretold ? fmt::format("draw {}", k + 1)
+                        : fmt::format("packing {} left out", packings[std::size_t(k)]),
+               part.size());
     std::cout << std::flush;
   });
   std::vector<Rehearsed> cases;

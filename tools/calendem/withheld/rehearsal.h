@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // How well a bank can diagnose, without a simulation more: every packing is left out in turn, and
-// its runs, with a laboratory's noise, are samples of which the others know nothing.
+// its runs, with a laboratory's noise, are samples of which the others know nothing. Or samples are
+// drawn from what the bank itself foretells: what could be told of such data at best.
 #ifndef CALENDEM_WITHHELD_REHEARSAL_H
 #define CALENDEM_WITHHELD_REHEARSAL_H
 
@@ -11,17 +12,19 @@ namespace calendem {
 
 struct RehearsalOptions {
   std::string bank, table, folder;
-  int jobs = 1; ///< packings at a time
+  int jobs = 1;       ///< packings or draws at a time
+  int draws = 0;      ///< 0: packings are left out; else draws of the base model and each effect
+  double cells = 1.0; ///< of the bank, that a drawn sample is as large as
 };
 
-/// One diagnosis. A sample is as large as the bank's cell.
+/// One diagnosis. A sample of a left-out packing is as large as the bank's cell.
 struct Rehearsed {
-  std::string effect; ///< that was on; empty: none
-  int base_point = 0, packing = 0;
-  bool left_out = false;     ///< the effect may not be named: right is "unknown"
-  double amplitude = 0.0;    ///< of the effect
-  double limit = 0.0;        ///< amplitude from which on it can be told from none; NaN: never
-  std::string most_probable; ///< hypothesis
+  std::string effect;              ///< that was on; empty: none
+  int base_point = 0, packing = 0; ///< of a drawn sample: both the draw's number
+  bool left_out = false;           ///< the effect may not be named: right is "unknown"
+  double amplitude = 0.0;          ///< of the effect
+  double limit = 0.0;              ///< amplitude from which on it can be told from none; NaN: never
+  std::string most_probable;       ///< hypothesis
   double its_probability = 0.0, of_truth = 0.0, of_unknown = 0.0;
   std::string claim;
   double adequacy_p = 0.0;
@@ -30,12 +33,18 @@ struct Rehearsed {
   bool above_limit() const { return amplitude >= limit || -amplitude >= limit; }
 };
 
-/// The lines that tell them, with 90 % intervals over packings.
+/// rehearsal.csv.
+std::string table_of(const std::vector<Rehearsed> &cases);
+
+/// The lines that tell them, with 90 % intervals over packings or draws.
 std::vector<std::string> summary_of(const std::vector<Rehearsed> &cases);
 
 /// Writes samples/ and rehearsal.csv into the folder and prints the summary. Every effect is
 /// diagnosed twice: with all effects, and without itself. Throws Failure(2) for a bank without its
 /// table, or of fewer than three packings.
+/// Drawn samples have base parameters and amplitudes from their priors and errors as the model
+/// says: emulators, covariance and priors are right by construction. What is missed then, the data
+/// cannot tell; what is missed beyond it on left-out packings, the bank or the statistics miss.
 void rehearse(const RehearsalOptions &options);
 
 } // namespace calendem

@@ -74,7 +74,16 @@ void add_rehearse(CLI::App &app) {
   verb->add_option("--bank", o->bank, "bank (TOML) that the table was made from");
   verb->add_option("--table", o->table,
                    "the bank's table; default: beside the bank, with its name");
-  verb->add_option("--jobs", o->jobs, "packings at a time")->check(CLI::Range(1, 4096));
+  verb->add_option("--jobs", o->jobs, "packings or draws at a time")->check(CLI::Range(1, 4096));
+  CLI::Option *draws =
+      verb->add_option("--drawn", o->draws,
+                       "leave nothing out: draw so many samples of the base model and of each "
+                       "effect from what the bank foretells, the best that such data can tell")
+          ->check(CLI::Range(1, 100000));
+  verb->add_option("--cells", o->cells,
+                   "how many of the bank's cells a drawn sample is as large as; default: one")
+      ->check(CLI::Range(1.0, 1e9))
+      ->needs(draws);
   verb->callback([o] {
     if (o->table.empty())
       o->table = std::filesystem::path(o->bank).replace_extension("csv").string();
