@@ -3,6 +3,7 @@
 #include "run/child.h"
 #include "run/collect.h"
 #include "run/process.h"
+#include "run/progress.h"
 #include "run/run_folder.h"
 #include "spec/case.h"
 #include "spec/output_folder.h"
@@ -19,8 +20,6 @@
 namespace calendem {
 namespace fs = std::filesystem;
 namespace {
-
-const char *const kStages[] = {"hold", "compression", "dwell", "relaxation", "done"};
 
 void check_cell(const ElectrodeFacts &e, int ranks, Mistakes &mistakes) {
   const double cut_off = neighbour_cut_off(e.widest);
@@ -80,77 +79,6 @@ void check_case(const Settings &s, const ElectrodeFacts &e, const RunOptions &o)
       mistakes.add(0, wrong);
   mistakes.stop_if_any();
 }
-
-double target_share(const Settings &s, const RawRow &row) {
-  if (row.stage > 2.5)
-    return 1.0;
-  const std::string &control = s.text("platen.control");
-  if (control == "pressure")
-    return row.p_top / s.number("platen.max_pressure_MPa");
-  if (control == "displacement")
-    return row.displacement / s.number("platen.displacement_um");
-  const double way = row.gap + row.displacement - s.number("platen.thickness_um");
-  return way > 0.0 ? row.displacement / way : 1.0;
-}
-
-/// Simulated time [us] until the compression's target is met: at the platen's speed, or as the
-/// pressure has grown over the last quarter; NaN where that says nothing.
-double time_to_target(const Settings &s, const std::vector<RawRow> &rows) {
-  const RawRow &last = rows.back();
-  if (last.stage > 1.5 || last.stage < 0.5)
-    return std::nan("");
-  const double share = target_share(s, last);
-  if (s.text("platen.control") != "pressure")
-    return share > 0.0 ? (1.0 - share) / share * last.displacement / s.number("platen.speed_m_s")
-                       : std::nan("");
-  const RawRow &before = rows[rows.size() * 3 / 4];
-  const double growth = std::log(last.p_top / before.p_top) / (last.time - before.time);
-  return before.p_top > 0.0 && growth > 0.0 && share > 0.0
-             ? std::max(0.0, -std::log(share)) / growth
-             : std::nan("");
-}
-
-/// Shows the progress line; on a terminal in place, else a line every half minute.
-class Progress {
-public:
-  Progress(const std::string &curve, const Settings &s) : curve_(curve), settings_(s) {}
-  void operator()() {
-    const auto now = std::chrono::steady_clock::now();
-    const double since = std::chrono::duration<double>(now - shown_).count();
-    if (since < (isatty(1) ? 1.0 : 30.0))
-      return;
-    shown_ = now;
-    const std::vector<RawRow> rows = read_raw(curve_);
-    if (rows.empty())
-      return;
-    const RawRow &r = rows.back();
-    const double share = std::min(1.0, target_share(settings_, r));
-    std::string text = fmt::format(
-        "{:11} {:3.0f} %  {:7.2f} MPa  gap {:.2f} um  {:.2f} % of bonds broken  {:.0f} s",
-        kStages[static_cast<int>(r.stage)], 100 * share, r.p_top, r.gap,
-        r.made > 0 ? 100 * r.broken / r.made : 0.0,
-        std::chrono::duration<double>(now - begin_).count());
-    if (std::isnan(from_)) {
-      from_ = r.time;
-      looked_ = now;
-    }
-    const double left = time_to_target(settings_, rows) / (r.time - from_) *
-                        std::chrono::duration<double>(now - looked_).count();
-    if (std::isfinite(left))
-      text += fmt::format(", about {:.0f} s to the target", left);
-    if (isatty(1))
-      std::cout << "\r\033[K" << text << std::flush;
-    else
-      std::cout << text << std::endl;
-  }
-
-private:
-  std::string curve_;
-  const Settings &settings_;
-  double from_ = NAN; ///< simulated time at the first look, which was at looked_ [us]
-  std::chrono::steady_clock::time_point looked_;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now(), shown_ = begin_;
-};
 
 std::vector<std::pair<std::string, std::string>> script_settings(const Settings &s) {
   std::vector<std::pair<std::string, std::string>> out;
