@@ -60,6 +60,16 @@ inline BankTable made_bank() {
   return table;
 }
 
+/// Every run releases to 0.6 of its largest displacement, linear in pressure.
+inline BankTable with_release(BankTable table) {
+  for (BankRow &row : table.rows)
+    for (const double share : {0.1, 0.25, 0.5, 0.75, 1.0}) {
+      row.run.release_pressure.push_back(share * row.run.target);
+      row.run.release_displacement.push_back(row.run.displacement.back() * (0.6 + 0.4 * share));
+    }
+  return table;
+}
+
 /// Gives the experiment's film the bank's solid column.
 inline void set_film(Experiment &e) {
   e.recipe.am_weight = 1.0;

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 #include <set>
+#include <sstream>
 
 namespace {
 
@@ -177,6 +178,8 @@ SimulatedRun some_run(double target, double factor) {
   for (double p = 0.0; p <= target; p += 1.0) {
     r.pressure.push_back(p);
     r.displacement.push_back(10.0 + 0.1 * p);
+    r.release_pressure.push_back(p);
+    r.release_displacement.push_back((8.0 + 0.1 * target + 0.02 * p) * factor);
   }
   return r;
 }
@@ -196,6 +199,9 @@ TEST(Bank, TheTableReadsBackAsWritten) {
   EXPECT_EQ(back.rows[0].run.pressure.back(), 75.0); // the grid's last below 80
   EXPECT_NEAR(displacement_at(back.rows[1].run.pressure, back.rows[1].run.displacement, 100.0),
               20.0, 1e-6);
+  const SimulatedRun &first = back.rows[0].run; // at 10, 25, 50, 75 and 90 % of 80 MPa
+  EXPECT_EQ(first.release_pressure, (std::vector<double>{8, 20, 40, 60, 72}));
+  EXPECT_NEAR(first.release_displacement[1], 16.0 + 0.02 * 20.0, 1e-6);
   std::ofstream(file) << text.substr(0, text.size() - 40);
   EXPECT_THROW(read_bank_table(spec, file), Failure);
 }
@@ -227,11 +233,34 @@ TEST(Bank, RowsThatAreNoPointAreTold) {
   }
 }
 
+TEST(Bank, ATableMayLackTheRelease) {
+  const BankSpec spec = spec_of(kBank + kParameters);
+  SimulatedRun run = some_run(80, 1);
+  run.release_pressure.clear();
+  const std::string text = write_bank_table({spec, {{{"", 3, 1, {200, 500}, 0.0}, run}}}),
+                    file = (test_folder() / "bank.csv").string();
+  std::string without; // the columns, and the commas of their empty cells
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const auto at = line.find(",displacement_um_released");
+    without += line.substr(0, at == std::string::npos ? line.size() - 5 : at) + "\n";
+  }
+  for (const std::string &table : {text, without}) {
+    std::ofstream(file) << table;
+    const BankTable back = read_bank_table(spec, file);
+    EXPECT_TRUE(back.rows[0].run.release_pressure.empty());
+    EXPECT_EQ(back.rows[0].run.pressure.back(), 75.0);
+  }
+}
+
 TEST(Bank, BetweenTwoPressuresRunsAreLinear) {
   const SimulatedRun r = between_runs(some_run(80, 1), some_run(150, 0.9), 97.5); // a quarter
   EXPECT_NEAR(r.thickness_at_max, 48.75, 1e-12);
   EXPECT_EQ(r.target, 97.5);
   EXPECT_EQ(r.pressure.back(), 150.0);
+  // The release at equal shares: half-way it is 16 + 0.8 and (23 + 1.5) 0.9.
+  EXPECT_NEAR(displacement_at(r.release_pressure, r.release_displacement, 0.5 * 97.5),
+              0.75 * 16.8 + 0.25 * 24.5 * 0.9, 1e-9);
 }
 
 TEST(Bank, InstrumentsChangeWhatIsShownOnly) {
@@ -243,6 +272,8 @@ TEST(Bank, InstrumentsChangeWhatIsShownOnly) {
   const SimulatedRun soft = shown_with(find_effect("machine_compliance"), 0.05, run);
   EXPECT_EQ(soft.thickness_after, run.thickness_after);
   EXPECT_NEAR(soft.displacement.back(), run.displacement.back() + 4.0, 1e-12);
+  EXPECT_NEAR(soft.release_displacement[40], run.release_displacement[40] + 2.0, 1e-12);
+  EXPECT_EQ(zero.release_displacement, run.release_displacement);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "compare/gap.h"
 #include "compare/heat_map.h"
 #include "compare/observables.h"
+#include "support/test_folder.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -209,7 +210,39 @@ TEST(Observables, ThicknessAfterCountsInMicrometresWhereTheLoadingIsNotKnown) {
   ASSERT_EQ(not_said.size(), 1u);
 }
 
-TEST(Observables, UnloadingOfACurveDoesNotCount) {
+// Loading to 100 MPa; the release dips at 70 MPa, which is skipped, and ends above the lowest
+// share.
+TEST(Observables, ReleaseIsComparedAtSharesOfTheLargestPressure) {
+  const auto file = calendem_test::test_folder() / "curve.csv";
+  std::ofstream(file)
+      << "displacement_um,pressure_MPa,stage\n0,0,compression\n20,100,compression\n"
+         "20,100,relaxation\n18,60,relaxation\n17.9,70,relaxation\n16,40,relaxation\n";
+  Experiment e = paper();
+  Condition &c = e.conditions[1];
+  c.porosity_after_percent.reset();
+  c.mass_mg.reset();
+  c.thickness_after_um.reset();
+  c.curve = file.string();
+  c.curve_sd_um = 0.02;
+  std::vector<std::string> not_said;
+  const auto all = observables_of(e, c, not_said);
+  ASSERT_EQ(all.size(), 6u); // four of loading
+  const Observable &half = all[4], &upper = all[5];
+  EXPECT_EQ(half.name, "displacement at 50 MPa on release");
+  EXPECT_EQ(half.stage, "relaxation");
+  EXPECT_EQ(half.coordinate, 0.5);
+  EXPECT_NEAR(half.measured, 16.0 + 1.9 / 3.0, 1e-9);  // from 40 MPa at 16 to 70 at 17.9
+  EXPECT_NEAR(upper.measured, 17.9 + 2.1 / 6.0, 1e-9); // to 100 at 20
+  SimulatedRun r = pressed_to(150, 0.3, "a");          // 25 % porous at the maximum
+  r.release_pressure = {0.0, 150.0};
+  r.release_displacement = {12.0, 24.0};
+  EXPECT_NEAR(half.simulated(r), 16.0, 1e-9);
+  r.porosity_slope = -2e-4; // h = solid / (1 - porosity): dh = h / (1 - porosity) d(porosity)
+  EXPECT_NEAR(half.slope(r), 2e-4 * r.thickness_at_max / 0.75, 1e-12);
+  EXPECT_TRUE(std::isnan(half.simulated(pressed_to(150, 0.3, "a")))); // it has none
+}
+
+TEST(Observables, UnloadingIsNoPartOfLoading) {
   const std::string file = testing::TempDir() + "calendem_compare_stage.csv";
   std::ofstream(file) << "displacement_um,pressure_MPa,stage\n0,0,loading\n20,100,loading\n"
                          "19,101,unloading\n";
@@ -222,7 +255,8 @@ TEST(Observables, UnloadingOfACurveDoesNotCount) {
   std::vector<std::string> not_said;
   const auto all = observables_of(e, c, not_said);
   std::filesystem::remove(file);
-  EXPECT_EQ(all.at(3).name, "displacement at 75 MPa");
+  ASSERT_EQ(all.size(), 4u); // the release has no value below 101 MPa
+  EXPECT_EQ(all[3].name, "displacement at 75 MPa");
 }
 
 // A roll gap counts by its pressure, a curve by its largest displacement.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/experiment_data.h"
 #include "support/made_bank.h"
+#include "support/test_folder.h"
+#include <fstream>
 #include <gtest/gtest.h>
 
 namespace {
@@ -58,6 +60,39 @@ TEST(ExperimentData, ConditionsThatTheBankLacksAreTold) {
        {"p60: the bank's runs do not dwell; its 5 s", "p60: label images",
         "p90: 90 MPa lies outside the bank's 30 to 60 MPa", "d: control = \"displacement\""})
     EXPECT_TRUE(told(data, part)) << part;
+}
+
+// As the bank's own run would show it, told where the bank has none.
+TEST(ExperimentData, TheReleaseOfACurveCountsWhereTheBankHasReleases) {
+  Experiment e = made_experiment(kTruth);
+  e.conditions.resize(1);
+  const BankTable bank = made_bank(), with = with_release(made_bank());
+  const SimulatedRun &run = with.rows[0].run;
+  ASSERT_EQ(run.target, 30.0);
+  e.conditions[0].curve = (calendem_test::test_folder() / "curve.csv").string();
+  e.conditions[0].curve_sd_um = 0.02;
+  std::ofstream curve(e.conditions[0].curve);
+  curve << "displacement_um,pressure_MPa,stage\n";
+  for (std::size_t k = 0; k < run.pressure.size(); ++k)
+    curve << run.displacement[k] << ',' << run.pressure[k] << ",loading\n";
+  for (std::size_t k = run.release_pressure.size(); k-- > 0;)
+    curve << run.release_displacement[k] << ',' << run.release_pressure[k] << ",unloading\n";
+  curve.close();
+  const ExperimentData data = data_of(e, with, {});
+  int released = 0;
+  for (std::size_t k = 0; k < data.experiment.of.size(); ++k)
+    if (data.experiment.of[k].stage == "relaxation" &&
+        data.experiment.of[k].name != "total porosity") {
+      ++released;
+      const auto at = Eigen::Index(k);
+      EXPECT_NEAR(data.experiment.values[at], data.bank.runs[0].values[at],
+                  1e-5); // the file's digits
+    }
+  EXPECT_EQ(released, 3);
+  EXPECT_FALSE(told(data, "unloading curve"));
+  const ExperimentData without = data_of(e, bank, {});
+  EXPECT_EQ(without.experiment.of.size(), data.experiment.of.size() - 3);
+  EXPECT_TRUE(told(without, "p30: the bank's table has no displacements on release"));
 }
 
 TEST(ExperimentData, OnlyTheConditionsThatAreWanted) {

@@ -44,6 +44,19 @@ TEST(Further, EveryConditionThatLacksAKindIsInIt) {
   EXPECT_NEAR(thickness->covariance(0, 0), 1.0, 1e-12); // um
 }
 
+// Only a bank that has releases can foretell them: at 25, 50 and 75 % of each pressure.
+TEST(Further, ReleasesThatTheBankHasCanBeMeasured) {
+  const std::string what = "displacement while the pressure falls: p30, p60";
+  const BankTable bank = made_bank(), with = with_release(made_bank());
+  EXPECT_FALSE(named(data_of(made_experiment(kTruth), bank, {}), what));
+  const ExperimentData data = data_of(made_experiment(kTruth), with, {});
+  const auto *release = named(data, what);
+  ASSERT_TRUE(release);
+  ASSERT_EQ(release->of.size(), 6u);
+  EXPECT_EQ(release->of[0].stage, "relaxation");
+  EXPECT_NEAR(release->covariance(0, 0), 0.5 * 0.5, 1e-12); // um
+}
+
 // The pressure of the others is known within 10 %, so its own is.
 TEST(Further, OtherPressuresOfTheBankAreAsUncertainAsThoseMeasured) {
   Experiment e = made_experiment(kTruth);

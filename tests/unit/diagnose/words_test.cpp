@@ -85,8 +85,8 @@ TEST(Tell, AmplitudesBecomeValuesOfTheKeyWithTheSmallerEndFirst) {
   gap["confounding"]["detection_limit"] =
       Json::array({{{"effect", "nmc_plasticity"}, {"amplitude", nullptr}, {"rival", "none"}},
                    {{"effect", "friction"}, {"amplitude", 0.199}, {"rival", "none"}}});
-  BankSpec bank;
-  bank.prices[4].hours = 9.0;
+  BankTable bank;
+  bank.spec.prices[4].hours = 9.0; // the unloading curve, which this bank lacks
   tell({}, bank, gap);
   const Json &fitted = gap["fitted_effects"][0];
   EXPECT_EQ(fitted["keys"][0], "effects.nmc_plasticity.yield_pressure_GPa");

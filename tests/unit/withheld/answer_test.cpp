@@ -75,7 +75,7 @@ protected:
     fs::copy(round_ + "/handed_out", given_, fs::copy_options::recursive);
   }
 
-  static ShownRun shown_of(const Truth &t, double target) {
+  static SimulatedRun shown_of(const Truth &t, double target) {
     double friction = 0.0;
     for (const auto &[name, value] : t.effects)
       friction += name == "friction" ? value : 0.0;
@@ -83,7 +83,9 @@ protected:
     for (const auto &[name, value] : t.effects)
       if (find_effect(name).instrument)
         run = shown_with(find_effect(name), value, run);
-    return {run, run.pressure, run.displacement};
+    run.release_pressure = run.pressure;
+    run.release_displacement = run.displacement;
+    return run;
   }
 
   void write_table(const BankSpec &spec) const {

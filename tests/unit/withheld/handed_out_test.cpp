@@ -126,14 +126,14 @@ TEST(Truths, MistakesOfARoundAreTold) {
 PressedSamples pressed(double target) {
   PressedSamples all;
   for (const double off : {-0.06, 0.02, 0.04}) {
-    ShownRun s;
-    s.run.thickness_at_max = 14.0;
-    s.run.thickness_after = 16.0;
-    s.run.porosity_after = 0.43 + 0.5 * off;
-    s.run.cracked_fraction = 0.5;
+    SimulatedRun s;
+    s.thickness_at_max = 14.0;
+    s.thickness_after = 16.0;
+    s.porosity_after = 0.43 + 0.5 * off;
+    s.cracked_fraction = 0.5;
     for (double p = 0.0; p <= 1.2 * target; p += 0.1) {
-      s.run.pressure.push_back(p);
-      s.run.displacement.push_back(3.0 * p / target + off);
+      s.pressure.push_back(p);
+      s.displacement.push_back(3.0 * p / target + off);
       s.release_pressure.push_back(p);
       s.release_displacement.push_back(2.0 + p / target + off);
     }

@@ -3,6 +3,7 @@
 #include "physics/press_instruments.h"
 #include "spec/csv_table.h"
 #include "spec/messages.h"
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <fstream>
@@ -13,6 +14,9 @@ namespace calendem {
 namespace {
 
 constexpr double kGrid[] = {1, 2, 4, 6, 8, 12, 16, 20, 30, 40, 50, 60, 75, 90, 110, 130, 150, 180};
+
+// Shares of the largest pressure at which the release is kept.
+constexpr double kReleased[] = {0.1, 0.25, 0.5, 0.75, 0.9};
 
 constexpr int kMostCounted = 10000; // base points that a bank may have
 
@@ -34,6 +38,10 @@ constexpr Number kNumbers[] = {{"target_MPa", &SimulatedRun::target},
 std::string cell(double v) { return std::isfinite(v) ? fmt::format("{:.8g}", v) : ""; }
 std::string grid_column(double pressure) {
   return fmt::format("displacement_um_at_{:g}_MPa", pressure);
+}
+
+std::string release_column(double share) {
+  return fmt::format("displacement_um_released_to_{:g}_percent", 100.0 * share);
 }
 
 /// Columns that hold a number in every row.
@@ -65,6 +73,11 @@ BankRow row_at(const BankSpec &spec, const Columns &t, std::size_t k, const std:
     if (const double d = number(grid_column(p)); std::isfinite(d)) {
       row.run.pressure.push_back(p);
       row.run.displacement.push_back(d);
+    }
+  for (const double share : kReleased)
+    if (const double d = number(release_column(share)); std::isfinite(d)) {
+      row.run.release_pressure.push_back(share * row.run.target);
+      row.run.release_displacement.push_back(d);
     }
   return row;
 }
@@ -104,6 +117,8 @@ std::string write_bank_table(const BankTable &table) {
     out += std::string(",") + n.column;
   for (const double p : kGrid)
     out += "," + grid_column(p);
+  for (const double share : kReleased)
+    out += "," + release_column(share);
   out += "\n";
   for (const BankRow &row : table.rows) {
     out += fmt::format("{},{},{}", row.point.effect, row.point.base_point, row.point.packing);
@@ -115,6 +130,9 @@ std::string write_bank_table(const BankTable &table) {
       out += "," + cell(row.run.*(n.field));
     for (const double p : kGrid)
       out += "," + cell(displacement_at(row.run.pressure, row.run.displacement, p));
+    for (const double share : kReleased)
+      out += "," + cell(displacement_at(row.run.release_pressure, row.run.release_displacement,
+                                        share * row.run.target));
     out += "\n";
   }
   return out;
@@ -144,6 +162,10 @@ BankTable read_bank_table(const BankSpec &spec, const std::string &file) {
   Columns numbers;
   for (const std::string &column : wanted)
     numbers[column] = t.numbers(column);
+  for (const double share : kReleased)
+    numbers[release_column(share)] = t.has(release_column(share))
+                                         ? t.numbers(release_column(share))
+                                         : std::vector<double>(t.rows(), std::nan(""));
   const std::vector<std::string> effect = t.texts("effect");
   for (std::size_t k = 0; k < t.rows(); ++k)
     check_row(numbers, k, effect[k], due, mistakes);
@@ -152,6 +174,11 @@ BankTable read_bank_table(const BankSpec &spec, const std::string &file) {
   for (std::size_t k = 0; k < t.rows(); ++k)
     out.rows.push_back(row_at(spec, numbers, k, effect[k]));
   return out;
+}
+
+bool has_release(const BankTable &table) {
+  return std::any_of(table.rows.begin(), table.rows.end(),
+                     [](const BankRow &row) { return !row.run.release_pressure.empty(); });
 }
 
 SimulatedRun shown_with(const Effect &effect, double value, const SimulatedRun &run) {
@@ -166,6 +193,9 @@ SimulatedRun shown_with(const Effect &effect, double value, const SimulatedRun &
   out.porosity_after = 1.0 - run.solid_column / out.thickness_after;
   for (std::size_t k = 0; k < run.pressure.size(); ++k)
     out.displacement[k] = press.displacement_shown(run.displacement[k], run.pressure[k]);
+  for (std::size_t k = 0; k < run.release_pressure.size(); ++k)
+    out.release_displacement[k] =
+        press.displacement_shown(run.release_displacement[k], run.release_pressure[k]);
   return out;
 }
 
@@ -174,6 +204,13 @@ SimulatedRun between_runs(const SimulatedRun &lower, const SimulatedRun &upper, 
   SimulatedRun out = upper;
   for (const Number &n : kNumbers)
     out.*(n.field) = lower.*(n.field) + share * (upper.*(n.field) - lower.*(n.field));
+  for (std::size_t k = 0; k < upper.release_pressure.size(); ++k) {
+    const double of_largest = upper.release_pressure[k] / upper.target;
+    const double below = displacement_at(lower.release_pressure, lower.release_displacement,
+                                         of_largest * lower.target);
+    out.release_pressure[k] = of_largest * pressure;
+    out.release_displacement[k] = below + share * (upper.release_displacement[k] - below);
+  }
   return out;
 }
 

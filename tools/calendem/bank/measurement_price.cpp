@@ -9,7 +9,7 @@ const std::vector<MeasurementPrice> &usual_prices() {
       {"thickness_at_max", "thickness under the largest pressure", 2.0, 1.0, "um"},
       {"cracked_bodies", "share of cracked particles in a cross-section", 8.0, 0.05, "fraction"},
       {"loading_curve", "displacement while the pressure rises", 1.0, 0.5, "um"},
-      {"unloading_curve", "displacement while the pressure falls", 1.0, 0.0, ""},
+      {kUnloadingCurve, "displacement while the pressure falls", 1.0, 0.5, "um"},
       {"dwell", "decay of pressure at constant gap", 2.0, 0.0, ""},
       {"second_speed", "the same pressures at a tenth of the speed", 3.0, 0.0, ""},
       {"thickness_series", "coatings of several loadings at one pressure", 6.0, 0.0, ""},

@@ -16,6 +16,8 @@ struct MeasurementPrice {
   std::string unit;   ///< empty: the bank's table has no such result, so nothing is foretold
 };
 
+constexpr const char *kUnloadingCurve = "unloading_curve"; ///< a bank may lack it
+
 /// Hours and deviations are estimates of this project, from no source; a bank's file changes them.
 const std::vector<MeasurementPrice> &usual_prices();
 

@@ -24,6 +24,8 @@ struct SimulatedRun {
   double solid_column = 0.0;                  ///< solid volume per area [um]
   double cracked_fraction = 0.0;              ///< of the bodies
   std::vector<double> pressure, displacement; ///< of the compression, highest pressure so far
+  /// Of the release, by rising pressure: the lowest so far.
+  std::vector<double> release_pressure, release_displacement;
   double porosity_slope = 0.0; ///< d porosity / d pressure under load near the maximum [1/MPa]
   std::string imposed;         ///< what was imposed on the run, not predicted; empty: nothing
   std::map<std::string, std::string> recipe; ///< of its electrode

@@ -11,7 +11,9 @@ namespace calendem {
 namespace {
 
 constexpr double kSameTarget = 0.02;
-constexpr double kCurveShares[] = {0.1, 0.25, 0.5, 0.75}; // of the maximum pressure
+// Of the maximum pressure; the release is compared at the same, less the first: there the film
+// parts from the platen, and how it does is the press's affair too.
+constexpr double kCurveShares[] = {0.1, 0.25, 0.5, 0.75};
 
 double none(const SimulatedRun &) { return 0.0; }
 
@@ -112,20 +114,34 @@ void under_load(const Experiment &e, const Condition &c, std::vector<Observable>
                    [](const SimulatedRun &r) { return r.cracked_fraction; }, none});
 }
 
-/// Loading of the curve file up to the highest pressure so far.
-void read_curve(const std::string &file, std::vector<double> &pressure,
-                std::vector<double> &displacement) {
+struct MeasuredBranch {
+  std::vector<double> pressure, displacement; ///< by rising pressure
+  void add(double p, double d) {
+    if (!pressure.empty() && p <= pressure.back())
+      return;
+    pressure.push_back(p);
+    displacement.push_back(d);
+  }
+};
+
+struct MeasuredCurve {
+  MeasuredBranch loading, release; ///< up to the highest, down to the lowest pressure so far
+};
+
+MeasuredCurve read_curve(const std::string &file) {
   std::ifstream in(file);
   const auto table =
       CsvTable::parse({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
   const auto d = table.numbers("displacement_um"), p = table.numbers("pressure_MPa");
   const auto stage = table.texts("stage");
+  MeasuredCurve out;
   for (std::size_t k = 0; k < p.size(); ++k)
-    if ((stage.empty() || stage[k] == "loading" || stage[k] == "compression") &&
-        (pressure.empty() || p[k] > pressure.back())) {
-      pressure.push_back(p[k]);
-      displacement.push_back(d[k]);
-    }
+    if (stage.empty() || stage[k] == "loading" || stage[k] == "compression")
+      out.loading.add(p[k], d[k]);
+  for (std::size_t k = stage.size(); k-- > 0;)
+    if (stage[k] == "unloading" || stage[k] == "relaxation")
+      out.release.add(p[k], d[k]);
+  return out;
 }
 
 /// Displacement at shares of the curve's largest pressure, over the solid thickness where the
@@ -134,27 +150,30 @@ void along_curve(const Experiment &e, const Condition &c, std::vector<Observable
                  std::vector<std::string> &not_said) {
   if (c.curve.empty())
     return;
-  std::vector<double> pressure, displacement;
-  read_curve(c.curve, pressure, displacement);
+  const MeasuredCurve curve = read_curve(c.curve);
   const std::optional<Measured> loading = loading_of(e, c);
   const double solid = loading ? solid_thickness_um(e, loading->value) : 1.0;
   if (!loading)
     not_said.push_back(without_loading(c, "displacements are"));
-  for (Observable &o : points_of_curve(e, c, pressure.back())) {
-    o.measured = displacement_at(pressure, displacement, o.pressure) / solid;
-    o.sd = c.curve_sd_um / solid;
-    o.by_loading = loading ? -o.measured * loading->sd / loading->value : 0.0;
-    out.push_back(o);
-  }
+  const double largest = curve.loading.pressure.back();
+  const auto add = [&](const MeasuredBranch &measured, Branch branch) {
+    for (Observable &o : points_of_curve(e, c, largest, branch)) {
+      o.measured = displacement_at(measured.pressure, measured.displacement, o.pressure) / solid;
+      o.sd = c.curve_sd_um / solid;
+      o.by_loading = loading ? -o.measured * loading->sd / loading->value : 0.0;
+      if (branch == Branch::Loading || std::isfinite(o.measured))
+        out.push_back(o);
+    }
+  };
+  add(curve.loading, Branch::Loading);
+  add(curve.release, Branch::Release);
 }
 
 /// As stated, else the largest of the curve [um].
 double displacement_of(const Condition &c) {
   if (c.displacement_um)
     return c.displacement_um->value;
-  std::vector<double> pressure, displacement;
-  read_curve(c.curve, pressure, displacement);
-  return displacement.back();
+  return read_curve(c.curve).loading.displacement.back();
 }
 
 bool near(double a, double b) { return std::fabs(a - b) <= kSameTarget * std::fabs(b); }
@@ -171,27 +190,39 @@ std::optional<Measured> loading_of(const Experiment &e, const Condition &c) {
   return c.loading_mg_cm2;
 }
 
-std::vector<Observable> points_of_curve(const Experiment &e, const Condition &c, double largest) {
+std::vector<Observable> points_of_curve(const Experiment &e, const Condition &c, double largest,
+                                        Branch branch) {
   const std::optional<Measured> loading = loading_of(e, c);
-  const bool over_solid = loading.has_value();
-  const auto of_run = [over_solid](const SimulatedRun &r, double p) {
-    return displacement_at(r.pressure, r.displacement, p) / (over_solid ? r.solid_column : 1.0);
+  const bool over_solid = loading.has_value(), released = branch == Branch::Release;
+  const auto of_run = [over_solid, released](const SimulatedRun &r, double p) {
+    return (released ? displacement_at(r.release_pressure, r.release_displacement, p)
+                     : displacement_at(r.pressure, r.displacement, p)) /
+           (over_solid ? r.solid_column : 1.0);
+  };
+  // The whole release moves with the thickness at the maximum.
+  const auto of_release = [over_solid](const SimulatedRun &r) {
+    return -r.porosity_slope * r.thickness_at_max / (1.0 - r.porosity_at_max) /
+           (over_solid ? r.solid_column : 1.0);
   };
   // a calibration error is a share of each pressure, not of the largest
   const double sd = c.max_pressure_MPa ? c.max_pressure_MPa->sd : 0.0;
   const double relative = sd > 0.0 ? sd / c.max_pressure_MPa->value : 0.0;
   std::vector<Observable> out;
   for (const double share : kCurveShares) {
+    if (released && share == kCurveShares[0])
+      continue;
     const double at = share * largest;
     Observable o;
     o.curve = over_solid ? "displacement over solid thickness" : "displacement";
     o.coordinate = share;
     o.pressure = at;
-    o.name = fmt::format("{} at {:.0f} MPa", o.curve, at);
-    o.stage = "compression";
+    o.name = fmt::format("{} at {:.0f} MPa{}", o.curve, at, released ? " on release" : "");
+    o.stage = released ? "relaxation" : "compression";
     o.unit = over_solid ? "" : "um";
     o.simulated = [of_run, at](const SimulatedRun &r) { return of_run(r, at); };
-    o.slope = [of_run, at, relative, sd](const SimulatedRun &r) {
+    o.slope = [of_run, of_release, released, at, relative, sd](const SimulatedRun &r) {
+      if (released)
+        return of_release(r);
       return relative > 0.0 ? (of_run(r, 1.05 * at) - of_run(r, 0.95 * at)) / 0.1 * relative / sd
                             : 0.0;
     };

@@ -36,9 +36,11 @@ bool by_pressure(const Condition &condition);
 /// Of the sample [mg/cm2], by its mass if that is given.
 std::optional<Measured> loading_of(const Experiment &experiment, const Condition &condition);
 
-/// The points at which a curve of loading to `largest` MPa is compared, without measured values.
+enum class Branch { Loading, Release };
+
+/// The points at which a branch of a curve to `largest` MPa is compared, without measured values.
 std::vector<Observable> points_of_curve(const Experiment &experiment, const Condition &condition,
-                                        double largest);
+                                        double largest, Branch branch);
 
 /// True if the run's platen did what the condition says, within 2 %.
 bool belongs(const SimulatedRun &run, const Condition &condition);

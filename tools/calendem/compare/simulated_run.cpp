@@ -60,6 +60,11 @@ void read_curve(const std::string &file, SimulatedRun &run, Mistakes &mistakes) 
       continue;
     sp += p[k], sq += porosity[k], spp += p[k] * p[k], spq += p[k] * porosity[k], n += 1.0;
   }
+  for (std::size_t k = stage.size(); k-- > 0 && stage[k] == "relaxation";)
+    if (run.release_pressure.empty() || p[k] > run.release_pressure.back()) {
+      run.release_pressure.push_back(p[k]);
+      run.release_displacement.push_back(d[k]);
+    }
   const double spread = n * spp - sp * sp;
   run.porosity_slope = spread > 0.0 ? (n * spq - sp * sq) / spread : 0.0;
 }

@@ -110,10 +110,10 @@ void add_thickness(Kind &kind, const Experiment &e, Condition c) {
   kind.add(c);
 }
 
-void add_curve(Kind &kind, const Experiment &e, const Condition &c) {
+void add_curve(Kind &kind, const Experiment &e, const Condition &c, Branch branch) {
   const auto loading = loading_of(e, c);
   const double solid = loading ? solid_thickness_um(e, loading->value) : 1.0;
-  std::vector<Observable> points = points_of_curve(e, c, c.max_pressure_MPa->value);
+  std::vector<Observable> points = points_of_curve(e, c, c.max_pressure_MPa->value, branch);
   for (Observable &o : points) {
     o.sd = kind.sd() / solid;
     o.by_loading =
@@ -121,6 +121,8 @@ void add_curve(Kind &kind, const Experiment &e, const Condition &c) {
   }
   kind.add(c, points);
 }
+
+bool of_release(const Observable &o) { return !o.curve.empty() && o.stage == "relaxation"; }
 
 /// A condition at a pressure of the bank, read as well as those of the experiment.
 Condition at_pressure(double pressure, const std::vector<Covered> &covered) {
@@ -166,7 +168,14 @@ std::vector<Covered> covered_by(const Experiment &e, const BankTable &table,
                                      "frames. calendem compare sets them beside runs.",
                                      c.id));
     const Condition known = with_loading(e, c, table, not_said);
-    out.push_back({known, p, observables_of(e, known, not_said)});
+    std::vector<Observable> seen = observables_of(e, known, not_said);
+    if (!has_release(table) && std::any_of(seen.begin(), seen.end(), of_release)) {
+      seen.erase(std::remove_if(seen.begin(), seen.end(), of_release), seen.end());
+      not_said.push_back(fmt::format("{}: the bank's table has no displacements on release; the "
+                                     "unloading curve is left out.",
+                                     c.id));
+    }
+    out.push_back({known, p, seen});
   }
   return out;
 }
@@ -174,7 +183,8 @@ std::vector<Covered> covered_by(const Experiment &e, const BankTable &table,
 std::vector<Further> further_measurements(const Experiment &e, const BankTable &table,
                                           const std::vector<Covered> &covered) {
   Kind porosity(e, table, "porosity_after"), thickness(e, table, "thickness_at_max"),
-      cracked(e, table, "cracked_bodies"), curve(e, table, "loading_curve");
+      cracked(e, table, "cracked_bodies"), curve(e, table, "loading_curve"),
+      release(e, table, kUnloadingCurve);
   for (const Covered &c : covered) {
     const Condition without = bare(c.condition);
     if (!c.condition.porosity_after_percent && !c.condition.thickness_after_um)
@@ -188,10 +198,12 @@ std::vector<Further> further_measurements(const Experiment &e, const BankTable &
       cracked.add(counted);
     }
     if (c.condition.curve.empty())
-      add_curve(curve, e, without);
+      add_curve(curve, e, without, Branch::Loading);
+    if (has_release(table) && std::none_of(c.observables.begin(), c.observables.end(), of_release))
+      add_curve(release, e, without, Branch::Release);
   }
   std::vector<Further> list;
-  for (const Kind *kind : {&porosity, &thickness, &cracked, &curve})
+  for (const Kind *kind : {&porosity, &thickness, &cracked, &curve, &release})
     kind->finish(list);
   for (const double p : table.spec.pressures) {
     Kind other(e, table, "porosity_after");

@@ -70,7 +70,7 @@ Diagnosed diagnosed(const Experiment &experiment, const BankTable &table, double
       inference::diagnose(*out.model, out.data.bank, out.data.experiment.values, settings);
   out.gap = nlohmann::ordered_json::parse(inference::to_json(out.diagnosis));
   out.gap["experiment"] = experiment.name;
-  tell(out.data, table.spec, out.gap);
+  tell(out.data, table, out.gap);
   out.gap["not_said"] = out.data.not_said;
   out.gap["provenance"] = {{"calendem", version()}, {"hashes", "64-bit FNV-1a"}};
   return out;

@@ -45,10 +45,10 @@ void tell_amplitudes(Json &gap) {
     }
 }
 
-void tell_prices(const BankSpec &bank, Json &gap) {
+void tell_prices(const BankTable &bank, Json &gap) {
   Json rows = Json::array();
-  for (const MeasurementPrice &price : bank.prices)
-    if (price.unit.empty())
+  for (const MeasurementPrice &price : bank.spec.prices)
+    if (price.unit.empty() || (price.name == kUnloadingCurve && !has_release(bank)))
       rows.push_back({{"what", price.what}, {"cost", price.hours}});
   gap["which"]["not_in_bank"] = rows;
   gap["which"]["cost_unit"] = "working hours";
@@ -56,7 +56,7 @@ void tell_prices(const BankSpec &bank, Json &gap) {
 
 } // namespace
 
-void tell(const ExperimentData &data, const BankSpec &bank, Json &gap) {
+void tell(const ExperimentData &data, const BankTable &bank, Json &gap) {
   tell_units(data, gap);
   tell_amplitudes(gap);
   tell_prices(bank, gap);

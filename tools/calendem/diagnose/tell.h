@@ -11,7 +11,7 @@ namespace calendem {
 /// Adds to gap.json: "unit" to the rows of "where"; "name", "unit", "pressure_MPa" to those of
 /// "predictions"; to amplitudes the effect's "key" and its "value" in the key's unit; which
 /// measurements the bank cannot foretell; and "said", the claim in words.
-void tell(const ExperimentData &data, const BankSpec &bank, nlohmann::ordered_json &gap);
+void tell(const ExperimentData &data, const BankTable &bank, nlohmann::ordered_json &gap);
 
 /// {"headline", "meaning", "next": [""]} for a gap.json: what the claim means, what to do next.
 nlohmann::ordered_json claim_in_words(const nlohmann::ordered_json &gap);

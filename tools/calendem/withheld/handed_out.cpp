@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/handed_out.h"
 #include "pack/random.h"
-#include "spec/csv_table.h"
 #include "spec/messages.h"
 #include "spec/pi.h"
 #include "spec/provenance.h"
@@ -21,7 +20,7 @@ constexpr std::uint64_t kPurpose = 0x401;
 /// Mean over the samples; NaN where one of them does not have it.
 template <class Of> double mean(const PressedSamples &samples, const Of &of) {
   double sum = 0.0;
-  for (const ShownRun &s : samples)
+  for (const SimulatedRun &s : samples)
     sum += of(s);
   return sum / double(samples.size());
 }
@@ -42,13 +41,13 @@ public:
     std::string out = "displacement_um,pressure_MPa,stage\n";
     for (int k = 1; k <= kRows; ++k)
       add(target * k / kRows, "compression", out, [&](double p) {
-        return mean(samples, [&](const ShownRun &s) {
-          return displacement_at(s.run.pressure, s.run.displacement, p);
+        return mean(samples, [&](const SimulatedRun &s) {
+          return displacement_at(s.pressure, s.displacement, p);
         });
       });
     for (int k = kRows - 1; k > 0; --k)
       add(target * k / kRows, "relaxation", out, [&](double p) {
-        return mean(samples, [&](const ShownRun &s) {
+        return mean(samples, [&](const SimulatedRun &s) {
           return displacement_at(s.release_pressure, s.release_displacement, p);
         });
       });
@@ -73,7 +72,7 @@ std::string condition(const Round &round, const PressedSamples &samples, double 
                       const std::string &curve, Press &press) {
   const MeasurementNoise &n = round.noise;
   const auto shown = [&](double SimulatedRun::*what) {
-    return mean(samples, [&](const ShownRun &s) { return s.run.*what; });
+    return mean(samples, [&](const SimulatedRun &s) { return s.*what; });
   };
   const double cracked =
       press.with_noise(shown(&SimulatedRun::cracked_fraction), n.cracked_fraction);
@@ -106,19 +105,6 @@ double area_of(const Round &round, const Truth &truth) {
 }
 
 } // namespace
-
-ShownRun read_shown_run(const std::string &folder) {
-  ShownRun out{read_simulated_run(folder), {}, {}};
-  const CsvTable table = CsvTable::parse(bytes_of(folder + "/curve.csv"));
-  const auto stage = table.texts("stage");
-  const auto d = table.numbers("displacement_shown_um"), p = table.numbers("pressure_shown_MPa");
-  for (std::size_t k = stage.size(); k-- > 0 && stage[k] == "relaxation";)
-    if (out.release_pressure.empty() || p[k] > out.release_pressure.back()) {
-      out.release_pressure.push_back(p[k]);
-      out.release_displacement.push_back(d[k]);
-    }
-  return out;
-}
 
 void hand_out(const std::string &folder, const std::string &id, const Round &round,
               const Truth &truth, const std::vector<PressedSamples> &shown, std::uint64_t seed) {

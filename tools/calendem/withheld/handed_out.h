@@ -9,17 +9,8 @@
 
 namespace calendem {
 
-/// What a press shows of a run, free of noise. Pressures MPa, lengths um, fractions 0-1.
-struct ShownRun {
-  SimulatedRun run; ///< with the compression's curve
-  std::vector<double> release_pressure, release_displacement;
-};
-
 /// What the press shows at one pressure: a run for each sample. What is handed out is their mean.
-using PressedSamples = std::vector<ShownRun>;
-
-/// Throws Failure(2) if files of the run are missing or damaged.
-ShownRun read_shown_run(const std::string &folder);
+using PressedSamples = std::vector<SimulatedRun>;
 
 /// Writes experiment.toml, a curve for each pressure and the recipe into `folder`, which is made.
 /// `shown`: of one truth, by the bank's pressures. `seed`: of the noise. `id`: the case's name.

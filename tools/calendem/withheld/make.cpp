@@ -59,7 +59,7 @@ std::vector<std::vector<PressedSamples>> shown_runs(const std::vector<std::strin
       continue;
     out[t].resize(pressures);
     for (std::size_t k = 0; k < runs; ++k)
-      out[t][k % pressures].push_back(read_shown_run(first[std::ptrdiff_t(k)]));
+      out[t][k % pressures].push_back(read_simulated_run(first[std::ptrdiff_t(k)]));
   }
   return out;
 }
