@@ -98,7 +98,7 @@ void add_withheld_verb(CLI::App &app) {
   verb->require_subcommand(1);
   verb->footer("make and score are for whoever keeps the truths, answer for whoever does not;\n"
                "rehearse needs neither, it asks a bank about itself.\n"
-               "A round says what is drawn: see input_scripts/cases/withheld/round_1.toml.");
+               "A round says what is drawn: see input_scripts/cases/withheld/round_2.toml.");
   add_make(*verb);
   add_answer(*verb);
   add_score(*verb);
