@@ -175,19 +175,23 @@ TEST(Observables, ThicknessOverSolidThicknessOfTable1) {
   }
 }
 
-TEST(Observables, CurveIsComparedAtSharesOfItsLargestPressure) {
-  const std::string file = testing::TempDir() + "calendem_compare_curve.csv";
-  std::ofstream(file) << "displacement_um,pressure_MPa\n0,0\n10,50\n15,40\n20,100\n";
+/// The observables of a condition to 150 MPa that has nothing but this curve.
+std::vector<Observable> of_curve(const std::string &rows) {
+  const auto file = calendem_test::test_folder() / "curve.csv";
+  std::ofstream(file) << rows;
   Experiment e = paper();
   Condition &c = e.conditions[1];
   c.porosity_after_percent.reset();
   c.mass_mg.reset();
   c.thickness_after_um.reset();
-  c.curve = file;
+  c.curve = file.string();
   c.curve_sd_um = 0.02;
   std::vector<std::string> not_said;
-  const auto all = observables_of(e, c, not_said);
-  std::filesystem::remove(file);
+  return observables_of(e, c, not_said);
+}
+
+TEST(Observables, CurveIsComparedAtSharesOfItsLargestPressure) {
+  const auto all = of_curve("displacement_um,pressure_MPa\n0,0\n10,50\n15,40\n20,100\n");
   ASSERT_EQ(all.size(), 4u);
   EXPECT_EQ(all[3].name, "displacement at 75 MPa");
   EXPECT_NEAR(all[3].measured, 15.0,
@@ -213,19 +217,9 @@ TEST(Observables, ThicknessAfterCountsInMicrometresWhereTheLoadingIsNotKnown) {
 // Loading to 100 MPa; the release dips at 70 MPa, which is skipped, and ends above the lowest
 // share.
 TEST(Observables, ReleaseIsComparedAtSharesOfTheLargestPressure) {
-  const auto file = calendem_test::test_folder() / "curve.csv";
-  std::ofstream(file)
-      << "displacement_um,pressure_MPa,stage\n0,0,compression\n20,100,compression\n"
-         "20,100,relaxation\n18,60,relaxation\n17.9,70,relaxation\n16,40,relaxation\n";
-  Experiment e = paper();
-  Condition &c = e.conditions[1];
-  c.porosity_after_percent.reset();
-  c.mass_mg.reset();
-  c.thickness_after_um.reset();
-  c.curve = file.string();
-  c.curve_sd_um = 0.02;
-  std::vector<std::string> not_said;
-  const auto all = observables_of(e, c, not_said);
+  const auto all =
+      of_curve("displacement_um,pressure_MPa,stage\n0,0,compression\n20,100,compression\n"
+               "20,100,relaxation\n18,60,relaxation\n17.9,70,relaxation\n16,40,relaxation\n");
   ASSERT_EQ(all.size(), 6u); // four of loading
   const Observable &half = all[4], &upper = all[5];
   EXPECT_EQ(half.name, "displacement at 50 MPa on release");
@@ -243,18 +237,8 @@ TEST(Observables, ReleaseIsComparedAtSharesOfTheLargestPressure) {
 }
 
 TEST(Observables, UnloadingIsNoPartOfLoading) {
-  const std::string file = testing::TempDir() + "calendem_compare_stage.csv";
-  std::ofstream(file) << "displacement_um,pressure_MPa,stage\n0,0,loading\n20,100,loading\n"
-                         "19,101,unloading\n";
-  Experiment e = paper();
-  Condition &c = e.conditions[1];
-  c.porosity_after_percent.reset();
-  c.thickness_after_um.reset();
-  c.mass_mg.reset();
-  c.curve = file;
-  std::vector<std::string> not_said;
-  const auto all = observables_of(e, c, not_said);
-  std::filesystem::remove(file);
+  const auto all = of_curve("displacement_um,pressure_MPa,stage\n0,0,loading\n20,100,loading\n"
+                            "19,101,unloading\n");
   ASSERT_EQ(all.size(), 4u); // the release has no value below 101 MPa
   EXPECT_EQ(all[3].name, "displacement at 75 MPa");
 }
