@@ -106,8 +106,12 @@ DetectionLimit limit_of(const Problem &problem, int effect,
   std::vector<Signature> truths;
   for (int k = 1; k <= settings.amplitudes; ++k)
     truths.push_back(signatures.of({{effect, at_share(e, double(k) / settings.amplitudes, 1)}}));
+  std::vector<double> of_none(truths.size(), NAN); // both limits ask for them
   const auto from_none = [&](int k) {
-    return Hardest{signatures.odds_recalibrated(truths[k], grids[effect].front())};
+    double &odds = of_none[std::size_t(k)];
+    if (std::isnan(odds))
+      odds = signatures.odds_recalibrated(truths[k], grids[effect].front());
+    return Hardest{odds};
   };
   const std::vector<double> occam = occam_of(e, truths, signatures.off());
   const auto from_all = [&](int k) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // How well a bank can diagnose, without a simulation more: every packing is left out in turn, and
 // its runs, with a laboratory's noise, are samples of which the others know nothing. Or samples are
-// drawn from what the bank itself foretells: what could be told of such data at best.
+// drawn from what the bank itself foretells: what it could tell if all it says were true.
 #ifndef CALENDEM_WITHHELD_REHEARSAL_H
 #define CALENDEM_WITHHELD_REHEARSAL_H
 
@@ -43,8 +43,8 @@ std::vector<std::string> summary_of(const std::vector<Rehearsed> &cases);
 /// diagnosed twice: with all effects, and without itself. Throws Failure(2) for a bank without its
 /// table, or of fewer than three packings.
 /// Drawn samples have base parameters and amplitudes from their priors and errors as the model
-/// says: emulators, covariance and priors are right by construction. What is missed then, the data
-/// cannot tell; what is missed beyond it on left-out packings, the bank or the statistics miss.
+/// says: emulators, covariance and priors of the effects are right by construction, the shape of
+/// the unknown is not. What is missed beyond that on left-out packings, the bank misses.
 void rehearse(const RehearsalOptions &options);
 
 } // namespace calendem
