@@ -85,3 +85,34 @@ grep -q "6 runs, 6 of them there" again.log || fail "a second diagnosis made its
 cp far/gap.json before.json
 diagnose split.toml -o far --bank bank.toml --packings 2 >/dev/null
 cmp before.json far/gap.json || fail "the same runs gave another gap.json"
+
+# A label image of the held-out sample, here a frame of the base model's first packing, beside the models that are run
+# again: as calendem compare finds it, and off by as many deviations of image and mean.
+mapfile -t ids < <(awk -F, '$2 == "done" { print $3 }' far/rerun/study.csv)
+"$bin/calendem" run "far/rerun/runs/${ids[0]}.toml" -o framed --ranks 1 >/dev/null
+"$bin/calendem" measure framed -o images --without-tortuosity --voxel-um 0.3 --images >/dev/null
+sed 's/^id = "p50"/&\nlabels_after = "images\/after.mha"/; s/^electrode = .*/&\nlabels_cbd = -1/' split.toml >seen.toml
+diagnose seen.toml -o seen --bank bank.toml --packings 2 --jobs 2 >seen.log || { cat seen.log; fail "exit status $?"; }
+"$bin/calendem" compare seen.toml "seen/rerun/runs/${ids[0]}" "seen/rerun/runs/${ids[1]}" -o seen_gap >/dev/null
+of_compare() { # NAME FIELD
+  awk -v name="\"observable\": \"$1\"" -v field="\"$2\": " '/^  \{/ { value = found = "" } index($0, field) { value = $2 }
+    index($0, name) { found = 1 } /^  \}/ && found { sub(",", "", value); print value; exit }' seen_gap/gap.json
+}
+of_images() { # NAME: mean, off of the base model, measured, sd, sd of the mean
+  awk -v OFMT=%.12g -v name="\"name\": \"$1\"" '/^  "images"/ { inside = 1 } inside && index($0, name) { found = 1 }
+    found && /"measured"/ { measured = $2 + 0 } found && /^     "sd"/ { sd = $2 + 0 }
+    found && /"before"/ { before = 1 } before && /"mean"/ { mean = $2 + 0 } before && /^      "sd"/ { of_mean = $2 + 0 }
+    before && /"off"/ { print mean, $2 + 0, measured, sd, of_mean; exit }' seen/gap.json
+}
+for name in "macro porosity, image after" "AM, upper minus lower third, image after"; do
+  read -r mean off measured sd of_mean < <(of_images "$name") || fail "gap.json has no '$name' for the base model"
+  compared=$(of_compare "$name" simulated)
+  awk "BEGIN { d = $mean - ($compared); exit !(d < 1e-6 && d > -1e-6) }" || fail "$name: $mean, compare finds $compared"
+done
+awk "BEGIN { z = ($mean - ($measured)) / sqrt($sd ^ 2 + $of_mean ^ 2) - ($off); exit !(z < 1e-6 && z > -1e-6) }" ||
+  fail "off by $off: mean $mean, image $measured within $sd, packings $of_mean"
+grep -q "Label images of what was held out" seen/gap.html || fail "the page does not show the image"
+grep -q "^  p50 *macro porosity, image after, %" seen.log || fail "the terminal does not show the image"
+rm -r seen/rerun/runs/"${ids[1]}"/vtk
+diagnose seen.toml -o seen --bank bank.toml --packings 2 >seen.log || fail "exit status $?"
+grep -q "^- p50: the runs have no value for macro porosity, image after.*${ids[1]}" seen.log || fail "lost frames are not told"

@@ -120,4 +120,26 @@ TEST(ShrinkPart, WhatIsMissingIsLeftOut) {
   EXPECT_FALSE(part["bars"][0].contains("whisker"));
 }
 
+TEST(ShrinkPart, LabelImagesStandBesideTheModels) {
+  EXPECT_TRUE(shrink_part(made_shrink())["images"].is_null());
+  json gap = made_shrink();
+  gap["shrink"]["images"] = {{"rows",
+                              {{{"condition", "p80"},
+                                {"name", "macro porosity, image after"},
+                                {"unit", "%"},
+                                {"measured", 20.0},
+                                {"sd", 0.25},
+                                {"before", {{"mean", 22.0}, {"sd", 0.5}, {"off", 3.58}}},
+                                {"after", {{"mean", 20.5}, {"sd", 0.5}}}}}},
+                             {"without", {"p150: no frame"}}};
+  const json images = shrink_part(gap)["images"], row = images["rows"][0];
+  EXPECT_EQ(row["name"], "macro porosity, image after, %");
+  EXPECT_EQ(row["measured"], "20");
+  EXPECT_EQ(row["before"], "22");
+  EXPECT_EQ(row["before_off"], "+3.6");
+  EXPECT_EQ(row["after"], "20.5");
+  EXPECT_EQ(row["after_off"], "–"); // no deviation is known
+  EXPECT_EQ(images["without"][0], "p150: no frame");
+}
+
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/covered.h"
+#include "diagnose/images_beside.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -163,10 +164,13 @@ std::vector<Covered> covered_by(const Experiment &e, const BankTable &table,
       not_said.push_back(fmt::format("{}: the bank's runs do not dwell; its {:g} s at the target "
                                      "are left out.",
                                      c.id, c.dwell_s));
-    if (!c.labels_before.empty() || !c.labels_after.empty())
-      not_said.push_back(fmt::format("{}: label images are not looked at here: the bank keeps no "
-                                     "frames. calendem compare sets them beside runs.",
-                                     c.id));
+    if (has_images(c))
+      not_said.push_back(fmt::format(
+          "{}: label images have no part in which effect it is: the bank keeps no frames. {}", c.id,
+          std::find(e.test.begin(), e.test.end(), c.id) != e.test.end()
+              ? "They are set beside the models that are run again."
+              : "Those of a held-out condition are set beside the models that are run again; "
+                "calendem compare sets any beside runs."));
     const Condition known = with_loading(e, c, table, not_said);
     std::vector<Observable> seen = observables_of(e, known, not_said);
     if (!has_release(table) && std::any_of(seen.begin(), seen.end(), of_release)) {

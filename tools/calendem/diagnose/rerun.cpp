@@ -2,6 +2,7 @@
 // The chosen models run again, and how far they are from what was held out.
 #include "compare/observables.h"
 #include "diagnose/how_far.h"
+#include "diagnose/images_beside.h"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -21,7 +22,6 @@ Study study_of(const BankTable &table, const std::vector<RerunModel> &models,
   study.name = "how far";
   study.recipe_file = spec.recipe_file;
   study.case_file = spec.case_file;
-  study.keep_all = false;
   study.columns = {"recipe.seed"};
   for (const BankParameter &p : spec.parameters)
     study.columns.insert(study.columns.end(), p.keys.begin(), p.keys.end());
@@ -150,6 +150,22 @@ nlohmann::ordered_json in_short(const nlohmann::ordered_json &models, double flo
   return out;
 }
 
+std::vector<ModelRuns> by_model(const BankTable &runs, const std::vector<RerunModel> &models,
+                                int packings) {
+  std::vector<ModelRuns> out;
+  for (const RerunModel &m : models)
+    out.push_back({m.role, {}});
+  for (const BankRow &row : runs.rows)
+    out[std::size_t(row.point.base_point / packings)].runs.push_back(row.run);
+  return out;
+}
+
+bool held_out_images(const Experiment &e) {
+  return std::any_of(e.conditions.begin(), e.conditions.end(), [&](const Condition &c) {
+    return has_images(c) && std::find(e.test.begin(), e.test.end(), c.id) != e.test.end();
+  });
+}
+
 nlohmann::ordered_json curves(const Experiment &e, const BankTable &runs,
                               const std::vector<RerunModel> &models, int packings) {
   nlohmann::ordered_json out = nlohmann::ordered_json::array();
@@ -178,7 +194,8 @@ nlohmann::ordered_json rerun(const Experiment &experiment, const BankTable &tabl
   const std::vector<double> pressures = pressures_of(experiment);
   const double film = table.rows.front().run.solid_column /
                       solid_thickness_um(experiment, experiment.recipe.loading);
-  const Study study = study_of(table, models, pressures, options.packings, film);
+  Study study = study_of(table, models, pressures, options.packings, film);
+  study.keep_all = held_out_images(experiment);
   make_study(study, options.study);
   const BankTable runs =
       table_of(table, models, options.packings, finished_runs(study, options.study), pressures);
@@ -199,6 +216,8 @@ nlohmann::ordered_json rerun(const Experiment &experiment, const BankTable &tabl
        {"curves", curves(experiment, runs, models, options.packings)},
        {"said", "The effect was chosen on all conditions, its amplitude and the base parameters "
                 "on the training conditions only."}});
+  if (study.keep_all)
+    out["images"] = images_beside(experiment, by_model(runs, models, options.packings));
   return out;
 }
 

@@ -79,6 +79,31 @@ json observable_of(const json &o) {
           {"after_off", off("after")}};
 }
 
+json image_row(const json &row) {
+  const auto of = [&](const char *role, const char *key, const char *format) {
+    return row.contains(role) ? shown(row[role].value(key, json()), format) : "–";
+  };
+  return {{"condition", row["condition"]},
+          {"name",
+           fmt::format("{}, {}", row["name"].get<std::string>(), row["unit"].get<std::string>())},
+          {"measured", shown(row["measured"], "{:.4g}")},
+          {"sd", shown(row["sd"], "{:.2g}")},
+          {"before", of("before", "mean", "{:.4g}")},
+          {"after", of("after", "mean", "{:.4g}")},
+          {"before_off", of("before", "off", "{:+.1f}")},
+          {"after_off", of("after", "off", "{:+.1f}")}};
+}
+
+/// Null where no image was held out.
+json images_of(const json &shrink) {
+  if (!shrink.contains("images"))
+    return nullptr;
+  json rows = json::array();
+  for (const json &row : shrink["images"]["rows"])
+    rows.push_back(image_row(row));
+  return {{"rows", rows}, {"without", shrink["images"]["without"]}};
+}
+
 report::Series series_of(const json &curve) {
   using namespace report;
   const std::string role = curve["role"];
@@ -169,6 +194,7 @@ json shrink_part(const json &gap) {
                {"words", words_of(shrink)},
                {"observables", observables},
                {"has_observables", !observables.empty()},
+               {"images", images_of(shrink)},
                {"charts", charts}};
   for (const char *ids : {"train", "held_out"})
     part[ids] = fmt::format("{}", fmt::join(shrink.value(ids, std::vector<std::string>()), ", "));

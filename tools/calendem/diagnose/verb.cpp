@@ -53,6 +53,27 @@ std::string shown(const Estimate &e) {
   return fmt::format("{:.1f} ({:.1f} to {:.1f})", e.value, e.low90, e.high90);
 }
 
+void print_images(const nlohmann::ordered_json &shrink) {
+  if (!shrink.contains("images"))
+    return;
+  fmt::print("label images of what was held out beside these runs\n");
+  for (const auto &row : shrink["images"]["rows"]) {
+    fmt::print(
+        "  {:<8} {:<46} image {:>7.4g}", row["condition"].get<std::string>(),
+        fmt::format("{}, {}", row["name"].get<std::string>(), row["unit"].get<std::string>()),
+        row["measured"].get<double>());
+    for (const char *role : {"before", "after"})
+      if (row.contains(role))
+        fmt::print(", {} {:.4g}{}", role, row[role]["mean"].get<double>(),
+                   row[role].contains("off")
+                       ? fmt::format(" (z {:+.1f})", row[role]["off"].get<double>())
+                       : "");
+    fmt::print("\n");
+  }
+  for (const auto &text : shrink["images"]["without"])
+    fmt::print("- {}\n", text.get<std::string>());
+}
+
 /// The third part: adds "shrink" to gap.json once the models have run again.
 void how_far(Options &o, const Experiment &experiment, const BankTable &table, Diagnosed &d) {
   if (o.no_rerun)
@@ -73,6 +94,7 @@ void how_far(Options &o, const Experiment &experiment, const BankTable &table, D
   for (const auto &m : d.gap["shrink"]["models"])
     fmt::print("  {:<10} {:<32} {:.1f}\n", m["role"].get<std::string>(),
                m["hypothesis"].get<std::string>(), m["gap"]["value"].get<double>());
+  print_images(d.gap["shrink"]);
 }
 
 /// A bank says nothing of another electrode.
