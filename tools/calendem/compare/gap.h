@@ -36,6 +36,10 @@ struct SimulatedRun {
 /// Failure(2) with what is missing, cut, or not finished.
 SimulatedRun read_simulated_run(const std::string &folder);
 
+/// Adds a point to a branch of a curve if its pressure lies above all before; false: it does not.
+bool add_if_higher(std::vector<double> &pressures, std::vector<double> &displacements,
+                   double pressure, double displacement);
+
 /// Displacement at which `pressure` is first met, linear between points; NaN beyond the last.
 double displacement_at(const std::vector<double> &pressures,
                        const std::vector<double> &displacements, double pressure);

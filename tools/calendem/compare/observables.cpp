@@ -116,12 +116,7 @@ void under_load(const Experiment &e, const Condition &c, std::vector<Observable>
 
 struct MeasuredBranch {
   std::vector<double> pressure, displacement; ///< by rising pressure
-  void add(double p, double d) {
-    if (!pressure.empty() && p <= pressure.back())
-      return;
-    pressure.push_back(p);
-    displacement.push_back(d);
-  }
+  void add(double p, double d) { add_if_higher(pressure, displacement, p, d); }
 };
 
 struct MeasuredCurve {

@@ -52,19 +52,13 @@ void read_curve(const std::string &file, SimulatedRun &run, Mistakes &mistakes) 
              porosity = table.numbers("porosity_total");
   double sp = 0, sq = 0, spp = 0, spq = 0, n = 0;
   for (std::size_t k = 0; k < stage.size(); ++k) {
-    if (stage[k] != "compression" || (!run.pressure.empty() && p[k] <= run.pressure.back()))
-      continue;
-    run.pressure.push_back(p[k]);
-    run.displacement.push_back(d[k]);
-    if (p[k] < kSlopeFrom * run.max_pressure)
+    if (stage[k] != "compression" || !add_if_higher(run.pressure, run.displacement, p[k], d[k]) ||
+        p[k] < kSlopeFrom * run.max_pressure)
       continue;
     sp += p[k], sq += porosity[k], spp += p[k] * p[k], spq += p[k] * porosity[k], n += 1.0;
   }
   for (std::size_t k = stage.size(); k-- > 0 && stage[k] == "relaxation";)
-    if (run.release_pressure.empty() || p[k] > run.release_pressure.back()) {
-      run.release_pressure.push_back(p[k]);
-      run.release_displacement.push_back(d[k]);
-    }
+    add_if_higher(run.release_pressure, run.release_displacement, p[k], d[k]);
   const double spread = n * spp - sp * sp;
   run.porosity_slope = spread > 0.0 ? (n * spq - sp * sq) / spread : 0.0;
 }
@@ -90,6 +84,15 @@ void read_summary(const std::string &folder, SimulatedRun &run, Mistakes &mistak
 }
 
 } // namespace
+
+bool add_if_higher(std::vector<double> &pressures, std::vector<double> &displacements,
+                   double pressure, double displacement) {
+  if (!pressures.empty() && pressure <= pressures.back())
+    return false;
+  pressures.push_back(pressure);
+  displacements.push_back(displacement);
+  return true;
+}
 
 double displacement_at(const std::vector<double> &pressures,
                        const std::vector<double> &displacements, double pressure) {
