@@ -175,6 +175,21 @@ TEST(Observables, ThicknessOverSolidThicknessOfTable1) {
   }
 }
 
+// What the recipe says, against the sample: of another stage than the porosity that comes out.
+TEST(Observables, PorosityBeforeIsThatOfThePacking) {
+  Experiment e = paper();
+  e.conditions[1].porosity_before_percent = Measured{45.0, 0.5};
+  SimulatedRun run = pressed_to(150, 0.2997, "a");
+  run.porosity_initial = 0.48;
+  const Gap gap = find_gap(e, {run});
+  ASSERT_EQ(gap.rows.size(), 2u);
+  const Residual &before = gap.rows[0];
+  EXPECT_EQ(before.observable, "total porosity before");
+  EXPECT_EQ(before.stage, "before");
+  EXPECT_NEAR(before.z, 3.0 / 0.5, 1e-9);
+  EXPECT_EQ(before.sd_pressure, 0.0);
+}
+
 /// The observables of a condition to 150 MPa that has nothing but this curve.
 std::vector<Observable> of_curve(const std::string &rows) {
   const auto file = calendem_test::test_folder() / "curve.csv";

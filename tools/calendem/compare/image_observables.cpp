@@ -105,7 +105,7 @@ void compare_image(const Experiment &e, const std::string &file, bool after,
   const auto add = [&](const char *name, const Value &value, const auto &slope) {
     Observable o;
     o.name = name + where;
-    o.stage = after ? "relaxation" : "before";
+    o.stage = after ? "relaxation" : kBefore;
     o.unit = "%";
     o.measured = 100.0 * value(seen.of_volume);
     o.sd = 100.0 * sd_by_quarters(image, value);

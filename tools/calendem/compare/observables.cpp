@@ -58,6 +58,13 @@ void add_thickness(const Experiment &e, const Condition &c, const Measured &thic
   not_said.push_back(without_loading(c, "thickness is"));
 }
 
+void porosity_before(const Condition &c, std::vector<Observable> &out) {
+  if (c.porosity_before_percent)
+    out.push_back({"total porosity before", kBefore, "%", c.porosity_before_percent->value,
+                   c.porosity_before_percent->sd,
+                   [](const SimulatedRun &r) { return 100.0 * r.porosity_initial; }, none});
+}
+
 void porosity_after(const Experiment &e, const Condition &c, std::vector<Observable> &out,
                     std::vector<std::string> &not_said) {
   const std::optional<Measured> loading = loading_of(e, c);
@@ -229,6 +236,7 @@ std::vector<Observable> points_of_curve(const Experiment &e, const Condition &c,
 std::vector<Observable> observables_of(const Experiment &e, const Condition &c,
                                        std::vector<std::string> &not_said) {
   std::vector<Observable> out;
+  porosity_before(c, out);
   porosity_after(e, c, out, not_said);
   under_load(e, c, out, not_said);
   along_curve(e, c, out, not_said);

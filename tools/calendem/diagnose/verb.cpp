@@ -5,6 +5,7 @@
 #include "spec/output_folder.h"
 #include "spec/provenance.h"
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -97,10 +98,27 @@ void how_far(Options &o, const Experiment &experiment, const BankTable &table, D
   print_images(d.gap["shrink"]);
 }
 
+/// Samples that were not the recipe's before they were pressed: by more than 3 of their standard
+/// deviations and 2 %.
+std::vector<std::string> other_samples(const Experiment &e) {
+  std::vector<std::string> out;
+  const double recipe = 100.0 * e.recipe.porosity_total;
+  for (const Condition &c : e.conditions)
+    if (const auto &p = c.porosity_before_percent;
+        p && std::fabs(p->value - recipe) > std::max(3.0 * p->sd, 0.02 * recipe))
+      out.push_back(
+          fmt::format("{}: its porosity before calendering is {:g} ± {:g} %, the recipe's "
+                      "coating.porosity_total_percent is {:g}",
+                      c.id, p->value, p->sd, recipe));
+  return out;
+}
+
 /// A bank says nothing of another electrode.
 std::string of_another_electrode(const Options &o, const Experiment &e, const BankSpec &bank) {
-  const auto differs =
+  auto differs =
       other_electrode(read_recipe(bank.recipe_file).settings.all(), e.recipe.settings.all());
+  for (const std::string &sample : other_samples(e))
+    differs.push_back(sample);
   if (differs.empty())
     return "";
   const std::string text =

@@ -26,7 +26,8 @@ struct Condition {
   std::string id;
   std::string control; ///< pressure, displacement, thickness or roll_gap
   std::optional<Measured> roll_gap_um, displacement_um, thickness_at_max_um, max_pressure_MPa,
-      loading_mg_cm2, porosity_after_percent, thickness_after_um, mass_mg, cracked_bodies_fraction;
+      loading_mg_cm2, porosity_before_percent, porosity_after_percent, thickness_after_um, mass_mg,
+      cracked_bodies_fraction;
   std::string curve;                       ///< absolute path of a CSV file, empty if none
   double curve_sd_um = 0.0;                ///< of each displacement of the curve; 0: not given
   std::string labels_before, labels_after; ///< absolute paths of label images, or empty

@@ -47,6 +47,8 @@ const std::vector<Quantity> &quantities() {
        &Condition::max_pressure_MPa},
       {{"loading_mg_cm2", "", "-", 0.5, 100, "mg/cm2", "of this sample, without foil"},
        &Condition::loading_mg_cm2},
+      {{"porosity_before_percent", "", "-", 1, 90, "%", "total, of this sample, not pressed yet"},
+       &Condition::porosity_before_percent},
       {{"porosity_after_percent", "", "-", 1, 90, "%", "total, after calendering"},
        &Condition::porosity_after_percent},
       {{"thickness_after_um", "", "-", 1, 1000, "um", "after calendering"},
