@@ -96,7 +96,7 @@ TEST(Rehearsal, DrawnSamplesAreWhatTheBankForetells) {
   const CsvTable large = CsvTable::parse(text_of_file(o.folder + "/rehearsal.csv"));
   ASSERT_EQ(large.rows(), 7u);
   for (std::size_t k = 0; k < large.rows(); ++k)
-    if (effect[k] == "machine_compliance") // friction's is below its prior in both
+    if (effect[k] == "thickness_zero") // the others' are below their priors in both
       EXPECT_LT(large.numbers("limit_against_none")[k], limit[k]);
 }
 
