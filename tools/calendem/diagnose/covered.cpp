@@ -166,11 +166,11 @@ std::vector<Covered> covered_by(const Experiment &e, const BankTable &table,
                                      c.id, c.dwell_s));
     if (has_images(c))
       not_said.push_back(fmt::format(
-          "{}: label images have no part in which effect it is: the bank keeps no frames. {}", c.id,
-          std::find(e.test.begin(), e.test.end(), c.id) != e.test.end()
-              ? "They are set beside the models that are run again."
-              : "Those of a held-out condition are set beside the models that are run again; "
-                "calendem compare sets any beside runs."));
+          "{}: label images have no part in which effect it is: the bank keeps no frames. Those of "
+          "a "
+          "held-out condition are set beside the models that are run again; calendem compare sets "
+          "any beside runs.",
+          c.id));
     const Condition known = with_loading(e, c, table, not_said);
     std::vector<Observable> seen = observables_of(e, known, not_said);
     seen.erase(std::remove_if(seen.begin(), seen.end(),

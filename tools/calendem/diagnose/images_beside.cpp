@@ -76,7 +76,7 @@ ordered_json images_beside(const Experiment &e, const std::vector<ModelRuns> &mo
   std::vector<std::string> without;
   for (const Condition &c : e.conditions) {
     if (std::find(e.test.begin(), e.test.end(), c.id) == e.test.end() || !has_images(c) ||
-        !c.max_pressure_MPa)
+        !by_pressure(c)) // what runs again goes to a pressure
       continue;
     std::map<std::string, std::vector<std::string>> reasons;
     for (const Observable &o : image_observables_of(e, c, without))
