@@ -71,12 +71,16 @@ ordered_json row_of(const Observable &o, const Condition &c, const std::vector<M
 
 bool has_images(const Condition &c) { return !c.labels_before.empty() || !c.labels_after.empty(); }
 
+bool has_images_beside(const Experiment &e, const Condition &c) {
+  return has_images(c) && by_pressure(c) &&
+         std::find(e.test.begin(), e.test.end(), c.id) != e.test.end();
+}
+
 ordered_json images_beside(const Experiment &e, const std::vector<ModelRuns> &models) {
   ordered_json rows = ordered_json::array();
   std::vector<std::string> without;
   for (const Condition &c : e.conditions) {
-    if (std::find(e.test.begin(), e.test.end(), c.id) == e.test.end() || !has_images(c) ||
-        !by_pressure(c)) // what runs again goes to a pressure
+    if (!has_images_beside(e, c))
       continue;
     std::map<std::string, std::vector<std::string>> reasons;
     for (const Observable &o : image_observables_of(e, c, without))

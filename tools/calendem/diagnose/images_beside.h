@@ -17,6 +17,10 @@ struct ModelRuns {
 /// True if the condition has a label image of before or after.
 bool has_images(const Condition &condition);
 
+/// True if its images can be set beside the runs: it is held out and goes to a pressure, as they
+/// do.
+bool has_images_beside(const Experiment &experiment, const Condition &condition);
+
 /// "images" of gap.json's "shrink": a row for each observable of the held-out conditions' label
 /// images, with the mean over each model's packings, and by how many of their common standard
 /// deviations (image, packings, pressure) image and mean are apart. "without": what has no value,

@@ -160,12 +160,6 @@ std::vector<ModelRuns> by_model(const BankTable &runs, const std::vector<RerunMo
   return out;
 }
 
-bool held_out_images(const Experiment &e) {
-  return std::any_of(e.conditions.begin(), e.conditions.end(), [&](const Condition &c) {
-    return has_images(c) && std::find(e.test.begin(), e.test.end(), c.id) != e.test.end();
-  });
-}
-
 nlohmann::ordered_json curves(const Experiment &e, const BankTable &runs,
                               const std::vector<RerunModel> &models, int packings) {
   nlohmann::ordered_json out = nlohmann::ordered_json::array();
@@ -195,7 +189,9 @@ nlohmann::ordered_json rerun(const Experiment &experiment, const BankTable &tabl
   const double film = table.rows.front().run.solid_column /
                       solid_thickness_um(experiment, experiment.recipe.loading);
   Study study = study_of(table, models, pressures, options.packings, film);
-  study.keep_all = held_out_images(experiment);
+  study.keep_all =
+      std::any_of(experiment.conditions.begin(), experiment.conditions.end(),
+                  [&](const Condition &c) { return has_images_beside(experiment, c); });
   make_study(study, options.study);
   const BankTable runs =
       table_of(table, models, options.packings, finished_runs(study, options.study), pressures);
