@@ -225,6 +225,19 @@ TEST(ExperimentData, MicrometresCountLessInAThickerFilm) {
   EXPECT_EQ(shown, 24);
 }
 
+// Loadings within the bank are the sample's, not those of another film.
+TEST(ExperimentData, MicrometresCountAlikeWhateverLoadingARunHas) {
+  BankTable table = made_bank();
+  for (BankRow &row : table.rows)
+    row.run.solid_column *= row.point.base_point % 2 ? 1.05 : 0.95;
+  const auto runs = data_of(made_experiment(kTruth), table, {}).bank.runs;
+  int shown = 0;
+  for (const inference::Run &run : runs)
+    if (run.effect == "thickness_zero")
+      EXPECT_NEAR(run.values[1] - runs[std::size_t(shown++)].values[1], run.amplitudes[0], 1e-9);
+  EXPECT_EQ(shown, 24);
+}
+
 TEST(ExperimentData, WhatHappensAtTheFacesCountsLessInAThickerFilm) {
   BankTable table = made_bank();
   table.spec.effects = {"collector_indentation"};

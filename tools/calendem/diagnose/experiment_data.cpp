@@ -33,12 +33,7 @@ inference::Run bank_run(const PointRuns &runs, const Vector &values) {
   return out;
 }
 
-/// How thick the point's film is beside the sample's, without pores.
-double film_ratio(const Experiment &e, const PointRuns &runs) {
-  return runs.front()->run.solid_column / solid_thickness_um(e, e.recipe.loading);
-}
-
-void add_instrument(const Effect &effect, std::uint64_t seed, const Experiment &e,
+void add_instrument(const Effect &effect, std::uint64_t seed, double film,
                     const std::vector<Covered> &all, const std::vector<PointRuns> &points,
                     inference::Bank &bank) {
   const inference::Parameter p = inference_effect(effect).parameters.front();
@@ -48,8 +43,7 @@ void add_instrument(const Effect &effect, std::uint64_t seed, const Experiment &
       const double amplitude =
           p.prior.value(inference::normal_quantile(shares(0, Eigen::Index(k))));
       const double value = effect.parameter.value(amplitude);
-      const double on_film =
-          value * film_ratio(e, points[k]); // micrometres do not grow with a film
+      const double on_film = value * film; // micrometres do not grow with a film
       const auto see = [&](const SimulatedRun &r) { return shown_with(effect, on_film, r); };
       inference::Run run = bank_run(points[k], values_of(all, points[k], see));
       run.effect = effect.name;
@@ -151,7 +145,7 @@ void set_next(const std::vector<Further> &further, const std::vector<PointRuns> 
 }
 
 /// What an effect at the film's faces changes counts less in a thicker film.
-void thin_out(const Experiment &e, const std::vector<PointRuns> &points, inference::Bank &bank) {
+void thin_out(double film, const std::vector<PointRuns> &points, inference::Bank &bank) {
   std::map<int, std::size_t> base;
   for (std::size_t k = 0; k < points.size(); ++k)
     if (points[k].front()->point.effect.empty())
@@ -161,7 +155,7 @@ void thin_out(const Experiment &e, const std::vector<PointRuns> &points, inferen
     if (p.effect.empty() || find_effect(p.effect).layer != "boundary")
       continue;
     const Vector &off = bank.runs[base.at(p.base_point)].values;
-    bank.runs[k].values = off + film_ratio(e, points[k]) * (bank.runs[k].values - off);
+    bank.runs[k].values = off + film * (bank.runs[k].values - off);
   }
 }
 
@@ -200,19 +194,19 @@ void tell_other_effects(const BankSpec &spec, std::vector<std::string> &not_said
                                    fmt::join(others, ", ")));
 }
 
-void fill_bank(const Experiment &e, const BankTable &table, const std::vector<Covered> &all,
+void fill_bank(double film, const BankTable &table, const std::vector<Covered> &all,
                const std::vector<PointRuns> &points, inference::Bank &bank) {
   for (const BankParameter &p : table.spec.parameters)
     bank.base.push_back({p.name, prior_of(p.spread, p.low, p.high), false});
   const auto as_it_is = [](const SimulatedRun &r) { return r; };
   for (const PointRuns &runs : points)
     bank.runs.push_back(bank_run(runs, values_of(all, runs, as_it_is)));
-  thin_out(e, points, bank);
+  thin_out(film, points, bank);
   for (std::size_t k = 0; k < table.spec.effects.size(); ++k) {
     const Effect effect = effect_of(table.spec, table.spec.effects[k]);
     bank.effects.push_back(inference_effect(effect));
     if (effect.instrument)
-      add_instrument(effect, table.spec.seed + 100 + k, e, all, points, bank);
+      add_instrument(effect, table.spec.seed + 100 + k, film, all, points, bank);
   }
 }
 
@@ -244,7 +238,7 @@ ExperimentData data_of(const Experiment &experiment, const BankTable &as_given,
   std::vector<Covered> all = now;
   for (const Further &f : further)
     all.insert(all.end(), f.of.begin(), f.of.end());
-  fill_bank(experiment, table, all, points, data.bank);
+  fill_bank(film_ratio(experiment, full_cell), table, all, points, data.bank);
   inference::ObservableVector measured = measured_of(now, by_pressure(now, points));
   if (const Transfer t = transfer_of(experiment, full_cell, all, data.not_said); t.change.size()) {
     for (inference::Run &run : data.bank.runs)

@@ -55,6 +55,17 @@ Vector values_of(const std::vector<Covered> &all, const PointRuns &runs, const S
   return Eigen::Map<Vector>(values.data(), Eigen::Index(values.size()));
 }
 
+double film_ratio(const Experiment &experiment, const BankTable &bank) {
+  double sum = 0.0;
+  int n = 0;
+  for (const BankRow &row : bank.rows)
+    if (row.point.effect.empty()) {
+      sum += row.run.solid_column;
+      ++n;
+    }
+  return n > 0 ? sum / n / solid_thickness_um(experiment, experiment.recipe.loading) : 1.0;
+}
+
 Vector by_pressure(const std::vector<Covered> &all, const std::vector<PointRuns> &points) {
   std::vector<double> out;
   for (const Covered &c : all)

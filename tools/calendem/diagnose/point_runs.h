@@ -23,6 +23,10 @@ std::vector<PointRuns> points_of(const BankTable &table, std::vector<std::string
 inference::Vector values_of(const std::vector<Covered> &all, const PointRuns &runs,
                             const Shows &see);
 
+/// How thick the bank's films are beside the experiment's, without pores: mean of the base points.
+/// What a run's loading differs from that is a base parameter, not a film of another recipe.
+double film_ratio(const Experiment &experiment, const BankTable &bank);
+
 /// Change of each observable by one standard deviation of the press's pressure, mean of the base
 /// model's points.
 inference::Vector by_pressure(const std::vector<Covered> &all,

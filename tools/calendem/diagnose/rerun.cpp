@@ -3,6 +3,7 @@
 #include "compare/observables.h"
 #include "diagnose/how_far.h"
 #include "diagnose/images_beside.h"
+#include "diagnose/point_runs.h"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -186,9 +187,8 @@ HeldOut held_out_of(const ExperimentData &data) {
 nlohmann::ordered_json rerun(const Experiment &experiment, const BankTable &table,
                              const std::vector<RerunModel> &models, const RerunOptions &options) {
   const std::vector<double> pressures = pressures_of(experiment);
-  const double film = table.rows.front().run.solid_column /
-                      solid_thickness_um(experiment, experiment.recipe.loading);
-  Study study = study_of(table, models, pressures, options.packings, film);
+  Study study =
+      study_of(table, models, pressures, options.packings, film_ratio(experiment, table));
   study.keep_all =
       std::any_of(experiment.conditions.begin(), experiment.conditions.end(),
                   [&](const Condition &c) { return has_images_beside(experiment, c); });
