@@ -187,8 +187,7 @@ HeldOut held_out_of(const ExperimentData &data) {
 nlohmann::ordered_json rerun(const Experiment &experiment, const BankTable &table,
                              const std::vector<RerunModel> &models, const RerunOptions &options) {
   const std::vector<double> pressures = pressures_of(experiment);
-  Study study =
-      study_of(table, models, pressures, options.packings, film_ratio(experiment, table));
+  Study study = study_of(table, models, pressures, options.packings, film_ratio(experiment, table));
   study.keep_all =
       std::any_of(experiment.conditions.begin(), experiment.conditions.end(),
                   [&](const Condition &c) { return has_images_beside(experiment, c); });
