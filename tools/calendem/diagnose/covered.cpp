@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/covered.h"
 #include "diagnose/images_beside.h"
+#include "diagnose/point_runs.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -48,8 +49,7 @@ Condition bare(const Condition &c) {
 Condition with_loading(const Experiment &e, const Condition &c, const BankTable &table,
                        std::vector<std::string> &not_said) {
   Condition out = c;
-  const double film = table.rows.empty() ? NAN : table.rows.front().run.solid_column;
-  const double other = solid_thickness_um(e, e.recipe.loading) / film;
+  const double other = 1.0 / film_ratio(e, table);
   if (loading_of(e, c) || !(std::fabs(other - 1.0) > kOtherFilm))
     return out;
   out.loading_mg_cm2 = Measured{e.recipe.loading, kLoadingKnown * e.recipe.loading};
@@ -167,9 +167,8 @@ std::vector<Covered> covered_by(const Experiment &e, const BankTable &table,
     if (has_images(c))
       not_said.push_back(fmt::format(
           "{}: label images have no part in which effect it is: the bank keeps no frames. Those of "
-          "a "
-          "held-out condition are set beside the models that are run again; calendem compare sets "
-          "any beside runs.",
+          "a held-out condition are set beside the models that are run again; calendem compare "
+          "sets any beside runs.",
           c.id));
     const Condition known = with_loading(e, c, table, not_said);
     std::vector<Observable> seen = observables_of(e, known, not_said);

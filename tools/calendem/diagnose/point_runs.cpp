@@ -63,7 +63,7 @@ double film_ratio(const Experiment &experiment, const BankTable &bank) {
       sum += row.run.solid_column;
       ++n;
     }
-  return n > 0 ? sum / n / solid_thickness_um(experiment, experiment.recipe.loading) : 1.0;
+  return sum / n / solid_thickness_um(experiment, experiment.recipe.loading);
 }
 
 Vector by_pressure(const std::vector<Covered> &all, const std::vector<PointRuns> &points) {

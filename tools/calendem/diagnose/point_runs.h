@@ -24,7 +24,8 @@ inference::Vector values_of(const std::vector<Covered> &all, const PointRuns &ru
                             const Shows &see);
 
 /// How thick the bank's films are beside the experiment's, without pores: mean of the base points.
-/// What a run's loading differs from that is a base parameter, not a film of another recipe.
+/// What a run's loading differs from that is a base parameter, not a film of another recipe. NaN
+/// without base points.
 double film_ratio(const Experiment &experiment, const BankTable &bank);
 
 /// Change of each observable by one standard deviation of the press's pressure, mean of the base
