@@ -115,6 +115,22 @@ TEST(Bank, MistakesAreTold) {
   }
 }
 
+// The first points stay where they are, so that a bank can grow.
+TEST(Bank, AnEffectMayHaveMorePoints) {
+  const std::string text = kBank + "effects = [\"friction\", \"pre_cracks\"]\n" + kParameters;
+  const std::vector<BankPoint> few = bank_points(spec_of(text));
+  const BankSpec spec = spec_of(text + "[[effect]]\nname = \"friction\"\npoints = 8\n");
+  EXPECT_EQ(effect_of(spec, "friction").parameter.low, find_effect("friction").parameter.low);
+  std::map<std::string, int> count;
+  for (const BankPoint &p : bank_points(spec))
+    ++count[p.effect];
+  EXPECT_EQ(count["friction"], 8);
+  EXPECT_EQ(count["pre_cracks"], 4);
+  for (int k = 0; k < 4; ++k)
+    EXPECT_EQ(bank_points(spec)[std::size_t(8 + k)].value, few[std::size_t(8 + k)].value);
+  EXPECT_THROW(spec_of(text + "[[effect]]\nname = \"friction\"\npoints = 9\n"), Failure);
+}
+
 TEST(Bank, AnEffectMayHaveANarrowerRange) {
   const std::string effects = "effects = [\"friction\", \"pre_cracks\"]\n";
   const BankSpec spec = spec_of(kBank + effects + kParameters +

@@ -78,7 +78,8 @@ TEST(ShippedBank, PackingsLeftOutLieAsFarOffAsExpected) {
       const inference::Matrix no_unknown;
       const inference::Matrix all = inference::covariance_about(p, p.predict(scores, {}));
       const double without_error = inference::Cholesky(all).solve(all - p.measurement).trace();
-      squares += inference::Likelihood(p, {}, no_unknown).square(scores);
+      inference::Vector gradient;
+      squares += inference::Likelihood(p, {}, no_unknown).square(scores, gradient);
       features += double(p.observed.size());
       expected += without_error * p.degrees_of_freedom / (p.degrees_of_freedom - 2.0);
     }

@@ -172,7 +172,8 @@ TEST(Decide, ClaimRuleAndPriors) {
   // a: 0.5 * 0.9 / 2 = 0.225 times e^6; none: 0.4.
   EXPECT_NEAR(a.judged[0].probability, 0.225 * std::exp(6.0) / (0.225 * std::exp(6.0) + 0.4), 1e-8);
   EXPECT_EQ(decided(0.5, 0.5, 0.5, s).claim, "undecided");
-  EXPECT_EQ(decided(6.0, 0.005, 0.5, s).claim, "undecided");
+  EXPECT_EQ(decided(6.0, 0.03, 0.5, s).claim, "undecided");
+  EXPECT_EQ(decided(6.0, 0.03, 0.03, s).claim, "undecided"); // too bad to claim, not to be unknown
   const Which nothing_fits = decided(6.0, 0.005, 0.005, s);
   EXPECT_EQ(nothing_fits.claim, "unknown");
   EXPECT_NEAR(nothing_fits.of("unknown").probability, 1.0, 1e-12);
@@ -184,6 +185,11 @@ TEST(Decide, ClaimRuleAndPriors) {
                   judged(Hypothesis::noise, {}, "noise", 20.0, 0.0)};
   decide(noise, s, 0);
   EXPECT_EQ(noise.claim, "noise");
+  WhichSettings single_numbers = s;
+  single_numbers.noise_seen = false;
+  decide(noise, single_numbers, 0);
+  EXPECT_EQ(noise.claim, "undecided");
+  EXPECT_NE(noise.why.find("give a curve"), std::string::npos);
   noise.judged[0].evidence.samples = 1024;
   noise.judged[0].evidence.effective_samples = 12.0;
   decide(noise, s, 0);

@@ -68,8 +68,9 @@ std::vector<BankPoint> bank_points(const BankSpec &spec) {
   }
   for (std::size_t e = 0; e < spec.effects.size(); ++e) {
     const Effect effect = effect_of(spec, spec.effects[e]);
-    const auto amplitudes = inference::sobol_points(1, spec.effect_points, spec.seed + 1 + e);
-    for (int k = 0; k < spec.effect_points && !effect.instrument; ++k) {
+    const int points = points_of(spec, effect.name);
+    const auto amplitudes = inference::sobol_points(1, points, spec.seed + 1 + e);
+    for (int k = 0; k < points && !effect.instrument; ++k) {
       BankPoint p = out[std::size_t(k)];
       p.effect = effect.name;
       p.value = prior_value(effect.parameter.low, effect.parameter.high, effect.parameter.spread,

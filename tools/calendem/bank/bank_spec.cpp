@@ -91,17 +91,25 @@ public:
                                 out.base_points));
   }
 
-  /// A range of one of the bank's effects.
+  /// Range and number of points of one of the bank's effects.
   void read_range(const toml::node &node, BankSpec &out) {
     const toml::table *t = node.as_table();
     if (!t)
       return mistakes_.add(line_of(node), "write an effect's range as a table: [[effect]].");
-    tell_unknown(*t, {"name", "low", "high"});
+    tell_unknown(*t, {"name", "low", "high", "points"});
     const int before = mistakes_.count();
     const std::string name = text(*t, {"name", "", "", 0, 0, "", "of the effect",
                                        fmt::format("{}", fmt::join(out.effects, "|"))});
     if (mistakes_.count() > before)
       return;
+    if (t->contains("points")) {
+      const int points = int(number(*t, {"points", "", "", 2, double(out.base_points), "",
+                                         "of the effect", "", false, true}));
+      if (!out.points.emplace(name, points).second)
+        mistakes_.add(line_of(node), fmt::format("{} has two numbers of points; keep one.", name));
+      if (!t->contains("low") && !t->contains("high"))
+        return;
+    }
     const EffectParameter &table = find_effect(name).parameter;
     const double low = number(*t, {"low", "", "", table.low, table.high, "", "end of the range"}),
                  high = number(*t, {"high", "", "", table.low, table.high, "", "end of it"});
@@ -153,6 +161,11 @@ private:
 };
 
 } // namespace
+
+int points_of(const BankSpec &spec, const std::string &effect) {
+  const auto own = spec.points.find(effect);
+  return own == spec.points.end() ? spec.effect_points : own->second;
+}
 
 Effect effect_of(const BankSpec &spec, const std::string &name) {
   Effect effect = find_effect(name);

@@ -16,10 +16,11 @@
 //   low = 100
 //   high = 300
 //   prior = "log-uniform"            # or "uniform"
-//   [[effect]]                       # optional: a narrower range of an effect, in its key's unit
+//   [[effect]]                       # optional, of one effect:
 //   name = "friction"
-//   low = 0.1
+//   low = 0.1                        # a narrower range, in its key's unit
 //   high = 0.4
+//   points = 32                      # another number of points
 //   [full_cell]                      # optional: what the bank's small cell does to the observables
 //   recipe = "../demo/electrode.toml"
 //   case = "case.toml"
@@ -59,12 +60,16 @@ struct BankSpec {
   std::vector<BankParameter> parameters;
   std::vector<std::string> effects;
   std::map<std::string, std::pair<double, double>> ranges; ///< of effects, where not the table's
+  std::map<std::string, int> points;                       ///< of effects, where not effect_points
   FullCell full_cell;
   std::vector<MeasurementPrice> prices = usual_prices();
 };
 
 /// Throws Failure(2) with every mistake of the file. Recipe and case are read when runs are made.
 BankSpec read_bank_spec(const std::string &file);
+
+/// How many points the effect has.
+int points_of(const BankSpec &spec, const std::string &effect);
 
 /// As find_effect, with the bank's range.
 Effect effect_of(const BankSpec &spec, const std::string &name);

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/diagnose.h"
+#include "diagnose/point_noise.h"
 #include "diagnose/tell.h"
 #include "spec/messages.h"
 #include "spec/provenance.h"
 #include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
 
 namespace calendem {
 namespace {
+
+constexpr double kBeyondChance = 4.0; // normal score
 
 template <typename Derived> void append(const Eigen::MatrixBase<Derived> &values, std::string &to) {
   const typename Derived::PlainObject plain = values;
@@ -25,6 +30,23 @@ std::string layout_of(const ExperimentData &data, const inference::ModelSettings
     append(run.values, out);
   append(inference::Vector::Constant(1, settings.packings_in_sample), out);
   return out;
+}
+
+/// In the report, and as a remark where it is beyond chance.
+void tell_point_noise(const std::vector<inference::PointNoise> &noise, Diagnosed &out) {
+  out.gap["point_noise"] = nlohmann::ordered_json::array();
+  for (const inference::PointNoise &p : noise) {
+    const double times = p.times_stated();
+    out.gap["point_noise"].push_back({{"condition", p.condition},
+                                      {"directions", p.measured.size()},
+                                      {"score", p.score},
+                                      {"times_stated", times}});
+    if (std::fabs(p.score) > kBeyondChance)
+      out.data.not_said.push_back(fmt::format(
+          "{}: the points of its release scatter {:.2g} times as much as curve_sd_um says "
+          "(normal score {:.1f}): state what they do.",
+          p.condition, times, p.score));
+  }
 }
 
 } // namespace
@@ -66,11 +88,14 @@ Diagnosed diagnosed(const Experiment &experiment, const BankTable &table, double
   inference::Settings settings;
   settings.model.packings_in_sample = cells > 0.0 ? cells : cells_of(experiment, table.spec);
   out.model = models.of(out.data, settings.model);
-  out.diagnosis =
-      inference::diagnose(*out.model, out.data.bank, out.data.experiment.values, settings);
+  const std::vector<inference::PointNoise> point_noise =
+      point_noise_of(experiment, table, settings.model.packings_in_sample);
+  out.diagnosis = inference::diagnose(*out.model, out.data.bank, out.data.experiment.values,
+                                      settings, point_noise);
   out.gap = nlohmann::ordered_json::parse(inference::to_json(out.diagnosis));
   out.gap["experiment"] = experiment.name;
   tell(out.data, table, out.gap);
+  tell_point_noise(point_noise, out);
   out.gap["not_said"] = out.data.not_said;
   out.gap["provenance"] = {{"calendem", version()}, {"hashes", "64-bit FNV-1a"}};
   return out;

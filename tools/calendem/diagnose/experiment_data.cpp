@@ -218,7 +218,11 @@ inference::Effect inference_effect(const Effect &effect) {
   if (low > high)
     std::swap(low, high);
   const Spread spread = p.scale == AmplitudeScale::Logarithm ? Spread::Uniform : p.spread;
-  return {effect.name, {{"amplitude", prior_of(spread, low, high), true}}, effect.instrument};
+  const EffectParameter &whole = find_effect(effect.name).parameter; // a bank's may be narrower
+  const double weakest = std::min(whole.amplitude(whole.low), whole.amplitude(whole.high));
+  return {effect.name,
+          {{"amplitude", prior_of(spread, low, high), true, p.power, weakest}},
+          effect.instrument};
 }
 
 ExperimentData data_of(const Experiment &experiment, const BankTable &table,

@@ -49,8 +49,7 @@ Vector predicted(const Part &part, const Hypothesis &h, const Vector &scores) {
 RerunModel calibrated(const std::string &role, const Hypothesis &h, const Part &train,
                       const Part &test) {
   const inference::Likelihood likelihood(train.problem, h, train.problem.discrepancy);
-  const inference::Evidence e = inference::evidence(
-      likelihood.dimension(), [&](const Vector &scores) { return likelihood.log(scores); }, {});
+  const inference::Evidence e = inference::evidence(likelihood, {});
   RerunModel out;
   out.role = role;
   out.hypothesis = h.name;

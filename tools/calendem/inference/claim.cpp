@@ -110,16 +110,21 @@ void claim(Which &w, const WhichSettings &settings) {
   const std::string &name = best.hypothesis.name;
   const Judged *few = unsettled(w.judged);
   w.claim = "undecided";
-  if (best.hypothesis.kind == Hypothesis::noise && !few &&
+  if (best.hypothesis.kind == Hypothesis::noise && !few && !settings.noise_seen &&
       best.probability >= settings.claim_probability) {
+    w.why = fmt::format("Understated errors are the most probable ({:.3g}), but what was measured "
+                        "once cannot tell them from an unknown effect: give a curve, or repeat.",
+                        best.probability);
+  } else if (best.hypothesis.kind == Hypothesis::noise && !few &&
+             best.probability >= settings.claim_probability) {
     w.claim = name;
     w.why = fmt::format("The errors of the measurement are understated, with probability {:.3g}.",
                         best.probability);
-  } else if (adequate < settings.adequacy && best.hypothesis.kind == Hypothesis::unknown &&
+  } else if (adequate < settings.nothing_fits && best.hypothesis.kind == Hypothesis::unknown &&
              best.probability >= settings.claim_probability) {
     w.claim = name;
     w.why = fmt::format("No hypothesis fits: the best has p = {:.2g}, at least {:g} is asked for.",
-                        adequate, settings.adequacy);
+                        adequate, settings.nothing_fits);
   } else if (best.probability < settings.claim_probability &&
              best.hypothesis.kind == Hypothesis::none && !few &&
              best.adequacy_p >= settings.adequacy &&
@@ -170,7 +175,7 @@ void set_lists(Which &w) {
 void once(Which &w, const WhichSettings &settings, int effects) {
   set_priors(w.judged, settings.priors, effects);
   set_probabilities(w.judged);
-  if (most_adequate(w.judged) < settings.adequacy)
+  if (most_adequate(w.judged) < settings.nothing_fits)
     give_to_unknown(w.judged);
   claim(w, settings);
 }

@@ -55,6 +55,7 @@ Told told(const Model &model, const Problem &problem, const Settings &settings) 
   WhichSettings rules = settings.which;
   for (const std::string &name : model.poor_effects())
     rules.poor.push_back(name);
+  rules.noise_seen = !problem.point_noise.empty();
   Told t;
   t.which = which(problem, rules);
   t.confounding = confounding(problem, t.which, settings.confounding);
@@ -67,9 +68,10 @@ Told told(const Model &model, const Problem &problem, const Settings &settings) 
 }
 
 Diagnosis diagnose(const Model &model, const Bank &bank, const Vector &values,
-                   const Settings &settings) {
+                   const Settings &settings, const std::vector<PointNoise> &point_noise) {
   Diagnosis d;
-  const Problem problem = model.problem(values);
+  Problem problem = model.problem(values);
+  problem.point_noise = point_noise;
   d.blocks = problem.blocks;
   Told t = told(model, problem, settings);
   d.which = std::move(t.which);

@@ -63,7 +63,7 @@ Told told(const Model &model, const Problem &problem, const Settings &settings);
 /// Deterministic: the same model, values and settings give the same bytes. A quarter of a minute on
 /// one core for 20 features, 10 effects and 60 runs of each.
 Diagnosis diagnose(const Model &model, const Bank &bank, const Vector &values,
-                   const Settings &settings);
+                   const Settings &settings, const std::vector<PointNoise> &point_noise = {});
 
 /// The parts "where" and "which" of gap.json and what else is known, as text of a JSON object.
 std::string to_json(const Diagnosis &diagnosis);

@@ -12,7 +12,7 @@ namespace {
 // differences of a bank of 8 packings about as well.
 constexpr double kOfDifference = 1.5;
 
-/// Scaled base parameters and effect's parameters; amplitudes as shares of their upper end.
+/// Scaled base parameters and effect's parameters; strengths of its amplitudes.
 struct Point {
   Vector input, amplitudes;
 };
@@ -29,11 +29,18 @@ Point point_of(const Vector &scaled_base, const Effect &effect, const Vector &va
   amplitudes = 0;
   for (Eigen::Index j = 0; j < values.size(); ++j) {
     const Parameter &q = effect.parameters[std::size_t(j)];
-    p.input[n + j] = q.prior.scaled(values[j]);
+    p.input[n + j] = q.input(values[j]);
     if (q.amplitude)
-      p.amplitudes[amplitudes++] = values[j] / q.prior.upper();
+      p.amplitudes[amplitudes++] = q.strength(values[j]);
   }
   return p;
+}
+
+Point point_at(const Vector &scaled_base, const Effect &effect, const Vector &scores) {
+  Vector values(scores.size());
+  for (Eigen::Index j = 0; j < values.size(); ++j)
+    values[j] = effect.parameters[std::size_t(j)].prior.value(scores[j]);
+  return point_of(scaled_base, effect, values);
 }
 
 Training effect_training(const Bank &bank, const Effect &effect,
@@ -126,24 +133,25 @@ Matrix Emulators::residuals() const {
   return all;
 }
 
-void Emulators::predict(const Vector &base_scores, const std::vector<Applied> &on, double share,
-                        int first, Prediction &out) const {
+Vector Emulators::scaled(const Vector &base_scores) const {
   Vector base(base_scores.size());
   for (Eigen::Index j = 0; j < base.size(); ++j) {
     const Prior &p = parameters_[std::size_t(j)].prior;
     base[j] = p.scaled(p.value(base_scores[j]));
   }
+  return base;
+}
+
+void Emulators::predict(const Vector &base_scores, const std::vector<Applied> &on, double share,
+                        int first, Prediction &out) const {
+  const Vector base = scaled(base_scores);
   for (std::size_t f = 0; f < base_.size(); ++f) {
     const Mean m = base_[f].at(base, Vector());
     out.mean[first + Eigen::Index(f)] += m.mean;
     out.variance[first + Eigen::Index(f)] += m.variance;
   }
   for (const Applied &a : on) {
-    const Effect &effect = table_[std::size_t(a.effect)];
-    Vector values(a.scores.size());
-    for (Eigen::Index j = 0; j < values.size(); ++j)
-      values[j] = effect.parameters[std::size_t(j)].prior.value(a.scores[j]);
-    const Point p = point_of(base, effect, values);
+    const Point p = point_at(base, table_[std::size_t(a.effect)], a.scores);
     for (std::size_t f = 0; f < base_.size(); ++f) {
       const GaussianProcess &g = effects_[std::size_t(a.effect)][f];
       const Mean m = g.at(p.input, p.amplitudes);
@@ -151,6 +159,49 @@ void Emulators::predict(const Vector &base_scores, const std::vector<Applied> &o
       out.variance[first + Eigen::Index(f)] +=
           m.variance + share * g.packing_variance() * p.amplitudes.squaredNorm();
     }
+  }
+}
+
+void Emulators::slopes(const Vector &base_scores, const std::vector<Applied> &on, double share,
+                       int first, Slopes &out) const {
+  const Vector base = scaled(base_scores);
+  const auto n = base.size();
+  Vector per_score(n);
+  for (Eigen::Index j = 0; j < n; ++j)
+    per_score[j] = parameters_[std::size_t(j)].prior.scaled_slope(base_scores[j]);
+  for (std::size_t f = 0; f < base_.size(); ++f) {
+    const MeanSlopes s = base_[f].slopes_at(base, Vector());
+    const Eigen::Index row = first + Eigen::Index(f);
+    out.mean.row(row).head(n) += s.mean_inputs.cwiseProduct(per_score).transpose();
+    out.variance.row(row).head(n) += s.variance_inputs.cwiseProduct(per_score).transpose();
+  }
+  Eigen::Index column = n;
+  for (const Applied &a : on) {
+    const Effect &effect = table_[std::size_t(a.effect)];
+    const Point p = point_at(base, effect, a.scores);
+    for (std::size_t f = 0; f < base_.size(); ++f) {
+      const GaussianProcess &g = effects_[std::size_t(a.effect)][f];
+      MeanSlopes s = g.slopes_at(p.input, p.amplitudes);
+      s.variance_amplitudes += share * g.packing_variance() * 2.0 * p.amplitudes;
+      const Eigen::Index row = first + Eigen::Index(f);
+      out.mean.row(row).head(n) += s.mean_inputs.head(n).cwiseProduct(per_score).transpose();
+      out.variance.row(row).head(n) +=
+          s.variance_inputs.head(n).cwiseProduct(per_score).transpose();
+      Eigen::Index amplitude = 0;
+      for (Eigen::Index j = 0; j < a.scores.size(); ++j) {
+        const Parameter &q = effect.parameters[std::size_t(j)];
+        const double input = q.input_slope(a.scores[j]);
+        out.mean(row, column + j) += input * s.mean_inputs[n + j];
+        out.variance(row, column + j) += input * s.variance_inputs[n + j];
+        if (!q.amplitude)
+          continue;
+        const double strength =
+            q.strength_slope(q.prior.value(a.scores[j])) * q.prior.value_slope(a.scores[j]);
+        out.mean(row, column + j) += strength * s.mean_amplitudes[amplitude];
+        out.variance(row, column + j) += strength * s.variance_amplitudes[amplitude++];
+      }
+    }
+    column += a.scores.size();
   }
 }
 

@@ -19,6 +19,10 @@ public:
   void predict(const Vector &base_scores, const std::vector<Applied> &on, double share, int first,
                Prediction &out) const;
 
+  /// Of the same predictions, into the rows from `first` on.
+  void slopes(const Vector &base_scores, const std::vector<Applied> &on, double share, int first,
+              Slopes &out) const;
+
   const std::vector<GaussianProcess> &base() const { return base_; }
   const std::vector<GaussianProcess> &effect(int which) const { return effects_[which]; }
   /// What base model and simulated effects (not computed ones) miss in their own runs, in standard
@@ -33,6 +37,8 @@ private:
   std::vector<int> packing_;
   std::vector<GaussianProcess> base_;
   std::vector<std::vector<GaussianProcess>> effects_;
+
+  Vector scaled(const Vector &base_scores) const;
 };
 
 /// Places of the bank's runs of the base model.

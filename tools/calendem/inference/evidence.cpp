@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "inference/evidence.h"
 #include "inference/proposal.h"
-#include "inference/quasi_newton.h"
 #include "inference/sobol_points.h"
 #include <algorithm>
 #include <cmath>
@@ -29,23 +28,21 @@ Matrix laplace_covariance(const Matrix &second) {
   return eigen.eigenvectors() * bent.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
 }
 
-Peak peak_near(const Density &density, const Vector &start) {
-  const auto falling = [&](const Vector &x) { return -density(x); };
-  const Minimum found = minimise(with_differences(falling), start);
+Peak peak_near(const WithGradient &falling, const Vector &start) {
+  const Minimum found = minimise(falling, start);
   return {found.at, laplace_covariance(hessian(falling, found.at, kStep)), -found.value};
 }
 
-std::vector<Peak> modes_of(const Density &density, int dimension) {
-  const auto falling = [&](const Vector &x) { return -density(x); };
+std::vector<Peak> modes_of(const Density &density, const WithGradient &falling, int dimension) {
   Matrix starts = Matrix::Zero(dimension, kStarts + 1);
   starts.rightCols(kStarts) = sobol_normals(dimension, kStarts, 0);
   std::vector<std::pair<double, int>> order;
   for (int k = 0; k <= kStarts; ++k)
-    order.emplace_back(falling(starts.col(k)), k);
+    order.emplace_back(-density(starts.col(k)), k);
   std::stable_sort(order.begin(), order.end());
   std::vector<Peak> peaks;
   for (int k = 0; k < kModes; ++k) {
-    const Peak found = peak_near(density, starts.col(order[k].second));
+    const Peak found = peak_near(falling, starts.col(order[k].second));
     bool known = false;
     for (const Peak &p : peaks)
       known |= Cholesky(p.covariance).matrixL().solve(found.at - p.at).norm() < kApart;
@@ -158,7 +155,8 @@ std::vector<Weighted> sample(const Density &density, const Proposal &proposal,
 
 } // namespace
 
-Evidence evidence(int dimension, const Density &log_likelihood, const EvidenceSettings &settings) {
+Evidence evidence(int dimension, const Density &log_likelihood, const EvidenceSettings &settings,
+                  const WithGradient &with_gradient) {
   Evidence e;
   e.mode = Vector::Zero(dimension);
   if (dimension == 0) {
@@ -171,7 +169,13 @@ Evidence evidence(int dimension, const Density &log_likelihood, const EvidenceSe
     return e;
   }
   const Density density = [&](const Vector &x) { return log_likelihood(x) + log_prior(x); };
-  const std::vector<Peak> peaks = modes_of(density, dimension);
+  const WithGradient likelihood = with_gradient ? with_gradient : with_differences(log_likelihood);
+  const WithGradient falling = [&](const Vector &x, Vector &gradient) {
+    const double value = -likelihood(x, gradient) - log_prior(x);
+    gradient = x - gradient;
+    return value;
+  };
+  const std::vector<Peak> peaks = modes_of(density, falling, dimension);
   e.mode = peaks.front().at;
   e.laplace = laplace_evidence(peaks.front());
   double log_density_of_mode = peaks.front().log_density;
@@ -180,7 +184,7 @@ Evidence evidence(int dimension, const Density &log_likelihood, const EvidenceSe
   summarise(passes, e);
   for (int again = 0; again < kAgain && e.effective_samples < settings.least_share * e.samples;
        ++again) {
-    const Peak higher = peak_near(density, heaviest(passes));
+    const Peak higher = peak_near(falling, heaviest(passes));
     proposal.add(higher);
     proposal.add(cloud(e));
     if (higher.log_density > log_density_of_mode) {

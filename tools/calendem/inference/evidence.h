@@ -3,8 +3,7 @@
 #ifndef CALENDEM_INFERENCE_EVIDENCE_H
 #define CALENDEM_INFERENCE_EVIDENCE_H
 
-#include "inference/linear.h"
-#include <functional>
+#include "inference/quasi_newton.h"
 
 namespace calendem::inference {
 
@@ -34,9 +33,9 @@ struct Evidence {
 /// freedom) at up to three modes with the covariance of Laplace's approximation, balanced (Veach
 /// and Guibas 1995), one more where a sample weighs too much; Sobol points (Owen and Zhou, J. Am.
 /// Stat. Assoc. 95 (2000) 135). Exact for linear-Gaussian likelihoods up to `error`; Laplace's is
-/// exact there.
+/// exact there. `with_gradient`: the same likelihood; empty: by differences.
 Evidence evidence(int dimension, const std::function<double(const Vector &)> &log_likelihood,
-                  const EvidenceSettings &settings);
+                  const EvidenceSettings &settings, const WithGradient &with_gradient = {});
 
 } // namespace calendem::inference
 

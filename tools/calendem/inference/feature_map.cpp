@@ -15,6 +15,15 @@ double normal_score(double chi2, int degrees_of_freedom) {
   return (std::cbrt(chi2 / degrees_of_freedom) - 1.0 + spread) / std::sqrt(spread);
 }
 
+NormalMoments score_moments(const Vector &measured, double factor) {
+  const Eigen::ArrayXd weight = 1.0 + (factor * factor - 1.0) * measured.array();
+  const double k = double(weight.size()), mean = weight.sum(),
+               h = mean * mean / weight.square().sum();
+  const double grown = std::cbrt(mean / k), spread = 2.0 / (9.0 * k), of_sum = 2.0 / (9.0 * h);
+  return {(grown * (1.0 - of_sum) - 1.0 + spread) / std::sqrt(spread),
+          grown * grown * of_sum / spread};
+}
+
 FeatureMap::FeatureMap(const std::vector<Observable> &observables, const Matrix &simulated,
                        const Vector &sd, const Matrix &measurement)
     : blocks_(blocks_of(observables)), mean_(simulated.rowwise().mean()), sd_(sd) {
@@ -37,8 +46,10 @@ FeatureMap::FeatureMap(const std::vector<Observable> &observables, const Matrix 
         back_(place, rows) = kept[b](m, k) * sd_[place];
       }
     }
-  for (const Truncation &t : truncations_)
-    features_.push_back({t.block, false});
+  for (std::size_t t = 0; t < truncations_.size(); ++t) {
+    features_.push_back({truncations_[t].block, false});
+    roughness_[t].feature = int(features_.size()) - 1;
+  }
 }
 
 void FeatureMap::add_block(int block, const Matrix &scaled, const Matrix &measurement,
@@ -70,8 +81,12 @@ void FeatureMap::add_block(int block, const Matrix &scaled, const Matrix &measur
   Matrix covariance = of_bank * of_bank.transpose() / double(runs);
   const double shrink = double(m - keep) / double(m - keep + runs);
   covariance = (1.0 - shrink) * covariance + shrink * Matrix(covariance.diagonal().asDiagonal());
-  covariance += across * measurement(members, members) * across.transpose();
+  const Matrix measured = across * measurement(members, members) * across.transpose();
+  covariance += measured;
   truncations_.push_back({block, across, Cholesky(covariance)});
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> shares(measured, covariance,
+                                                                Eigen::EigenvaluesOnly);
+  roughness_.push_back({0, shares.eigenvalues().cwiseMax(0.0)});
 }
 
 Matrix FeatureMap::emulated_of(const Matrix &simulated) const {

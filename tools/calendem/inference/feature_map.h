@@ -12,6 +12,22 @@ struct Feature {
   bool emulated = true; ///< false: the truncation residual, the same under every known hypothesis
 };
 
+/// A truncation residual: its variance has a share of measurement in each of its directions.
+struct Roughness {
+  int feature = 0;
+  Vector measured; ///< the shares, 0..1
+};
+
+struct NormalMoments {
+  double mean = 0.0, variance = 1.0;
+};
+
+/// Of the normal_score of a squared length in directions whose variance has these shares of
+/// measurement, if its errors are `factor` times those stated. A sum of squares with such weights
+/// is about g chi-squared of h degrees of freedom, with its mean and variance (Satterthwaite,
+/// Biometrics Bull. 2 (1946) 110), whose cube root is about normal.
+NormalMoments score_moments(const Vector &measured, double factor);
+
 /// Each block is divided by `sd`, and its runs decomposed by singular values (Higdon et al., J. Am.
 /// Stat. Assoc. 103 (2008) 570). Kept are the first vectors, until what is left of a run is on
 /// average below a tenth of one squared standard deviation, or `kMost`. What a measured curve has
@@ -41,6 +57,8 @@ public:
   /// The same for a discrepancy of the model: a truncation residual gets the square of what it is
   /// expected to grow to, or 1: an unknown effect need not be smooth.
   Matrix discrepancy(const Matrix &of_observables) const;
+  /// Of every truncation residual.
+  const std::vector<Roughness> &roughness() const { return roughness_; }
   /// Observables that have these emulated features.
   Vector observables_of(const Vector &emulated) const;
 
@@ -53,6 +71,7 @@ private:
   std::vector<Block> blocks_;
   std::vector<Feature> features_;
   std::vector<Truncation> truncations_;
+  std::vector<Roughness> roughness_;
   Vector mean_, sd_;
   Matrix linear_; ///< emulated features = linear_ (values - mean_)
   Matrix back_;   ///< values = mean_ + back_ emulated features

@@ -182,16 +182,40 @@ Vector GaussianProcess::covariances_with(const Vector &input, const Vector &ampl
   return k;
 }
 
-double GaussianProcess::mean_at(const Vector &input, const Vector &amplitudes) const {
-  return centre_ + std::sqrt(square_) * covariances_with(input, amplitudes).dot(weights_);
-}
-
 Mean GaussianProcess::at(const Vector &input, const Vector &amplitudes) const {
   const Vector k = covariances_with(input, amplitudes);
   const double g = amplitudes.size() ? amplitudes.squaredNorm() : 1.0;
   const double prior = g * (kTrend + slopes_ * input.squaredNorm() + signal_);
-  const double left = prior - k.dot(covariance_inverse_.selfadjointView<Eigen::Lower>() * k);
+  const double left = prior - k.dot(covariance_inverse_ * k);
   return {centre_ + std::sqrt(square_) * k.dot(weights_), square_ * std::max(left, 0.0)};
+}
+
+MeanSlopes GaussianProcess::slopes_at(const Vector &input, const Vector &amplitudes) const {
+  const auto n = training_.inputs.cols();
+  const Vector scaled = input.cwiseQuotient(lengths_);
+  Vector bare(n), share = Vector::Ones(n); // covariance is share * bare
+  if (amplitudes.size())
+    share = training_.amplitudes.transpose() * amplitudes;
+  Matrix turned = slopes_ * training_.inputs; // d covariance / d input, inputs x runs
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Vector apart = scaled_inverse_.col(i) - scaled;
+    const Matern m = matern(apart.squaredNorm());
+    bare[i] = kTrend + slopes_ * training_.inputs.col(i).dot(input) + signal_ * m.value;
+    turned.col(i) += signal_ * m.slope * apart.cwiseQuotient(lengths_);
+  }
+  turned *= share.asDiagonal();
+  const Vector k = share.cwiseProduct(bare);
+  const Vector solved = covariance_inverse_ * k;
+  const double scale = std::sqrt(square_), own = amplitudes.size() ? amplitudes.squaredNorm() : 1.0;
+  const double prior = kTrend + slopes_ * input.squaredNorm() + signal_;
+  const double square = own * prior > k.dot(solved) ? square_ : 0.0; // `at` gives no less than 0
+  MeanSlopes s;
+  s.mean_inputs = scale * (turned * weights_);
+  s.variance_inputs = square * 2.0 * (own * slopes_ * input - turned * solved);
+  s.mean_amplitudes = scale * (training_.amplitudes * bare.cwiseProduct(weights_));
+  s.variance_amplitudes =
+      square * 2.0 * (prior * amplitudes - training_.amplitudes * bare.cwiseProduct(solved));
+  return s;
 }
 
 /// Dubrule, Math. Geol. 15 (1983) 687: the error of a group left out is (K^-1_PP)^-1 (K^-1 y)_P.

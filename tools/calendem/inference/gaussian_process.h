@@ -21,6 +21,11 @@ struct Mean {
   double mean = 0.0, variance = 0.0; ///< of the expectation over packings; variance: emulator's
 };
 
+/// Derivatives of a `Mean` along the inputs and the amplitudes.
+struct MeanSlopes {
+  Vector mean_inputs, mean_amplitudes, variance_inputs, variance_amplitudes;
+};
+
 /// How well it predicts runs of packings it has not seen.
 struct Quality {
   double q2 = 0.0;     ///< 1 - mean square error / variance (for an effect: / mean square)
@@ -41,8 +46,7 @@ public:
 
   /// Expectation over packings at one point. Far from all runs the variance is the prior's.
   Mean at(const Vector &input, const Vector &amplitudes) const;
-  /// Expectation only: a tenth of the work.
-  double mean_at(const Vector &input, const Vector &amplitudes) const;
+  MeanSlopes slopes_at(const Vector &input, const Vector &amplitudes) const;
 
   /// Every packing left out in turn (every run, when there are fewer than `kFewestPackings`).
   Quality left_out() const;

@@ -3,6 +3,7 @@
 #ifndef CALENDEM_INFERENCE_HYPOTHESIS_H
 #define CALENDEM_INFERENCE_HYPOTHESIS_H
 
+#include "inference/evidence.h"
 #include "inference/problem.h"
 #include <string>
 
@@ -32,8 +33,11 @@ public:
 
   int dimension() const;
   double log(const Vector &scores) const;
-  /// Square of observed - predicted in the inverse covariance.
-  double square(const Vector &scores) const;
+  /// With its gradient.
+  double log(const Vector &scores, Vector &gradient) const;
+  /// Square of observed - predicted in the inverse covariance, with its gradient. Of a hypothesis
+  /// that makes a prediction.
+  double square(const Vector &scores, Vector &gradient) const;
   /// Covariance of observed - predicted.
   Matrix covariance(const Vector &scores, const Prediction &prediction) const;
   Prediction predict(const Vector &scores) const;
@@ -42,7 +46,19 @@ private:
   const Problem &problem_;
   const Hypothesis &hypothesis_;
   const Matrix &unknown_;
+
+  bool has_size() const;
+  double noise_factor(const Vector &scores) const;
+  std::vector<Applied> applied(const Vector &scores) const;
+  Prediction bare(const Vector &scores) const;
+  Prediction shifted(const Vector &scores, const Prediction &bare) const;
+  double log_of_points(const Vector &scores) const;
+  double log_about(const Vector &scores, const Prediction &bare) const;
+  Misfit misfit(const Vector &scores, const Prediction &bare) const;
 };
+
+/// With the likelihood's own gradients.
+Evidence evidence(const Likelihood &likelihood, const EvidenceSettings &settings);
 
 /// Standard deviation of the unknown (in those of the observables) and factor of understated noise.
 extern const Prior kUnknownSize, kNoiseFactor;

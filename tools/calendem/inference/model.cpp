@@ -136,6 +136,7 @@ Problem Model::problem(const Vector &values) const {
   p.observed = map_->features_of(values);
   p.features = map_->features();
   p.blocks = map_->blocks();
+  p.roughness = map_->roughness();
   p.measurement = map_->covariance(measurement_);
   p.scatter = Matrix::Zero(all, all);
   p.scatter.topLeftCorner(n, n) = share * scatter_.covariance;
@@ -149,6 +150,14 @@ Problem Model::problem(const Vector &values) const {
                                                 const std::vector<Applied> &on) {
     Prediction out{Vector::Zero(all), Vector::Zero(all)};
     learnt->predict(base, on, share, 0, out);
+    return out;
+  };
+  p.slopes = [learnt = emulators_, share, all](const Vector &base, const std::vector<Applied> &on) {
+    Eigen::Index scores = base.size();
+    for (const Applied &a : on)
+      scores += a.scores.size();
+    Slopes out{Matrix::Zero(all, scores), Matrix::Zero(all, scores)};
+    learnt->slopes(base, on, share, 0, out);
     return out;
   };
   return p;
@@ -182,6 +191,7 @@ std::vector<Extension> Model::extensions(const Vector &values) const {
     p.correlation = joined(p.correlation, extra.correlation);
     for (int f = 0; f < added; ++f)
       p.features.push_back({int(p.blocks.size()), true});
+    p.slopes = nullptr; // those are of the old features only
     p.predict = [first = emulators_, second = extra.emulators, share, old,
                  all](const Vector &base, const std::vector<Applied> &on) {
       Prediction out{Vector::Zero(all), Vector::Zero(all)};

@@ -1,26 +1,93 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "inference/problem.h"
 #include "inference/scatter.h"
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
 
 namespace calendem::inference {
 namespace {
 
-constexpr double kStep = 0.05; // of sensitivities, in standard deviations of the prior
+constexpr double kStep = 1e-4; // of differences, in standard deviations of the prior
+
+Slopes by_differences(const Problem &problem, const Vector &base, const std::vector<Applied> &on) {
+  Vector at = base;
+  std::vector<Applied> with = on;
+  std::vector<double *> scores;
+  for (double &v : at)
+    scores.push_back(&v);
+  for (Applied &a : with)
+    for (double &v : a.scores)
+      scores.push_back(&v);
+  const auto features = Eigen::Index(problem.features.size()), n = Eigen::Index(scores.size());
+  Slopes s{Matrix(features, n), Matrix(features, n)};
+  for (Eigen::Index j = 0; j < n; ++j) {
+    double &moved = *scores[std::size_t(j)];
+    const double here = moved;
+    moved = here + kStep;
+    const Prediction above = problem.predict(at, with);
+    moved = here - kStep;
+    const Prediction below = problem.predict(at, with);
+    moved = here;
+    s.mean.col(j) = (above.mean - below.mean) / (2.0 * kStep);
+    s.variance.col(j) = (above.variance - below.variance) / (2.0 * kStep);
+  }
+  return s;
+}
 
 } // namespace
 
 Problem without_effect(const Problem &problem, int effect) {
   Problem out = problem;
   out.effects.erase(out.effects.begin() + effect);
-  out.predict = [predict = problem.predict, effect](const Vector &base,
-                                                    const std::vector<Applied> &on) {
-    std::vector<Applied> among_all = on;
-    for (Applied &a : among_all)
+  const auto among_all = [effect](std::vector<Applied> on) {
+    for (Applied &a : on)
       a.effect += a.effect >= effect;
-    return predict(base, among_all);
+    return on;
   };
+  out.predict = [predict = problem.predict, among_all](const Vector &base,
+                                                       const std::vector<Applied> &on) {
+    return predict(base, among_all(on));
+  };
+  if (problem.slopes)
+    out.slopes = [slopes = problem.slopes, among_all](const Vector &base,
+                                                      const std::vector<Applied> &on) {
+      return slopes(base, among_all(on));
+    };
   return out;
+}
+
+double PointNoise::times_stated() const {
+  const double spread = 2.0 / (9.0 * double(measured.size()));
+  const double square = std::pow(score * std::sqrt(spread) + 1.0 - spread, 3.0); // q / k
+  return std::sqrt(std::max(0.0, 1.0 + (square - 1.0) / measured.mean()));
+}
+
+Slopes slopes_of(const Problem &problem, const Vector &base, const std::vector<Applied> &on) {
+  return problem.slopes ? problem.slopes(base, on) : by_differences(problem, base, on);
+}
+
+Misfit misfit_of(const Problem &problem, const Vector &observed, const Prediction &prediction,
+                 const Matrix &covariance, const Slopes &slopes) {
+  const Cholesky factor(covariance);
+  const Vector apart = observed - prediction.mean, pulled = factor.solve(apart);
+  Misfit m;
+  m.square = apart.dot(pulled);
+  m.log_determinant = 2.0 * Matrix(factor.matrixL()).diagonal().array().log().sum();
+  const Matrix inverse = factor.solve(Matrix::Identity(apart.size(), apart.size()));
+  const Vector sd = prediction.variance.cwiseSqrt();
+  const Vector inverse_sd = (sd.array() > 0.0).select(sd.cwiseInverse(), 0.0);
+  const Matrix sd_slopes = 0.5 * inverse_sd.asDiagonal() * slopes.variance;
+  // An element of the errors' covariance is sd r sd of two features.
+  Vector of_square = pulled.cwiseProduct(sd), of_determinant = inverse.diagonal().cwiseProduct(sd);
+  if (problem.correlation.size() != 0) {
+    of_square = problem.correlation * of_square;
+    of_determinant = inverse.cwiseProduct(problem.correlation) * sd;
+  }
+  of_square = of_square.cwiseProduct(pulled);
+  m.square_slopes = -2.0 * (slopes.mean.transpose() * pulled + sd_slopes.transpose() * of_square);
+  m.determinant_slopes = 2.0 * sd_slopes.transpose() * of_determinant;
+  return m;
 }
 
 Vector drawn(const Problem &problem, const Vector &base, const std::vector<Applied> &on,
@@ -53,15 +120,7 @@ Linearised linearise(const Problem &problem, const Vector &base) {
   const Prediction here = problem.predict(base, {});
   l.mean = here.mean;
   l.covariance = covariance_about(problem, here);
-  l.sensitivity.resize(here.mean.size(), base.size());
-  Vector moved = base;
-  for (Eigen::Index j = 0; j < base.size(); ++j) {
-    moved[j] = base[j] + kStep;
-    const Vector above = problem.predict(moved, {}).mean;
-    moved[j] = base[j] - kStep;
-    l.sensitivity.col(j) = (above - problem.predict(moved, {}).mean) / (2.0 * kStep);
-    moved[j] = base[j];
-  }
+  l.sensitivity = slopes_of(problem, base, {}).mean;
   return l;
 }
 

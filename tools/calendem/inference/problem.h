@@ -22,19 +22,42 @@ struct Prediction {
   Vector variance; ///< of the emulators, and of the scatter the effects add
 };
 
+/// Derivatives of a prediction along the scores, the base parameters' and then the effects' in
+/// order: features x scores.
+struct Slopes {
+  Matrix mean, variance;
+};
+
+/// How the points of a measured curve scatter beside a smooth line.
+struct PointNoise {
+  std::string condition;
+  double score = 0.0; ///< about standard normal if their errors are as stated
+  Vector measured;    ///< share of measurement in the variance of each direction, 0..1
+
+  /// How many times as large as stated their errors look; 0: smaller than anything explains.
+  double times_stated() const;
+};
+
 struct Problem {
   Vector observed; ///< features
   std::vector<Feature> features;
   std::vector<Block> blocks;
-  Matrix measurement;              ///< covariance that is known
-  Matrix scatter;                  ///< of the packings, estimated
-  Matrix correlation;              ///< of the emulators' errors between features; empty: none
-  double degrees_of_freedom = 1e6; ///< of the t distribution of observed - predicted
-  int base_parameters = 0;         ///< number of scores of the base model
-  std::vector<Effect> effects;     ///< measurement faults too
-  Matrix discrepancy;              ///< covariance of the unknown, of one standard deviation
+  std::vector<Roughness> roughness;    ///< of the truncation residuals among the features
+  std::vector<PointNoise> point_noise; ///< no features: only understated noise foretells it
+  Matrix measurement;                  ///< covariance that is known
+  Matrix scatter;                      ///< of the packings, estimated
+  Matrix correlation;                  ///< of the emulators' errors between features; empty: none
+  double degrees_of_freedom = 1e6;     ///< of the t distribution of observed - predicted
+  int base_parameters = 0;             ///< number of scores of the base model
+  std::vector<Effect> effects;         ///< measurement faults too
+  Matrix discrepancy;                  ///< covariance of the unknown, of one standard deviation
   std::function<Prediction(const Vector &base, const std::vector<Applied> &)> predict;
+  /// Empty: by differences.
+  std::function<Slopes(const Vector &base, const std::vector<Applied> &on)> slopes;
 };
+
+/// The problem's, or central differences of step 1e-4.
+Slopes slopes_of(const Problem &problem, const Vector &base, const std::vector<Applied> &on);
 
 /// Data of this problem without the effect among the hypotheses.
 Problem without_effect(const Problem &problem, int effect);
@@ -49,6 +72,16 @@ Matrix emulator_errors(const Problem &problem, const Vector &variance);
 
 /// Of observed - predicted: measurement, scatter and the emulators' errors.
 Matrix covariance_about(const Problem &problem, const Prediction &prediction);
+
+/// Square of observed - predicted in the inverse covariance, and ln of that covariance's
+/// determinant; their derivatives along the scores that slopes are of.
+struct Misfit {
+  double square = 0.0, log_determinant = 0.0;
+  Vector square_slopes, determinant_slopes;
+};
+/// `covariance` is covariance_about the prediction, and more that does not change with the scores.
+Misfit misfit_of(const Problem &problem, const Vector &observed, const Prediction &prediction,
+                 const Matrix &covariance, const Slopes &slopes);
 
 /// The base model about a point: mean + sensitivity (scores - at).
 struct Linearised {

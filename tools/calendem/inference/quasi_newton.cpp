@@ -83,26 +83,19 @@ WithGradient with_differences(const std::function<double(const Vector &)> &funct
   };
 }
 
-Matrix hessian(const std::function<double(const Vector &)> &function, const Vector &at,
-               double step) {
+Matrix hessian(const WithGradient &function, const Vector &at, double step) {
   const auto n = at.size();
   Matrix second(n, n);
-  const double middle = function(at);
-  const auto shifted = [&](Eigen::Index i, double a, Eigen::Index j, double b) {
-    Vector x = at;
-    x[i] += a;
-    x[j] += b;
-    return function(x);
-  };
+  Vector moved = at, above(n), below(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    second(i, i) =
-        (shifted(i, step, i, 0.0) - 2.0 * middle + shifted(i, -step, i, 0.0)) / (step * step);
-    for (Eigen::Index j = 0; j < i; ++j)
-      second(i, j) = second(j, i) = (shifted(i, step, j, step) - shifted(i, step, j, -step) -
-                                     shifted(i, -step, j, step) + shifted(i, -step, j, -step)) /
-                                    (4.0 * step * step);
+    moved[i] = at[i] + step;
+    function(moved, above);
+    moved[i] = at[i] - step;
+    function(moved, below);
+    moved[i] = at[i];
+    second.col(i) = (above - below) / (2.0 * step);
   }
-  return second;
+  return 0.5 * (second + second.transpose());
 }
 
 } // namespace calendem::inference

@@ -23,9 +23,8 @@ Minimum minimise(const WithGradient &function, const Vector &start, int most = 6
 /// The gradient by central differences of step 1e-4.
 WithGradient with_differences(const std::function<double(const Vector &)> &function);
 
-/// The second derivatives by central differences.
-Matrix hessian(const std::function<double(const Vector &)> &function, const Vector &at,
-               double step);
+/// The second derivatives by central differences of the gradient.
+Matrix hessian(const WithGradient &function, const Vector &at, double step);
 
 } // namespace calendem::inference
 

@@ -64,18 +64,22 @@ double Signatures::odds_recalibrated(const Signature &truth, const Signature &ri
   const Prediction unmoved = problem_.predict(base_.at, rival.on);
   const Matrix covariance = covariance_about(problem_, unmoved);
   const double usual = log_determinant(Cholesky(covariance));
-  const auto square = [&](const Vector &scores) {
+  const auto square = [&](const Vector &scores, Vector &gradient) {
     const Prediction p = problem_.predict(scores, rival.on);
-    const Cholesky factor(covariance_about(problem_, p));
-    return factor.matrixL().solve(seen - p.mean).squaredNorm() + log_determinant(factor) - usual +
-           (scores - base_.at).squaredNorm();
+    Slopes slopes = slopes_of(problem_, scores, rival.on);
+    const auto n = scores.size(); // what the rival's own amplitude does is not asked
+    slopes = {slopes.mean.leftCols(n), slopes.variance.leftCols(n)};
+    const Misfit m = misfit_of(problem_, seen, p, covariance_about(problem_, p), slopes);
+    gradient = m.square_slopes + m.determinant_slopes + 2.0 * (scores - base_.at);
+    return m.square + m.log_determinant - usual + (scores - base_.at).squaredNorm();
   };
+  Vector unused(base_.at.size());
   const Matrix &s = base_.sensitivity;
   const Vector linear =
       base_.at +
       s.transpose() * Cholesky(covariance + s * s.transpose()).solve(seen - unmoved.mean);
-  const Vector start = square(linear) < square(base_.at) ? linear : base_.at;
-  const double least = minimise(with_differences(square), start).value;
+  const Vector start = square(linear, unused) < square(base_.at, unused) ? linear : base_.at;
+  const double least = minimise(square, start).value;
   return 0.5 * (least + rival.log_determinant - truth.log_determinant + rival.trace - truth.trace);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "inference/which.h"
 #include "inference/chances.h"
-#include "inference/quasi_newton.h"
 #include "spec/messages.h"
 #include <algorithm>
 #include <fmt/format.h>
@@ -16,12 +15,14 @@ Judged judge(const Problem &problem, const Hypothesis &hypothesis, const Matrix 
   Judged j;
   j.hypothesis = hypothesis;
   const Likelihood likelihood(problem, hypothesis, unknown);
-  j.evidence = evidence(
-      likelihood.dimension(), [&](const Vector &s) { return likelihood.log(s); },
-      settings.evidence);
+  j.evidence = evidence(likelihood, settings.evidence);
   if (hypothesis.kind == Hypothesis::none || hypothesis.kind == Hypothesis::effects) {
-    const auto square = [&](const Vector &s) { return likelihood.square(s) + s.squaredNorm(); };
-    const Minimum least = minimise(with_differences(square), j.evidence.mode);
+    const auto square = [&](const Vector &s, Vector &gradient) {
+      const double of_data = likelihood.square(s, gradient);
+      gradient += 2.0 * s;
+      return of_data + s.squaredNorm();
+    };
+    const Minimum least = minimise(square, j.evidence.mode);
     j.adequacy_p =
         chance_beyond(least.value, int(problem.observed.size()), problem.degrees_of_freedom);
   }

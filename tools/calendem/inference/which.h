@@ -21,8 +21,12 @@ struct WhichSettings {
   bool noise = true;  ///< "noise" (understated errors) is a hypothesis
   int pair_seeds = 2; ///< best single effects that are joined with all others and unknown
   double claim_probability = 0.8; ///< a name is claimed from here on
-  double adequacy = 0.01;         ///< and only with at least this p
-  std::vector<std::string> poor;  ///< effects whose emulators are too poor to be claimed
+  double adequacy = 0.05;         ///< and only with at least this p
+  double nothing_fits = 0.01;     ///< all predictions below: what explains the data is unknown
+  /// Points of a curve tell how large errors are; without, noise is not claimed: what is measured
+  /// once cannot tell a large error from an unknown effect.
+  bool noise_seen = true;
+  std::vector<std::string> poor; ///< effects whose emulators are too poor to be claimed
   EvidenceSettings evidence;
 };
 
