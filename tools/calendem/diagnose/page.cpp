@@ -85,6 +85,16 @@ json evidence_of(const json &which) {
   return rows;
 }
 
+std::string release_noise(const json &gap) {
+  std::vector<std::string> all;
+  for (const json &p : gap["point_noise"])
+    all.push_back(fmt::format("{:.2g} ({})", p["times_stated"].get<double>(),
+                              p["condition"].get<std::string>()));
+  return all.empty() ? "No release tells how large the errors of the measurement are."
+                     : fmt::format("Points of the release scatter {} times as much as is stated.",
+                                   fmt::join(all, ", "));
+}
+
 } // namespace
 
 std::string diagnosis_page(const nlohmann::ordered_json &ordered) {
@@ -106,6 +116,7 @@ std::string diagnosis_page(const nlohmann::ordered_json &ordered) {
   values["emulators"] = emulators_of(gap);
   values["evidence"] = evidence_of(gap["which"]);
   values["degrees"] = shown(gap["scatter"]["degrees_of_freedom"], "{:.0f}");
+  values["release_noise"] = release_noise(gap);
   values["not_said"] = gap["not_said"];
   values["provenance_rows"] = report::facts_of(gap["provenance"], {});
   values["json"] = report::in_script(ordered.dump());

@@ -42,7 +42,7 @@ const std::vector<Effect> &effects() {
         0.6,
         Spread::Uniform,
         AmplitudeScale::Difference,
-        0.4},
+        0.7},
        false,
        "more pressure from 1 to 30 MPa on, more hysteresis, a gradient through the thickness",
        "public calendering decks use 0.001; 0.3-0.6 is usual for dry mineral grains",
