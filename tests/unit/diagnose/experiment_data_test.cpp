@@ -95,6 +95,42 @@ TEST(ExperimentData, TheReleaseOfACurveCountsWhereTheBankHasReleases) {
   EXPECT_TRUE(told(without, "p30: the bank's table has no displacements on release"));
 }
 
+// One point of friction whose release ends early costs that point; a base point's costs the
+// observable.
+TEST(ExperimentData, AnEffectsPointThatLacksWhatOthersHaveIsLeftOut) {
+  Experiment e = made_experiment(kTruth);
+  BankTable bank = with_release(made_bank());
+  const SimulatedRun run = bank.rows[0].run;
+  e.conditions.resize(1);
+  e.conditions[0].curve = (calendem_test::test_folder() / "curve.csv").string();
+  e.conditions[0].curve_sd_um = 0.02;
+  std::ofstream curve(e.conditions[0].curve);
+  curve << "displacement_um,pressure_MPa,stage\n" << run.displacement.back() << ",30,loading\n";
+  for (std::size_t k = run.release_pressure.size(); k-- > 0;)
+    curve << run.release_displacement[k] << ',' << run.release_pressure[k] << ",unloading\n";
+  curve.close();
+  const auto of_friction = [](const ExperimentData &data) {
+    return std::count_if(data.bank.runs.begin(), data.bank.runs.end(),
+                         [](const inference::Run &r) { return r.effect == "friction"; });
+  };
+  const ExperimentData whole = data_of(e, bank, {});
+  const auto cut = [&](const std::string &effect) {
+    BankTable with = bank;
+    const auto row = std::find_if(with.rows.begin(), with.rows.end(), [&](const BankRow &r) {
+      return r.point.effect == effect && r.run.target == 30.0;
+    });
+    row->run.release_pressure.resize(2);
+    row->run.release_displacement.resize(2);
+    return data_of(e, with, {});
+  };
+  const ExperimentData without_one = cut("friction"), without_base = cut("");
+  EXPECT_EQ(without_one.experiment.of.size(), whole.experiment.of.size());
+  EXPECT_EQ(of_friction(without_one), of_friction(whole) - 1);
+  EXPECT_TRUE(told(without_one, "1 of the bank's 36 points lack what nearly all others have"));
+  EXPECT_LT(without_base.experiment.of.size(), whole.experiment.of.size());
+  EXPECT_EQ(of_friction(without_base), of_friction(whole));
+}
+
 TEST(ExperimentData, OnlyTheConditionsThatAreWanted) {
   const ExperimentData data = data_of(made_experiment(kTruth), made_bank(), {"p60"});
   for (const inference::Observable &o : data.experiment.of)

@@ -15,6 +15,7 @@ namespace {
 
 // Of the value: what an observable without sd counts as good to, so that no covariance is singular.
 constexpr double kExact = 1e-3;
+constexpr double kRarely = 0.03; // of the points
 
 inference::Prior prior_of(Spread spread, double low, double high) {
   return {spread == Spread::LogUniform ? inference::Prior::log_uniform : inference::Prior::uniform,
@@ -194,6 +195,33 @@ void tell_other_effects(const BankSpec &spec, std::vector<std::string> &not_said
                                    fmt::join(others, ", ")));
 }
 
+/// Points of effects that lack what nearly all others have are left out: else it would be.
+std::vector<PointRuns> complete(std::vector<PointRuns> points, const std::vector<Covered> &all,
+                                std::vector<std::string> &not_said) {
+  std::vector<Vector> values;
+  for (const PointRuns &runs : points)
+    values.push_back(values_of(all, runs, [](const SimulatedRun &r) { return r; }));
+  std::vector<bool> out(points.size(), false);
+  for (Eigen::Index k = 0; k < (values.empty() ? 0 : values.front().size()); ++k) {
+    std::vector<std::size_t> lacking;
+    for (std::size_t p = 0; p < points.size(); ++p)
+      if (!std::isfinite(values[p][k]))
+        lacking.push_back(p);
+    const bool rare = double(lacking.size()) <= kRarely * double(points.size());
+    for (const std::size_t p : lacking)
+      out[p] = out[p] || (rare && !points[p].front()->point.effect.empty());
+  }
+  std::vector<PointRuns> kept;
+  for (std::size_t p = 0; p < points.size(); ++p)
+    if (!out[p])
+      kept.push_back(points[p]);
+  if (kept.size() < points.size())
+    not_said.push_back(fmt::format("{} of the bank's {} points lack what nearly all others have "
+                                   "and are left out.",
+                                   points.size() - kept.size(), points.size()));
+  return kept;
+}
+
 void fill_bank(double film, const BankTable &table, const std::vector<Covered> &all,
                const std::vector<PointRuns> &points, inference::Bank &bank) {
   for (const BankParameter &p : table.spec.parameters)
@@ -235,13 +263,14 @@ ExperimentData data_of(const Experiment &experiment, const BankTable &as_given,
   ExperimentData data;
   tell_other_effects(as_given.spec, data.not_said);
   BankTable table = as_given;
-  const std::vector<PointRuns> points =
+  const std::vector<PointRuns> all_points =
       enough(points_of(table, data.not_said), table.spec, data.not_said);
   const std::vector<Covered> now = covered_by(experiment, table, conditions, data.not_said);
   const std::vector<Further> further = further_measurements(experiment, table, now);
   std::vector<Covered> all = now;
   for (const Further &f : further)
     all.insert(all.end(), f.of.begin(), f.of.end());
+  const std::vector<PointRuns> points = complete(all_points, all, data.not_said);
   fill_bank(film_ratio(experiment, full_cell), table, all, points, data.bank);
   inference::ObservableVector measured = measured_of(now, by_pressure(now, points));
   if (const Transfer t = transfer_of(experiment, full_cell, all, data.not_said); t.change.size()) {
