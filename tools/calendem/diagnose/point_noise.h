@@ -12,7 +12,7 @@ namespace calendem {
 /// their mean over the bank, squared in the covariance of stated errors and bank. There the part
 /// that base parameters and effects move (a linear fit of all points) counts whole, the rest, the
 /// packings' scatter, by 1 / `cells`. Not of the loading: small films yield in jerks, far from
-/// normal (its score had a standard deviation of 2 on 240 curves whose errors were as stated, that
+/// normal (its score had a standard deviation of 2 on 480 curves whose errors were as stated, that
 /// of the release 0.99).
 std::vector<inference::PointNoise> point_noise_of(const Experiment &experiment,
                                                   const BankTable &table, double cells);
