@@ -207,9 +207,11 @@ std::vector<PointRuns> complete(std::vector<PointRuns> points, const std::vector
     for (std::size_t p = 0; p < points.size(); ++p)
       if (!std::isfinite(values[p][k]))
         lacking.push_back(p);
-    const bool rare = double(lacking.size()) <= kRarely * double(points.size());
+    const bool of_effects = std::all_of(lacking.begin(), lacking.end(), [&](std::size_t p) {
+      return !points[p].front()->point.effect.empty();
+    });
     for (const std::size_t p : lacking)
-      out[p] = out[p] || (rare && !points[p].front()->point.effect.empty());
+      out[p] = out[p] || (of_effects && double(lacking.size()) <= kRarely * double(points.size()));
   }
   std::vector<PointRuns> kept;
   for (std::size_t p = 0; p < points.size(); ++p)
