@@ -169,8 +169,9 @@ TEST(Decide, ClaimRuleAndPriors) {
   s.noise = false;
   const Which a = decided(6.0, 0.5, 0.5, s);
   EXPECT_EQ(a.claim, "a");
-  // a: 0.5 * 0.9 / 2 = 0.225 times e^6; none: 0.4.
-  EXPECT_NEAR(a.judged[0].probability, 0.225 * std::exp(6.0) / (0.225 * std::exp(6.0) + 0.4), 1e-8);
+  // a: 0.35 * 0.9 / 2 = 0.1575 times e^6; none: 0.4.
+  EXPECT_NEAR(a.judged[0].probability, 0.1575 * std::exp(6.0) / (0.1575 * std::exp(6.0) + 0.4),
+              1e-8);
   EXPECT_EQ(decided(0.5, 0.5, 0.5, s).claim, "undecided");
   EXPECT_EQ(decided(6.0, 0.03, 0.5, s).claim, "undecided");
   EXPECT_EQ(decided(6.0, 0.03, 0.03, s).claim, "undecided"); // too bad to claim, not to be unknown
@@ -213,11 +214,11 @@ TEST(Decide, NoiseOrUnknownWhereNothingFits) {
     j.adequacy_p = kind == Hypothesis::none ? 0.001 : 1.0;
     w.judged.push_back(j);
   }
-  w.judged[0].evidence.log_evidence = -1.0; // 0.4 e^-1, 0.5 and 0.1
+  w.judged[0].evidence.log_evidence = -1.0; // 0.4 e^-1, 0.35 and 0.25
   decide(w, {}, 0);
   EXPECT_EQ(w.claim, "undecided");
   EXPECT_NEAR(w.of("unknown").probability,
-              (0.1 + 0.4 * std::exp(-1.0)) / (0.6 + 0.4 * std::exp(-1.0)), 1e-12);
+              (0.25 + 0.4 * std::exp(-1.0)) / (0.6 + 0.4 * std::exp(-1.0)), 1e-12);
 }
 
 // An effect whose posterior lies to 3/4 below its limit: what of it can be seen is a quarter.
@@ -226,7 +227,7 @@ TEST(Decide, EffectsTooSmallToBeSeenCountAsNone) {
   Problem problem = world.problem(Vector::Zero(2));
   problem.effects[0].parameters[0].prior = {Prior::uniform, 0.0, 1.0};
   const Prior &p = problem.effects[0].parameters[0].prior;
-  // priors 0.4, 0.5 and 0.1: none is left 0.6, the effect 0.32, the unknown 0.08
+  // priors 0.4, 0.35 and 0.25: none is left 0.6, the effect 0.32, the unknown 0.08
   const auto decided = [&](double limit, double none = 0.6, double effect = 0.32,
                            double adequacy = 1.0) {
     Which w;
@@ -241,8 +242,8 @@ TEST(Decide, EffectsTooSmallToBeSeenCountAsNone) {
       w.judged.push_back(j);
     };
     add(Hypothesis::none, {}, "none", none / 0.4);
-    add(Hypothesis::effects, {0}, "effect 0", effect / 0.5);
-    add(Hypothesis::unknown, {}, "unknown", (1.0 - none - effect) / 0.1);
+    add(Hypothesis::effects, {0}, "effect 0", effect / 0.35);
+    add(Hypothesis::unknown, {}, "unknown", (1.0 - none - effect) / 0.25);
     set_limits(w, problem, {limit});
     decide(w, {}, 1);
     return w;

@@ -29,6 +29,7 @@ SimulatedRun run_by_formula(double stiffness, double friction, int packing, doub
   r.thickness_at_max = 13.0 + 0.6 * stiffness - 0.01 * target + own;
   r.thickness_after = r.thickness_at_max + 1.0 + 0.4 * stiffness;
   r.porosity_at_max = 1.0 - r.solid_column / r.thickness_at_max;
+  r.porosity_initial = 0.48;
   r.porosity_after = 1.0 - r.solid_column / r.thickness_after;
   r.cracked_fraction = 0.2;
   for (double p = 0.25; p <= 1.2 * target; p += 0.25) {

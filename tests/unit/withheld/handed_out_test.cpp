@@ -129,6 +129,7 @@ PressedSamples pressed(double target) {
     SimulatedRun s;
     s.thickness_at_max = 14.0;
     s.thickness_after = 16.0;
+    s.porosity_initial = 0.48;
     s.porosity_after = 0.43 + 0.5 * off;
     s.cracked_fraction = 0.5;
     for (double p = 0.0; p <= 1.2 * target; p += 0.1) {

@@ -206,6 +206,8 @@ SimulatedRun shown_with(const Effect &effect, double value, const SimulatedRun &
   SimulatedRun out = run;
   out.thickness_at_max = press.thickness_shown(run.thickness_at_max);
   out.thickness_after = press.thickness_shown(run.thickness_after);
+  const double before = run.solid_column / (1.0 - run.porosity_initial);
+  out.porosity_initial = 1.0 - run.solid_column / press.thickness_shown(before);
   out.porosity_after = 1.0 - run.solid_column / out.thickness_after;
   for (std::size_t k = 0; k < run.pressure.size(); ++k)
     out.displacement[k] = press.displacement_shown(run.displacement[k], run.pressure[k]);

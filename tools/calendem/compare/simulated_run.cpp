@@ -73,7 +73,7 @@ void read_summary(const std::string &folder, SimulatedRun &run, Mistakes &mistak
   run.max_pressure = number(s, "max_pressure_shown_MPa", file, mistakes);
   run.thickness_at_max = number(s, "thickness_at_max_shown_um", file, mistakes);
   run.thickness_after = number(s, "thickness_after_relaxation_shown_um", file, mistakes);
-  run.porosity_initial = number(s, "porosity_initial", file, mistakes);
+  run.porosity_initial = number(s, "porosity_initial_shown", file, mistakes);
   run.porosity_at_max = number(s, "porosity_at_max", file, mistakes);
   run.porosity_after = number(s, "porosity_after_relaxation_shown", file, mistakes);
   if (s.contains("imposed") && s["imposed"].is_object())

@@ -172,9 +172,6 @@ std::vector<Covered> covered_by(const Experiment &e, const BankTable &table,
           c.id));
     const Condition known = with_loading(e, c, table, not_said);
     std::vector<Observable> seen = observables_of(e, known, not_said);
-    seen.erase(std::remove_if(seen.begin(), seen.end(),
-                              [](const Observable &o) { return o.stage == kBefore; }),
-               seen.end());
     if (!has_release(table) && std::any_of(seen.begin(), seen.end(), of_release)) {
       seen.erase(std::remove_if(seen.begin(), seen.end(), of_release), seen.end());
       not_said.push_back(fmt::format("{}: the bank's table has no displacements on release; the "

@@ -108,17 +108,16 @@ std::vector<std::string> other_samples(const Experiment &e) {
         p && std::fabs(p->value - recipe) > std::max(3.0 * p->sd, 0.02 * recipe))
       out.push_back(
           fmt::format("{}: its porosity before calendering is {:g} ± {:g} %, the recipe's "
-                      "coating.porosity_total_percent is {:g}",
+                      "coating.porosity_total_percent is {:g}: another coating than the bank's, or "
+                      "a wrong thickness or loading.",
                       c.id, p->value, p->sd, recipe));
   return out;
 }
 
 /// A bank says nothing of another electrode.
 std::string of_another_electrode(const Options &o, const Experiment &e, const BankSpec &bank) {
-  auto differs =
+  const auto differs =
       other_electrode(read_recipe(bank.recipe_file).settings.all(), e.recipe.settings.all());
-  for (const std::string &sample : other_samples(e))
-    differs.push_back(sample);
   if (differs.empty())
     return "";
   const std::string text =
@@ -140,11 +139,14 @@ void run(Options o) {
   const std::string another = of_another_electrode(o, experiment, table.spec);
   SharedModels models;
   Diagnosed d = diagnosed(experiment, table, o.cells, models);
-  if (!another.empty()) {
-    d.data.not_said.insert(d.data.not_said.begin(), another);
-    d.gap["not_said"] = d.data.not_said;
-    fmt::print("note: {}\n", another);
+  std::vector<std::string> first = other_samples(experiment);
+  if (!another.empty())
+    first.push_back(another);
+  for (const std::string &note : first) {
+    d.data.not_said.insert(d.data.not_said.begin(), note);
+    fmt::print("note: {}\n", note);
   }
+  d.gap["not_said"] = d.data.not_said;
   nlohmann::ordered_json &provenance = d.gap["provenance"];
   provenance["experiment_file"] = hash_of_file(o.experiment);
   provenance["bank"] = hash_of_file(o.bank);

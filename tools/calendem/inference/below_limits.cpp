@@ -31,6 +31,14 @@ void set_limits(Which &w, const Problem &problem, const std::vector<double> &lim
       j.below_limits = 1.0;
     else if (j.hypothesis.kind == Hypothesis::effects)
       j.below_limits = share_below(problem, j, limits);
+  for (Judged &j : w.judged) // what acts like an effect is seen where that is
+    if (j.hypothesis.kind == Hypothesis::unknown) {
+      j.below_limits = 0.0;
+      for (const Judged &known : w.judged)
+        if (const auto at = j.of_place.find("like " + known.hypothesis.name);
+            at != j.of_place.end())
+          j.below_limits += at->second * known.below_limits;
+    }
 }
 
 } // namespace calendem::inference

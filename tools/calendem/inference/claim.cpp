@@ -96,6 +96,16 @@ const Judged *unsettled(const std::vector<Judged> &judged) {
   return nullptr;
 }
 
+/// How probable it is that only something like the effects of that name acts.
+std::string told_alike(const Which &w, const std::string &name) {
+  for (const Judged &j : w.judged)
+    if (const auto at = j.of_place.find("like " + name);
+        at != j.of_place.end() && at->second * j.probability > kCounts)
+      return fmt::format(" An effect outside the table that acts like it has {:.3g}.",
+                         at->second * j.probability);
+  return "";
+}
+
 /// Claim and its reason; hypotheses are sorted.
 void claim(Which &w, const WhichSettings &settings) {
   const Judged &best = w.judged.front();
@@ -136,8 +146,8 @@ void claim(Which &w, const WhichSettings &settings) {
                         "on these data it is {:.3g}.",
                         best.probability, w.none_to_be_seen);
   } else if (best.probability < settings.claim_probability) {
-    w.why = fmt::format("The most probable, {}, has {:.3g}; a claim needs {:g}.", name,
-                        best.probability, settings.claim_probability);
+    w.why = fmt::format("The most probable, {}, has {:.3g}; a claim needs {:g}.{}", name,
+                        best.probability, settings.claim_probability, told_alike(w, name));
   } else if (few) {
     w.why = fmt::format("The evidence of {} rests on {:.0f} samples that count; at least {:g} are "
                         "asked for.",

@@ -25,16 +25,19 @@ Json where_of(const Diagnosis &d) {
 }
 
 Json evidence_of(const Judged &j) {
-  return {{"hypothesis", j.hypothesis.name},
-          {"prior", j.hypothesis.prior},
-          {"probability", j.probability},
-          {"log_evidence", j.evidence.log_evidence},
-          {"log_evidence_error", j.evidence.error},
-          {"log_evidence_laplace", j.evidence.laplace},
-          {"samples", j.evidence.samples},
-          {"effective_samples", j.evidence.effective_samples},
-          {"adequacy_p", j.adequacy_p},
-          {"place", j.place}};
+  Json out = {{"hypothesis", j.hypothesis.name},
+              {"prior", j.hypothesis.prior},
+              {"probability", j.probability},
+              {"log_evidence", j.evidence.log_evidence},
+              {"log_evidence_error", j.evidence.error},
+              {"log_evidence_laplace", j.evidence.laplace},
+              {"samples", j.evidence.samples},
+              {"effective_samples", j.evidence.effective_samples},
+              {"adequacy_p", j.adequacy_p},
+              {"place", j.place}};
+  if (!j.of_place.empty())
+    out["places"] = j.of_place;
+  return out;
 }
 
 Json which_of(const Diagnosis &d) {

@@ -18,7 +18,8 @@ Likelihood::Likelihood(const Problem &problem, const Hypothesis &hypothesis, con
 
 /// Its last score is that of a factor or a standard deviation that no prediction depends on.
 bool Likelihood::has_size() const {
-  return hypothesis_.kind == Hypothesis::noise || hypothesis_.kind == Hypothesis::unknown;
+  return hypothesis_.kind == Hypothesis::noise ||
+         (hypothesis_.kind == Hypothesis::unknown && hypothesis_.size == 0.0);
 }
 
 int Likelihood::dimension() const {
@@ -67,7 +68,7 @@ Matrix Likelihood::covariance(const Vector &scores, const Prediction &prediction
     for (const Roughness &r : problem_.roughness)
       total(r.feature, r.feature) = score_moments(r.measured, factor).variance;
   } else if (hypothesis_.kind == Hypothesis::unknown) {
-    const double sd = kUnknownSize.value(scores[scores.size() - 1]);
+    const double sd = has_size() ? kUnknownSize.value(scores[scores.size() - 1]) : hypothesis_.size;
     total += sd * sd * unknown_;
   }
   return total;

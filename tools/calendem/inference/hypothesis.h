@@ -20,6 +20,7 @@ struct Hypothesis {
   std::vector<int> on; ///< places in the problem's effects
   std::string name;    ///< none, unknown, noise, or the effects' names joined by " + "
   double prior = 0.0;
+  double size = 0.0; ///< of the unknown, in standard deviations; 0: to be found, its last score
 
   bool single() const { return kind == effects && on.size() == 1; }
 };

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "inference/which.h"
 #include "inference/chances.h"
+#include "inference/unknown_places.h"
 #include "spec/messages.h"
 #include <algorithm>
 #include <fmt/format.h>
 
 namespace calendem::inference {
 namespace {
-
-constexpr double kBeside = 0.2; // share of the unknown's prior that sits beside a known effect
 
 Judged judge(const Problem &problem, const Hypothesis &hypothesis, const Matrix &unknown,
              const WhichSettings &settings) {
@@ -29,78 +28,20 @@ Judged judge(const Problem &problem, const Hypothesis &hypothesis, const Matrix 
   return j;
 }
 
-/// A place where the unknown may sit, its covariance there, and the effect that it sits beside.
-struct Place {
-  std::string name;
-  double share = 1.0;
-  Matrix unknown;
-  std::vector<int> on = {};
-};
-
-/// Places that the effects have no part in.
-std::vector<Place> places_alone(const Problem &problem, const Linearised &base) {
-  std::vector<Place> places{{"everywhere", 1.0, beyond_recalibration(base, problem.discrepancy)}};
-  const auto add = [&](const std::string &name, const auto &contains) {
-    Vector mask(problem.observed.size());
-    for (Eigen::Index f = 0; f < mask.size(); ++f)
-      mask[f] = contains(problem.blocks[problem.features[f].block]) ? 1.0 : 0.0;
-    const bool everywhere = mask.minCoeff() > 0.0;
-    bool known = everywhere;
-    for (const Place &p : places)
-      known |= p.name == name;
-    if (!known)
-      places.push_back({name, 1.0,
-                        beyond_recalibration(base, mask.asDiagonal() * problem.discrepancy *
-                                                       mask.asDiagonal())});
-  };
-  for (const Block &b : problem.blocks)
-    add(b.stage, [&](const Block &o) { return o.stage == b.stage; });
-  for (const Block &b : problem.blocks)
-    add(b.name + ", " + b.stage,
-        [&](const Block &o) { return o.name == b.name && o.stage == b.stage; });
-  for (const Block &b : problem.blocks)
-    add(b.name + ", " + b.stage + ", " + b.condition, [&](const Block &o) { return &o == &b; });
-  for (Eigen::Index f = 0; f < problem.observed.size(); ++f)
-    if (!problem.features[f].emulated) {
-      const Block &b = problem.blocks[problem.features[f].block];
-      places.push_back({b.name + ", " + b.stage + ", " + b.condition + ", unlike any run", 1.0,
-                        Matrix::Zero(problem.observed.size(), problem.observed.size())});
-      places.back().unknown(f, f) = 1.0;
-    }
-  const double others = double(places.size()) - 1.0;
-  for (std::size_t k = 0; k < places.size() && others > 0.0; ++k)
-    places[k].share = k == 0 ? 0.5 : 0.5 / others;
-  return places;
-}
-
-/// All places worth computing: beside effects, those that explain most.
-std::vector<Place> places_of(const Problem &problem, const Linearised &base,
-                             const std::vector<int> &best) {
-  std::vector<Place> places = places_alone(problem, base);
-  if (best.empty())
-    return places;
-  for (Place &p : places)
-    p.share *= 1.0 - kBeside;
-  const Place everywhere = places.front();
-  for (const int e : best)
-    places.push_back({"beside " + problem.effects[e].name,
-                      kBeside / double(problem.effects.size()),
-                      everywhere.unknown,
-                      {e}});
-  return places;
-}
-
 /// The unknown with its evidence averaged over places; parameters are those of the best place.
 Judged judge_unknown(const Problem &problem, const WhichSettings &settings,
                      const std::vector<int> &best_effects, Which &w) {
   Judged best;
   double sum = 0.0, top = -INFINITY;
-  std::vector<std::pair<double, double>> terms; // share, log evidence
-  for (const Place &place : places_of(problem, w.base, best_effects)) {
-    Judged here =
-        judge(problem, {Hypothesis::unknown, place.on, "unknown", 0.0}, place.unknown, settings);
+  struct Term {
+    std::string place;
+    double share, log_evidence;
+  };
+  std::vector<Term> terms;
+  for (const UnknownPlace &place : unknown_places(problem, w, best_effects, settings.priors)) {
+    Judged here = judge(problem, place.hypothesis, place.unknown, settings);
     here.place = place.name;
-    terms.emplace_back(place.share, here.evidence.log_evidence);
+    terms.push_back({place.name, place.share, here.evidence.log_evidence});
     const double mass = std::log(place.share) + here.evidence.log_evidence;
     if (!(mass > top))
       continue;
@@ -108,8 +49,10 @@ Judged judge_unknown(const Problem &problem, const WhichSettings &settings,
     best = std::move(here);
     w.unknown = place.unknown;
   }
-  for (const auto &[share, log_evidence] : terms)
-    sum += std::exp(std::log(share) + log_evidence - top);
+  for (const Term &t : terms)
+    sum += std::exp(std::log(t.share) + t.log_evidence - top);
+  for (const Term &t : terms)
+    best.of_place[t.place] = std::exp(std::log(t.share) + t.log_evidence - top) / sum;
   const double shift = top + std::log(sum) - best.evidence.log_evidence;
   best.evidence.log_evidence += shift;
   best.evidence.laplace += shift;

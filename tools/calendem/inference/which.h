@@ -12,7 +12,7 @@ namespace calendem::inference {
 /// Prior probabilities. What none and unknown leave is shared: pairs get `pair_share` of it in
 /// equal parts for all pairs there are, computed or not; single ones the rest by weight.
 struct Priors {
-  double none = 0.4, unknown = 0.1, pair_share = 0.1;
+  double none = 0.4, unknown = 0.25, pair_share = 0.1;
   std::map<std::string, double> weight; ///< of single effects and noise; 1 where not named
 };
 
@@ -35,7 +35,8 @@ struct Judged {
   Evidence evidence;
   double adequacy_p = 1.0; ///< of its best fit; 1 for unknown and noise, which fit anything
   double probability = 0.0;
-  std::string place; ///< of unknown: the most probable of its places
+  std::string place;                      ///< of unknown: the most probable of its places
+  std::map<std::string, double> of_place; ///< of unknown: share of its posterior by place
   /// Share of its posterior in which all its effects are too small to be seen; 0: not known.
   double below_limits = 0.0;
 };
@@ -67,9 +68,11 @@ struct Which {
 /// with an estimated covariance; p is the chance of more. Nothing is lost to recalibration because
 /// the priors count as data. Claim: see `why`; if no prediction is adequate all their
 /// probability is the unknown's.
-/// The unknown may sit everywhere (0.4 of its prior), in one stage, one observable of it, one block
-/// or one truncation residual (0.4 in equal parts), or beside a known effect (0.2 in equal parts
-/// for all effects, the best of which are computed); its evidence is the mean over these places.
+/// The unknown acts like a known effect or pair, but for half of the signature's length (0.6 of its
+/// prior, shared as among the known); or sits everywhere (0.16), in one stage, one observable of
+/// it, one block or one truncation residual (0.16 in equal parts), or beside a known effect (0.08
+/// in equal parts for all effects, the best of which are computed). Its evidence is the mean over
+/// these.
 Which which(const Problem &problem, const WhichSettings &settings);
 
 /// The rule alone, on hypotheses that have evidence and adequacy: sets probabilities and sorts.

@@ -260,6 +260,7 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   s["quasi_static"] = quasi_static(rows, settings.number("numerics.average_us"));
   s["energy_fJ"] = energy_ledger(rows, top);
   const PressInstruments press = instruments_of(settings);
+  s["porosity_initial_shown"] = total_porosity(e, press.thickness_shown(e.thickness));
   s["max_pressure_shown_MPa"] = press.pressure_shown(top.p_top);
   s["thickness_at_max_shown_um"] = press.thickness_shown(top.gap);
   s["thickness_after_relaxation_shown_um"] = press.thickness_shown(gap);

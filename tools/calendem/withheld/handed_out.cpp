@@ -83,6 +83,9 @@ std::string condition(const Round &round, const PressedSamples &samples, double 
   const auto add = [&](const char *key, double value, double sd) {
     out += fmt::format("{} = {{ value = {:.5f}, sd = {:g} }}\n", key, value, sd);
   };
+  add("porosity_before_percent",
+      press.with_noise(100.0 * shown(&SimulatedRun::porosity_initial), n.porosity_percent),
+      n.porosity_percent);
   add("porosity_after_percent",
       press.with_noise(100.0 * shown(&SimulatedRun::porosity_after), n.porosity_percent),
       n.porosity_percent);
