@@ -300,9 +300,11 @@ TEST(Bank, InstrumentsChangeWhatIsShownOnly) {
   const SimulatedRun zero = shown_with(find_effect("thickness_zero"), 2.0, run);
   EXPECT_EQ(zero.thickness_after, 58.0);
   EXPECT_NEAR(zero.porosity_after, 1.0 - 40.0 / 58.0, 1e-12);
+  EXPECT_NEAR(zero.porosity_initial, 1.0 - 40.0 / (40.0 / 0.52 + 2.0), 1e-12);
   EXPECT_EQ(zero.displacement, run.displacement);
   const SimulatedRun soft = shown_with(find_effect("machine_compliance"), 0.05, run);
   EXPECT_EQ(soft.thickness_after, run.thickness_after);
+  EXPECT_NEAR(soft.porosity_initial, 0.48, 1e-12);
   EXPECT_NEAR(soft.displacement.back(), run.displacement.back() + 4.0, 1e-12);
   EXPECT_NEAR(soft.release_displacement[40], run.release_displacement[40] + 2.0, 1e-12);
   EXPECT_EQ(zero.release_displacement, run.release_displacement);

@@ -40,6 +40,9 @@ TEST(ClaimInWords, EveryClaimSaysWhatItMeansAndWhatToDo) {
   expect_parts(claimed("noise"),
                {"errors of the measurement are understated", "Measure again", "looks the same"});
   expect_parts(claimed("unknown"), {"no known effect", "here: relaxation", "Do not recalibrate"});
+  Json alike = claimed("unknown");
+  alike["which"]["evidence"][0]["place"] = "like friction";
+  expect_parts(alike, {"It acts most like friction, but not just so."});
   expect_parts(claimed("undecided"), {"friction; none", "Measure: cracks of p30", "83 %", "50 %"});
 }
 

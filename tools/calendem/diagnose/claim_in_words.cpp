@@ -45,6 +45,14 @@ std::string place_of_unknown(const Json &gap) {
   return "everywhere";
 }
 
+/// Where it sits, or what it acts like.
+std::string told_of_unknown(const Json &gap) {
+  const std::string place = place_of_unknown(gap), like = "like ";
+  return place.rfind(like, 0) == 0
+             ? fmt::format("It acts most like {}, but not just so.", place.substr(like.size()))
+             : fmt::format("The discrepancy sits most likely here: {}.", place);
+}
+
 Words none() {
   return {"No gap beyond noise: the base model suffices",
           "With its parameters recalibrated the base model fits all that was measured.",
@@ -64,11 +72,9 @@ Words noise() {
 
 Words unknown(const Json &gap) {
   return {"A gap that no known effect explains",
-          fmt::format("Neither the base model nor any effect of the bank fits. The discrepancy "
-                      "sits most likely here: {}.",
-                      place_of_unknown(gap)),
+          "Neither the base model nor any effect of the bank fits. " + told_of_unknown(gap),
           {"Do not recalibrate it away: parameters fitted now would carry it.",
-           "Check the reading at that place first, then look for physics that the table of "
+           "Check the readings there first, then look for physics that the table of "
            "effects lacks (calendem effects)."}};
 }
 

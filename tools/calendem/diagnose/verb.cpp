@@ -29,7 +29,8 @@ void print(const Diagnosed &diagnosed) {
     fmt::print("* {}\n", step.get<std::string>());
   for (const inference::Judged &j : d.which.judged)
     if (j.probability >= 0.005)
-      fmt::print("  {:<44} {:5.1f} %   fits with p {:.2g}\n", j.hypothesis.name,
+      fmt::print("  {:<44} {:5.1f} %   fits with p {:.2g}\n",
+                 j.place.empty() ? j.hypothesis.name : j.hypothesis.name + ": " + j.place,
                  100.0 * j.probability, j.adequacy_p);
   fmt::print("where, once recalibrated (beyond |z| = {:.1f} is no chance):\n", d.where.threshold);
   for (const inference::WhereRow &r : d.where.rows) {
