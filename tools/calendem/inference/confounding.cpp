@@ -133,18 +133,6 @@ DetectionLimit limit_of(const Problem &problem, int effect,
   return limit;
 }
 
-/// Signature of a hypothesis at its mode.
-Vector fitted(const Problem &problem, const Signatures &signatures, const Judged &j) {
-  std::vector<Applied> on;
-  Eigen::Index next = problem.base_parameters;
-  for (const int e : j.hypothesis.on) {
-    const auto n = Eigen::Index(problem.effects[e].parameters.size());
-    on.push_back({e, j.evidence.mode.segment(next, n)});
-    next += n;
-  }
-  return signatures.white(on);
-}
-
 /// Groups of hypotheses of the 95 % set linked by log-odds too small to tell them apart.
 std::vector<std::vector<std::string>> alike(const Problem &problem, const Which &which,
                                             const Signatures &signatures, double telling) {
@@ -155,7 +143,7 @@ std::vector<std::vector<std::string>> alike(const Problem &problem, const Which 
     if (j.hypothesis.kind != Hypothesis::none && j.hypothesis.kind != Hypothesis::effects)
       continue;
     names.push_back(name);
-    at.push_back(fitted(problem, signatures, j));
+    at.push_back(signatures.white(applied_at(problem, j.hypothesis, j.evidence.mode)));
   }
   std::vector<int> group(names.size());
   std::iota(group.begin(), group.end(), 0);

@@ -29,11 +29,12 @@ int Likelihood::dimension() const {
   return n;
 }
 
-std::vector<Applied> Likelihood::applied(const Vector &scores) const {
+std::vector<Applied> applied_at(const Problem &problem, const Hypothesis &hypothesis,
+                                const Vector &scores) {
   std::vector<Applied> on;
-  Eigen::Index next = problem_.base_parameters;
-  for (const int e : hypothesis_.on) {
-    const auto n = Eigen::Index(problem_.effects[e].parameters.size());
+  Eigen::Index next = problem.base_parameters;
+  for (const int e : hypothesis.on) {
+    const auto n = Eigen::Index(problem.effects[e].parameters.size());
     on.push_back({e, scores.segment(next, n)});
     next += n;
   }
@@ -46,7 +47,8 @@ double Likelihood::noise_factor(const Vector &scores) const {
 
 /// Of emulators or formula.
 Prediction Likelihood::bare(const Vector &scores) const {
-  return problem_.predict(scores.head(problem_.base_parameters), applied(scores));
+  return problem_.predict(scores.head(problem_.base_parameters),
+                          applied_at(problem_, hypothesis_, scores));
 }
 
 /// With what understated noise adds to truncation residuals.
@@ -103,7 +105,8 @@ double Likelihood::log(const Vector &scores) const { return log_about(scores, ba
 Misfit Likelihood::misfit(const Vector &scores, const Prediction &bare) const {
   const Prediction p = shifted(scores, bare);
   return misfit_of(problem_, problem_.observed, p, covariance(scores, p),
-                   slopes_of(problem_, scores.head(problem_.base_parameters), applied(scores)));
+                   slopes_of(problem_, scores.head(problem_.base_parameters),
+                             applied_at(problem_, hypothesis_, scores)));
 }
 
 double Likelihood::log(const Vector &scores, Vector &gradient) const {

@@ -25,6 +25,10 @@ struct Hypothesis {
   bool single() const { return kind == effects && on.size() == 1; }
 };
 
+/// Its effects, on at these scores of base parameters and effects.
+std::vector<Applied> applied_at(const Problem &problem, const Hypothesis &hypothesis,
+                                const Vector &scores);
+
 /// ln p(observed | scores), multivariate t. Scores: the base parameters', then the effects' in
 /// order, then of the factor of noise or of the standard deviation of the unknown.
 class Likelihood {
@@ -50,7 +54,6 @@ private:
 
   bool has_size() const;
   double noise_factor(const Vector &scores) const;
-  std::vector<Applied> applied(const Vector &scores) const;
   Prediction bare(const Vector &scores) const;
   Prediction shifted(const Vector &scores, const Prediction &bare) const;
   double log_of_points(const Vector &scores) const;

@@ -52,23 +52,13 @@ std::vector<UnknownPlace> places_alone(const Problem &problem, const Linearised 
   return places;
 }
 
-/// The effects of a hypothesis at its mode.
-std::vector<Applied> applied(const Problem &problem, const Judged &j) {
-  std::vector<Applied> on;
-  Eigen::Index next = problem.base_parameters;
-  for (const int e : j.hypothesis.on) {
-    const auto n = Eigen::Index(problem.effects[e].parameters.size());
-    on.push_back({e, j.evidence.mode.segment(next, n)});
-    next += n;
-  }
-  return on;
-}
-
 /// Smooth like the discrepancy that may sit everywhere, as long as that share of the signature.
 UnknownPlace place_like(const Problem &problem, const Judged &j) {
   const Linearised base = linearise(problem, j.evidence.mode.head(problem.base_parameters));
   const Matrix smooth = beyond_recalibration(base, problem.discrepancy);
-  const double square = Signatures(problem, base).white(applied(problem, j)).squaredNorm();
+  const double square = Signatures(problem, base)
+                            .white(applied_at(problem, j.hypothesis, j.evidence.mode))
+                            .squaredNorm();
   const double of_smooth = Cholesky(recalibrated_covariance(base)).solve(smooth).trace();
   UnknownPlace p = place("like " + j.hypothesis.name,
                          (of_smooth > 0.0 ? kUnlike * kUnlike * square / of_smooth : 0.0) * smooth,
