@@ -91,6 +91,8 @@ TEST(RankingPart, BarsAreProbabilitiesAndTheRestIsCounted) {
   EXPECT_EQ(part["bars"][2]["name"], "unknown: dwell");
   EXPECT_EQ(part["bars"][2]["fit"], "–");
   EXPECT_EQ(part["rest"], "2 more share 0.4 %.");
+  EXPECT_EQ(part["claimed_from"], "80");
+  EXPECT_EQ(part["least_p"], "0.05");
   EXPECT_EQ(part["steadiness"], "Other priors, other claims: none doubled: undecided.");
 }
 
@@ -119,6 +121,7 @@ TEST(PredictionsPart, StripsAreScaledToTheFarthestAndCurvesAreCharts) {
   EXPECT_EQ(part["strips"][0]["wide1"], "45.0");    // two standard deviations, 1 of 4 each
   ASSERT_EQ(part["charts"].size(), 1u);
   EXPECT_NE(part["charts"][0]["svg"].get<std::string>().find("friction"), std::string::npos);
+  EXPECT_EQ(part["charts"][0]["title"], "p30: curve, compression"); // not that of the release
   gap["predictions"]["best"] = "none";
   part = predictions_part(gap);
   EXPECT_FALSE(part["has_best"]);

@@ -70,7 +70,8 @@ json chart(const Block &rows, const std::string &best, std::size_t number) {
   const std::string unit = rows[0]["unit"], name = rows[0]["observable"];
   Chart c;
   c.id = fmt::format("curve{}", number);
-  c.title = fmt::format("{}: {}", rows[0]["condition"].get<std::string>(), name);
+  c.title = fmt::format("{}: {}, {}", rows[0]["condition"].get<std::string>(), name,
+                        rows[0]["stage"].get<std::string>());
   c.x_label = "Pressure, MPa";
   c.y_label = unit.empty() ? name : name + ", " + (unit == "um" ? "µm" : unit);
   const auto add = [&](const std::string &legend, const char *key, Symbol symbol) -> Series & {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compare/heat_map.h"
 #include "diagnose/page.h"
+#include "inference/which.h"
 #include <fmt/format.h>
 
 namespace calendem {
@@ -50,6 +51,7 @@ json ranking_part(const json &gap) {
   const json &which = gap["which"];
   json bars = json::array(), others = json::array();
   double rest = 0.0;
+  const inference::WhichSettings rule;
   for (const json &e : which["evidence"])
     if (bars.size() < 3 || (bars.size() < kMostBars && e["probability"] >= kLeast))
       bars.push_back(bar_of(e, which["claim"]));
@@ -63,6 +65,8 @@ json ranking_part(const json &gap) {
           {"rest", fmt::format("{} more share {:.1f} %.", which["evidence"].size() - bars.size(),
                                100.0 * rest)},
           {"steadiness", steadiness(which)},
+          {"claimed_from", fmt::format("{:g}", 100.0 * rule.claim_probability)},
+          {"least_p", fmt::format("{:g}", rule.adequacy)},
           {"sensitivity", others}};
 }
 
