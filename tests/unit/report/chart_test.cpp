@@ -44,6 +44,18 @@ TEST(Chart, GapsForMissingValues) {
   EXPECT_TRUE(to_json(chart)["series"][0]["y"].is_array());
 }
 
+// Requirement: curves that differ little can be drawn so that it shows.
+TEST(Chart, AnAxisNeedNotBeginAtZero) {
+  Chart chart;
+  chart.series.push_back({});
+  chart.series[0].x = {1, 2};
+  chart.series[0].y = {7.1, 7.4};
+  const std::string label = ">7.20</text>";
+  EXPECT_EQ(to_svg(chart).find(label), std::string::npos);
+  chart.from_zero = false;
+  EXPECT_NE(to_svg(chart).find(label), std::string::npos);
+}
+
 // Requirement: an empty chart is drawn, not a crash.
 TEST(Chart, EmptyIsDrawn) {
   Chart chart;

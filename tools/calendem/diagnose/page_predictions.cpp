@@ -72,6 +72,7 @@ json chart(const Block &rows, const std::string &best, std::size_t number) {
   c.id = fmt::format("curve{}", number);
   c.title = fmt::format("{}: {}, {}", rows[0]["condition"].get<std::string>(), name,
                         rows[0]["stage"].get<std::string>());
+  c.from_zero = false;
   c.x_label = "Pressure, MPa";
   c.y_label = unit.empty() ? name : name + ", " + (unit == "um" ? "µm" : unit);
   const auto add = [&](const std::string &legend, const char *key, Symbol symbol) -> Series & {

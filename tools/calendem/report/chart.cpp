@@ -55,7 +55,8 @@ private:
 
   void fix_axes() {
     Range x, left, right;
-    left.include(0);
+    if (chart_.from_zero)
+      left.include(0);
     right.include(0);
     for (const auto &s : chart_.series) {
       for (const double v : s.x)

@@ -46,8 +46,9 @@ struct Chart {
   std::string x_label, y_label, right_label; ///< with units
   std::vector<Series> series;
   std::vector<Limit> limits;
-  std::string note; ///< what the reader must know to read it
-  double y_top = 0; ///< upper end of the left axis; 0 = from the data
+  std::string note;      ///< what the reader must know to read it
+  double y_top = 0;      ///< upper end of the left axis; 0 = from the data
+  bool from_zero = true; ///< the left axis; false: from the data, to see small differences
 };
 
 /// The drawing; sizes in CSS pixels, text in the font of the page.
