@@ -12,31 +12,32 @@ namespace LAMMPS_NS {
 /// spheres have separated.
 enum BondState { kNeverBonded = 0, kIntact = 1, kBrokenTouching = 2, kBrokenSeparated = 3 };
 
-/// View of one pair's history values; vectors change sign in the host's mirrored copies.
+/// View of one pair's history values; vectors change sign in the host's mirrored copies. State and
+/// length stand last, beside the friction's values: a contact without a bond reads no more.
 class BondHistory {
 public:
   static constexpr int kSize = 10;
 
   explicit BondHistory(double *values) : h_(values) {}
 
-  int state() const { return static_cast<int>(h_[0]); }
-  void set_state(BondState s) { h_[0] = s; }
-  double length() const { return h_[1]; } ///< centre distance at creation [um]
-  double strength_factor() const { return h_[2]; }
+  int state() const { return static_cast<int>(h_[kState]); }
+  void set_state(BondState s) { h_[kState] = s; }
+  double length() const { return h_[kLength]; } ///< centre distance at creation [um]
+  double strength_factor() const { return h_[7]; }
 
   calendem::BondLoads loads() const {
-    return {calendem::load(h_ + 3), calendem::load(h_ + 7), h_[6]};
+    return {calendem::load(h_), calendem::load(h_ + 4), h_[3]};
   }
   void set_loads(const calendem::BondLoads &l) {
-    calendem::store(l.shear, h_ + 3);
-    h_[6] = l.twist;
-    calendem::store(l.bending, h_ + 7);
+    calendem::store(l.shear, h_);
+    h_[3] = l.twist;
+    calendem::store(l.bending, h_ + 4);
   }
 
   void create(double length, double strength_factor) {
-    h_[0] = kIntact;
-    h_[1] = length;
-    h_[2] = strength_factor;
+    h_[kState] = kIntact;
+    h_[kLength] = length;
+    h_[7] = strength_factor;
     set_loads({});
   }
 
@@ -48,10 +49,12 @@ public:
 
   /// Overlap [um] at creation, subtracted from the contact's overlap while the reference lives.
   double reference_overlap(double radius_sum) const {
-    return has_reference() && h_[1] < radius_sum ? radius_sum - h_[1] : 0.0;
+    return has_reference() && length() < radius_sum ? radius_sum - length() : 0.0;
   }
 
 private:
+  static constexpr int kLength = 8, kState = 9;
+
   double *h_;
 };
 

@@ -77,7 +77,7 @@ public:
     const calendem::Vec3 n = (1.0 / r) * calendem::load(s.delta);
     bond_force(s, bond, n, r, i_forces, j_forces);
     s.has_force_update = true;
-    fix_->check_stretch(s.i, s.j, r, s.radsum);
+    fix_->check_stretch(s.i, s.j, r / s.radsum);
   }
 
   // For the energy ledger: what the tangential model has added since, and the normal damping.

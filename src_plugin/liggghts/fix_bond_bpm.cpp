@@ -20,10 +20,6 @@ using namespace FixConst;
 using calendem::BreakMode;
 
 namespace {
-// Neighbours are listed, and histories kept, up to this multiple of the sum of radii. 1.1 is ample
-// for brittle bonds; 1.2 would list the lattice's diagonal neighbours.
-const double kContactDistanceFactor = 1.1;
-const double kStretchLimit = 0.98 * kContactDistanceFactor;
 const int kEventSize = sizeof(BreakEvent) / sizeof(double);
 } // namespace
 
@@ -159,13 +155,10 @@ void FixBondBpm::record_break(int i, int j, const calendem::BondLoads &loads, do
   pending_.push_back(e);
 }
 
-void FixBondBpm::check_stretch(int i, int j, double r, double radius_sum) {
-  const double stretch = r / radius_sum;
-  if (stretch > kStretchLimit && stretch > overstretched_[2]) {
-    overstretched_[0] = atom->tag[i];
-    overstretched_[1] = atom->tag[j];
-    overstretched_[2] = stretch;
-  }
+void FixBondBpm::remember_stretch(int i, int j, double stretch) {
+  overstretched_[0] = atom->tag[i];
+  overstretched_[1] = atom->tag[j];
+  overstretched_[2] = stretch;
 }
 
 void FixBondBpm::stop_if_overstretched() {

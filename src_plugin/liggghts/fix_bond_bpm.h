@@ -82,8 +82,12 @@ public:
   void create(int i, int j, double r, BondHistory &bond) const;
   void record_break(int i, int j, const calendem::BondLoads &, double tension,
                     const calendem::BondSection &, const calendem::BondStiffness &, double factor);
-  void check_stretch(int i, int j, double r, double radius_sum);
+  void check_stretch(int i, int j, double stretch) {
+    if (stretch > kStretchLimit && stretch > overstretched_[2])
+      remember_stretch(i, j, stretch);
+  }
   void acts(int i, int j) { acting_ += decides(i, j); }
+  void count_acting(bigint bonds) { acting_ += bonds; }
   int friction_history_offset(int bond_offset);
 
   // for computes and dumps
@@ -105,6 +109,11 @@ public:
   bool decides(int i, int j) const;
 
 private:
+  // Neighbours are listed, and histories kept, up to this multiple of the sum of radii. 1.1 is
+  // ample for brittle bonds; 1.2 would list the lattice's diagonal neighbours.
+  static constexpr double kContactDistanceFactor = 1.1;
+  static constexpr double kStretchLimit = 0.98 * kContactDistanceFactor;
+
   BondSettings settings_;
   class FixEnergyBpm *energy_; // NULL when no ledger is kept
   std::string bodies_file_, log_file_, platen_id_;
@@ -139,6 +148,7 @@ private:
   void open_log();
   void set_pressure(std::vector<BreakEvent> &events) const;
   void log_breaks(const std::vector<BreakEvent> &all);
+  void remember_stretch(int i, int j, double stretch);
   void stop_if_overstretched();
   void stop_lost(bigint acting, bigint intact);
 };

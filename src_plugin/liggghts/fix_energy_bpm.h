@@ -69,6 +69,10 @@ public:
     if (i < atom->nlocal)
       loads_[i].damping = loads_[i].damping + a;
   }
+  void add_damping(int i, const calendem::Vec3 &force) {
+    if (i < atom->nlocal)
+      loads_[i].damping.force = loads_[i].damping.force + force;
+  }
   void add_damping(int i, int j, const calendem::BondAction &a) {
     add_damping(i, {a.force, a.torque_i});
     add_damping(j, {-a.force, a.torque_j});

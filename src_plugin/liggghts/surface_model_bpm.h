@@ -13,6 +13,7 @@ SURFACE_MODEL(SURFACE_BPM, bpm, 30)
 #include "error.h"
 #include "fix_bond_bpm.h"
 #include "force.h"
+#include "granular_bpm.h"
 #include "surface_model_base.h"
 
 namespace LIGGGHTS {
@@ -25,16 +26,16 @@ public:
     if (cmb->is_wall())
       error->all(FLERR, "surface model bpm is for particle pairs; walls take 'surface default' "
                         "(leave the keyword out of fix wall/gran)");
-    offset_ = hsetup->add_history_value("bond_state", "0");
-    hsetup->add_history_value("bond_length", "0");
-    hsetup->add_history_value("bond_strength", "0");
-    hsetup->add_history_value("bond_shear_x", "1");
+    offset_ = hsetup->add_history_value("bond_shear_x", "1");
     hsetup->add_history_value("bond_shear_y", "1");
     hsetup->add_history_value("bond_shear_z", "1");
     hsetup->add_history_value("bond_twist", "0");
     hsetup->add_history_value("bond_bending_x", "1");
     hsetup->add_history_value("bond_bending_y", "1");
     hsetup->add_history_value("bond_bending_z", "1");
+    hsetup->add_history_value("bond_strength", "0");
+    hsetup->add_history_value("bond_length", "0");
+    hsetup->add_history_value("bond_state", "0");
     cmb->add_history_offset("bond_bpm", offset_);
   }
 

@@ -70,15 +70,17 @@ inline BondStress bond_stress(const BondLoads &loads, double tension, const Bond
           norm(loads.shear) / s.area, std::fabs(loads.twist) * s.radius / (2.0 * s.I)};
 }
 
-/// sigma >= sigma_c or tau >= tau_c, without a square root: this runs for every bond and step.
+/// sigma >= sigma_c or tau >= tau_c, without a square root or a branch: this runs for every bond and
+/// step, for several bonds at once.
 inline bool fails(const BondLoads &loads, double tension, const BondSection &s,
                   const BondStrength &strength, FailureCriterion criterion) {
   const double spare_force = strength.tensile * s.area - effective_tension(tension, criterion);
   const double spare_moment = 0.25 * spare_force * s.radius; // I/(R A) = R/4
   const double spare_shear =
       strength.shear * s.area - 2.0 * std::fabs(loads.twist) / s.radius; // A R/J = 2/R
-  return spare_force <= 0.0 || norm_squared(loads.bending) >= spare_moment * spare_moment ||
-         spare_shear <= 0.0 || norm_squared(loads.shear) >= spare_shear * spare_shear;
+  const bool bent = norm_squared(loads.bending) >= spare_moment * spare_moment;
+  const bool sheared = norm_squared(loads.shear) >= spare_shear * spare_shear;
+  return (spare_force <= 0.0) | bent | (spare_shear <= 0.0) | sheared;
 }
 
 inline BreakMode break_mode(const BondStress &stress, const BondStrength &strength) {
