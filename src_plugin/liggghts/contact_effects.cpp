@@ -97,7 +97,10 @@ double ContactEffects::largest_radius(const EffectContact &c, double memory) con
 
 double ContactEffects::radius_under(double force, int itype, int jtype,
                                     double effective_radius) const {
-  const double overlap = plastic({itype, jtype, effective_radius, 0.0}).overlap_under(force);
+  const double overlap =
+      yields(itype, jtype)
+          ? plastic({itype, jtype, effective_radius, 0.0}).overlap_under(force)
+          : calendem::hertz_overlap(modulus_[itype][jtype], effective_radius, force);
   return std::sqrt(effective_radius * overlap);
 }
 

@@ -50,7 +50,8 @@ public:
   double contact_radius(const EffectContact &c, double memory) const;
   /// Largest radius [um] of its area so far: its stiffness is at most 2 E* times it.
   double largest_radius(const EffectContact &c, double memory) const;
-  /// Radius [um] of the area of a plastic contact under a force [nN] that it has not borne before.
+  /// Radius [um] of the area of a contact under a force [nN] that it has not borne before; of a
+  /// viscous one unrelaxed.
   double radius_under(double force, int itype, int jtype, double effective_radius) const;
 
   /// Brings the memory of a contact that an effect acts on up to its overlap, which `time` [us] ago

@@ -143,12 +143,16 @@ void FixCbdCollapse::add_pair_forces(std::vector<double> &sum) const {
 }
 
 void FixCbdCollapse::add_wall_forces(std::vector<double> &sum) const {
-  for (FixWallGranPlaten *wall : walls_)
-    for (int i = 0; i < atom->nlocal; ++i)
+  for (FixWallGranPlaten *wall : walls_) {
+    const int tw = wall->atom_type_wall();
+    const double ced = wall->sticks() ? cohesion_energy_density_[type_][tw] : 0.0;
+    for (int i = 0; i < atom->nlocal; ++i) {
+      const double R = atom->radius[i], r = std::fabs(atom->x[i][2] - wall->position());
       if (is_mine(i))
-        sum[i] += effects_.force({type_, wall->atom_type_wall(), atom->radius[i],
-                                  atom->radius[i] - std::fabs(atom->x[i][2] - wall->position())},
-                                 wall->effect_memory(i));
+        sum[i] += effects_.force({type_, tw, R, R - r}, wall->effect_memory(i)) -
+                  calendem::sjkr_wall_force(ced, r, R);
+    }
+  }
 }
 
 double FixCbdCollapse::rotational_energy() const {

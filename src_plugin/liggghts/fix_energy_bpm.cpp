@@ -63,8 +63,12 @@ void FixEnergyBpm::find_walls() {
     FixWallGranPlaten *wall = dynamic_cast<FixWallGranPlaten *>(modify->fix[k]);
     if (wall && behind)
       error->fix_error(FLERR, this, "must stand behind the fixes wall/gran/platen in the script");
+    if (wall && !wall->sticks() && !wall->contact_match("cohesion", "off"))
+      error->fix_error(FLERR, this,
+                       "knows no cohesion of walls but 'cohesion sjkr'; a fix wall/gran/platen has "
+                       "another");
     if (wall)
-      walls_.push_back({wall, 0.0});
+      walls_.push_back({wall, wall->sticks(), 0.0});
   }
 }
 
@@ -123,15 +127,18 @@ void FixEnergyBpm::collect_walls() {
   }
 }
 
-// The force that a flat wall exerts on atom i: Hertz and damping along z, friction across, with the
-// arm of the host's default surface model.
+// The force that a flat wall exerts on atom i: Hertz, cohesion and damping along z, friction
+// across, with the arm of the host's default surface model.
 void FixEnergyBpm::collect(Wall &wall, int i, const double *force) {
   const double height = atom->x[i][2] - wall.fix->position();
   const double overlap = atom->radius[i] - std::fabs(height);
   const double side = height > 0.0 ? 1.0 : -1.0;
   const EffectContact contact = {atom->type[i], wall.fix->atom_type_wall(), atom->radius[i],
                                  overlap};
-  const double damping = force[2] - side * effects_.force(contact, wall.fix->effect_memory(i));
+  const double held =
+      effects_.force(contact, wall.fix->effect_memory(i)) -
+      calendem::sjkr_wall_force(wall_cohesion(wall, i), std::fabs(height), atom->radius[i]);
+  const double damping = force[2] - side * held;
   wall.damping += damping;
   add_damping(i, {{0.0, 0.0, damping}, {}});
   const Vec3 friction = {force[0], force[1], 0.0};
@@ -182,25 +189,31 @@ double FixEnergyBpm::pair_energy(bool of_cohesion) const {
   return sum;
 }
 
-double FixEnergyBpm::wall_energy() const {
+// Cohesion energy density of atom i at the wall, 0 if it does not stick.
+double FixEnergyBpm::wall_cohesion(const Wall &wall, int i) const {
+  return wall.sticks ? cohesion_energy_density_[atom->type[i]][wall.fix->atom_type_wall()] : 0.0;
+}
+
+double FixEnergyBpm::wall_energy(bool of_cohesion) const {
   double sum = 0.0;
   for (const Wall &wall : walls_)
-    for (int i = 0; i < atom->nlocal; ++i)
-      sum += effects_.elastic_energy(
-          {atom->type[i], wall.fix->atom_type_wall(), atom->radius[i],
-           atom->radius[i] - std::fabs(atom->x[i][2] - wall.fix->position())},
-          wall.fix->effect_memory(i));
+    for (int i = 0; i < atom->nlocal; ++i) {
+      const double radius = atom->radius[i];
+      const double r = std::fabs(atom->x[i][2] - wall.fix->position());
+      sum += of_cohesion ? calendem::sjkr_wall_potential(wall_cohesion(wall, i), r, radius)
+                         : effects_.elastic_energy(
+                               {atom->type[i], wall.fix->atom_type_wall(), radius, radius - r},
+                               wall.fix->effect_memory(i));
+    }
   return sum;
 }
 
 double FixEnergyBpm::stored_in_contacts() const {
-  return pair_energy(false) + pair_energy(true) + wall_energy();
+  return pair_energy(false) + pair_energy(true) + wall_energy(false) + wall_energy(true);
 }
 
 double FixEnergyBpm::compute_vector(int n) {
-  double mine = n >= 2 ? sums_[n - 2] : pair_energy(n == 1), all = 0.0;
-  if (n == 0)
-    mine += wall_energy();
+  double mine = n >= 2 ? sums_[n - 2] : pair_energy(n == 1) + wall_energy(n == 1), all = 0.0;
   MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;
 }

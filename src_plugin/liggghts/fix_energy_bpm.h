@@ -8,13 +8,14 @@
 // strain and terms 1-2, plus terms 3-5, plus what fix bond/bpm counts as released by breaks; what
 // is left over is the error of the conservative forces over a step and the work of gravity.
 // Global vector [fJ]: 1 elastic energy of the Hertz contacts, walls included, 2 potential of SJKR
-//   (<= 0), 3 dissipated by normal damping of contacts and by damping of bonds, 4 work against the
-//   tangential contact forces: slip, their damping, and what their springs hold at the moment,
-//   5 lost in breaks beyond the bonds' strain energy: the potential of the cohesion that begins to
-//   act, and the last half step of the bond's force, 6 taken by plastic flow in contacts, 7 by
-//   collapsing spheres, 8 by the dashpots of viscous contacts.
+//   (<= 0), walls included, 3 dissipated by normal damping of contacts and by damping of bonds, 4
+//   work against the tangential contact forces: slip, their damping, and what their springs hold at
+//   the moment, 5 lost in breaks beyond the bonds' strain energy: the potential of the cohesion
+//   that begins to act, and the last half step of the bond's force, 6 taken by plastic flow in
+//   contacts, 7 by collapsing spheres, 8 by the dashpots of viscous contacts.
 // Needs `pair_style gran model hertz|hertz_effects ... cohesion bpm surface bpm`; stands behind all
-// fixes wall/gran/platen, the walls it knows. Sums restart under the same fix ID.
+// fixes wall/gran/platen, the walls it knows; of their cohesion it knows `sjkr`. Sums restart under
+// the same fix ID.
 #ifdef FIX_CLASS
 
 FixStyle(energy/bpm, FixEnergyBpm)
@@ -101,6 +102,7 @@ private:
   };
   struct Wall {
     class FixWallGranPlaten *fix;
+    bool sticks;
     double damping; ///< sum of the damping forces along z on this rank's atoms [nN]
   };
   enum Sum { kDamped, kFriction, kBreaks, kPlastic, kCollapse, kViscous, kSums };
@@ -121,7 +123,8 @@ private:
   double work_in_half_step(const ForceAndTorque &a, int i) const;
   double cohesion(int i, int j, double r) const;
   double pair_energy(bool of_cohesion) const;
-  double wall_energy() const;
+  double wall_cohesion(const Wall &wall, int i) const;
+  double wall_energy(bool of_cohesion) const;
 };
 
 } // namespace LAMMPS_NS

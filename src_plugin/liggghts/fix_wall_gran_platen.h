@@ -57,6 +57,7 @@ public:
   double pressure() const { return record_.average.value(); }
   double largest_pressure() const { return record_.state.max_pressure; } ///< of the averaged ones
   bool is_top() const { return sign_ < 0.0; }
+  bool sticks() { return contact_match("cohesion", "sjkr"); }
   bool has_effects() const { return memory_offset_ >= 0; } ///< model hertz_effects
   /// Memory of atom i's contact under `model hertz_effects`, NULL under another model.
   const double *effect_memory(int i) const;

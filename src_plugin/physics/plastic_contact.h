@@ -41,8 +41,7 @@ public:
   /// Overlap [um] at which loading reaches a force [nN]: the inverse of loading_force.
   double overlap_under(double force) const {
     const double at_yield = 2.0 / 3.0 * slope_ * yield_overlap_;
-    return force <= at_yield ? std::pow(0.75 * force / (E_ * std::sqrt(R_)), 2.0 / 3.0)
-                             : force / slope_ + yield_overlap_ / 3.0;
+    return force <= at_yield ? hertz_overlap(E_, R_, force) : force / slope_ + yield_overlap_ / 3.0;
   }
 
   /// Overlap [um] that comes back between the largest one and loss of contact: e*.

@@ -5,7 +5,10 @@
 // and 0 outside |R_i-R_j| < r < R_i+R_j. CED: cohesion energy density [kPa = 1e3 J/m^3], >= 0.
 // Conservative: the force depends on r alone. With S = R_i + R_j, D = R_i - R_j its potential is
 //   U = -CED * integral of A from r to S = -CED pi/4 (S - r)^2 [(2 S + r)/3 - D^2/r]
-// Deviations: none (LIGGGHTS `sjkr` uses the same area; `sjkr2` about twice it).
+// A flat wall at distance r from the centre (the limit R_j -> infinity):
+//   A = pi (R^2 - r^2),  U = -CED pi (R - r)^2 (2 R + r)/3
+// Deviations: none; LIGGGHTS `sjkr` uses the same areas. `sjkr2` takes 4 pi R* delta between
+// spheres, about twice: a CED that belongs to it has half its cohesion here, and the same at walls.
 // Verified by tests/unit/physics/sjkr_cohesion_test.cpp and tests/verification/contact.
 #ifndef CALENDEM_PHYSICS_SJKR_COHESION_H
 #define CALENDEM_PHYSICS_SJKR_COHESION_H
@@ -26,6 +29,19 @@ inline double lens_area(double r, double radius_i, double radius_j) {
 inline double sjkr_force(double cohesion_energy_density, double r, double radius_i,
                          double radius_j) {
   return cohesion_energy_density * lens_area(r, radius_i, radius_j);
+}
+
+/// The same at a flat wall, `r` from the centre.
+inline double sjkr_wall_force(double cohesion_energy_density, double r, double radius) {
+  constexpr double kPi = 3.14159265358979323846;
+  return r < radius ? cohesion_energy_density * kPi * (radius - r) * (radius + r) : 0.0;
+}
+
+inline double sjkr_wall_potential(double cohesion_energy_density, double r, double radius) {
+  if (r >= radius)
+    return 0.0;
+  constexpr double kPi = 3.14159265358979323846;
+  return -cohesion_energy_density * kPi * (radius - r) * (radius - r) * (2.0 * radius + r) / 3.0;
 }
 
 /// Potential [fJ], <= 0, zero at first touch; below r = |R_i - R_j|, where no force acts, constant.

@@ -8,6 +8,8 @@
 using calendem::lens_area;
 using calendem::sjkr_force;
 using calendem::sjkr_potential;
+using calendem::sjkr_wall_force;
+using calendem::sjkr_wall_potential;
 
 namespace {
 
@@ -63,6 +65,21 @@ TEST(SjkrCohesion, KnownPotentials) {
   EXPECT_EQ(sjkr_potential(3.0, 2.0, 1.0, 1.0), 0.0);
   EXPECT_EQ(sjkr_potential(3.0, 2.5, 1.0, 1.0), 0.0);
   EXPECT_EQ(sjkr_potential(3.0, 0.1, 1.0, 0.5), sjkr_potential(3.0, 0.5, 1.0, 0.5));
+}
+
+// Requirement: at a flat wall force and potential are the limit of a sphere that grows: the area
+// differs by R/R_j at most, and the sum of radii rounds to 2e-12 of overlaps from 1e-4 on. Zero
+// without overlap.
+TEST(SjkrCohesion, WallIsTheLimitOfALargeSphere) {
+  const double R = 0.795, large = 1e4, most = R / large + 2.0 * 2e-12 / 1e-4;
+  for (double r : {0.7949, 0.7, 0.4}) {
+    const double from_large = large + r;
+    EXPECT_NEAR(sjkr_wall_force(6e5, r, R) / sjkr_force(6e5, from_large, R, large), 1.0, most);
+    EXPECT_NEAR(sjkr_wall_potential(6e5, r, R) / sjkr_potential(6e5, from_large, R, large), 1.0,
+                most);
+  }
+  EXPECT_EQ(sjkr_wall_force(6e5, R, R), 0.0);
+  EXPECT_EQ(sjkr_wall_potential(6e5, R + 0.1, R), 0.0);
 }
 
 // Requirement: the attraction is the potential's slope, for all ratios of radii and overlaps.

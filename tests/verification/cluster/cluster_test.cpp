@@ -76,6 +76,62 @@ TEST(VerificationCluster, EnergyDoesNotDrift) {
   EXPECT_LT(d.largest, 2.4e-3); // (omega dt / 2)^2 / 4, omega of the time-step bound
 }
 
+namespace {
+
+// Spheres at the ends of arms from the first, spinning at 10 rad/us about an oblique axis, with
+// inner motion; a million steps at 0.8 of the bound.
+CaseRun long_spin(const std::vector<Vec3> &arms) {
+  std::vector<BodySphere> all = {{{0, 0, 0}, 0.795, 1}};
+  for (const Vec3 &a : arms)
+    all.push_back({1.28 * a, 0.795, 1});
+  Vec3 centre;
+  for (const BodySphere &s : all)
+    centre = centre + (1.0 / all.size()) * s.x;
+  const Vec3 spin = {6.0, 4.8, 6.4};
+  for (BodySphere &s : all) {
+    s.v = cross(spin, s.x - centre);
+    s.omega = spin;
+  }
+  const Vec3 part = {0.3, 0.2, -0.1}; // of the first two, in opposition: the centre stays
+  all[0].v = all[0].v + part;
+  all[1].v = all[1].v - part;
+  all[0].omega = all[0].omega + part;
+  return CaseRun("in.body",
+                 {{"Ey", "1e3"},
+                  {"friction", "0"},
+                  {"restitution", "1"},
+                  {"ced", "0"},
+                  {"of_bound", "0.8"},
+                  {"steps", "1000000"},
+                  {"every", "1000"}},
+                 1, files_of(all, {-4, -4, -4}, {4, 4, 4}));
+}
+
+} // namespace
+
+TEST(VerificationCluster, SpinForAMillionSteps) {
+  for (const std::vector<Vec3> &arms :
+       {std::vector<Vec3>{{1, 0, 0}}, std::vector<Vec3>{{1, 0, 0}, {0, 1, 0}}}) {
+    const std::vector<Row> rows = long_spin(arms).rows("curve.csv");
+    ASSERT_GT(rows.size(), 990u);
+    const auto energy = [&](size_t n) {
+      return (rows[n].at("kinetic") + rows[n].at("rotational") + rows[n].at("strain")) /
+             (rows[0].at("kinetic") + rows[0].at("rotational") + rows[0].at("strain"));
+    };
+    double least = 1.0, most = 1.0, first = 0.0, last = 0.0;
+    for (size_t n = 0; n < rows.size(); ++n) {
+      least = std::fmin(least, energy(n));
+      most = std::fmax(most, energy(n));
+      first += n < 200 ? energy(n) / 200 : 0.0;
+      last += n >= rows.size() - 200 ? energy(n) / 200 : 0.0;
+    }
+    std::printf("%zu spheres, %.0f us: E/E0 %.6f to %.6f, mean moves by %.1e\n", arms.size() + 1,
+                rows.back().at("t"), least, most, last - first);
+    EXPECT_LT(most - least, 0.05); // inner motion 3 % of the energy, swing s/(1 - s), s = 0.64
+    EXPECT_LT(std::fabs(last - first), 4.0 * 0.5 * (most - least) / std::sqrt(200.0));
+  }
+}
+
 TEST(VerificationCluster, MomentumIsConserved) {
   const int steps = 8000;
   const std::vector<Row> rows = shake(2e-5, steps).rows("curve.csv");

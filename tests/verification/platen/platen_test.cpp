@@ -195,6 +195,41 @@ TEST(VerificationPlaten, WorkIsStoredEnergy) {
   }
 }
 
+// Sticky walls: their cohesion is stored and given back. A sphere snaps to either wall and is
+// pressed; without damping none is booked.
+TEST(VerificationPlaten, CohesionOfStickyWallsIsStored) {
+  const std::vector<BodySphere> sphere = {{{2.5, 2.5, R + kGap}, R, 1}};
+  const double top = 2 * R + 2 * kGap;
+  Settings of_motion = motion("position", top - 0.03, top, 0.5);
+  of_motion["wall"] = "\"model hertz tangential history cohesion sjkr\"";
+  const CaseRun run = press(sphere, of_motion,
+                            {{"bonded", "0"},
+                             {"ced", "3e6"},
+                             {"restitution", "1"},
+                             {"dt", "2e-5"},
+                             {"steps", "50000"},
+                             {"every", "50"}},
+                            "include ${cases}/platen/in.ledger\n");
+  ASSERT_TRUE(run.finished()) << run.why();
+  const std::vector<Row> platen = run.rows("platen.csv"), curve = run.rows("curve.csv"),
+                         ledger = run.rows("ledger.csv");
+  ASSERT_EQ(ledger.size(), platen.size());
+  double worst = 0.0, most = 0.0, cohesive = 0.0, damped = 0.0;
+  for (size_t n = 0; n < ledger.size(); ++n) {
+    const double held = curve[n].at("kinetic") + ledger[n].at("elastic") + ledger[n].at("cohesive");
+    worst = std::fmax(worst, std::fabs(platen[n].at("work") - held));
+    most = std::fmax(most, ledger[n].at("elastic"));
+    cohesive = std::fmin(cohesive, ledger[n].at("cohesive"));
+    damped = std::fmax(damped, std::fabs(ledger[n].at("damped")));
+  }
+  std::printf("sticky walls: work and energy differ by %.1e of %.4g fJ, cohesion to %.3g, damped "
+              "%.1e\n",
+              worst / most, most, cohesive / most, damped / most);
+  EXPECT_LT(cohesive, -0.1 * most);
+  EXPECT_LT(worst / most, 1.4e-4); // (omega dt)^2 / 16
+  EXPECT_LT(damped / most, 1e-12);
+}
+
 TEST(VerificationPlaten, PressureControlOvershootsByLessThanOnePercent) {
   for (const double target : {500.0, 3000.0}) { // kPa
     const std::vector<BodySphere> spheres = column(2 * R, false);
