@@ -46,7 +46,8 @@ case $case in
     (cd "$work" && "$bin/calendem" run case.toml -o run --ranks 1 \
       --liggghts "$(realpath --relative-to=. "$bin/liggghts")") # paths may be relative
     p=$(number max_pressure_MPa "$work/run/summary.json")
-    holds "$p >= 40 && $p <= 40.4" "maximum pressure $p MPa is not within 1 % above 40"
+    # rows are two windows of 0.05 us apart, in each of which the pressure rises by 0.2 % of the target at last
+    holds "$p >= 0.996 * 40 && $p <= 40.4" "maximum pressure $p MPa is not 40 within two windows below and 1 % above"
     before=$(number porosity_initial "$work/run/summary.json")
     after=$(number porosity_after_relaxation "$work/run/summary.json")
     holds "$after < $before" "porosity $before -> $after did not fall"
@@ -163,10 +164,10 @@ case $case in
       near "${total[i]}" "$(number $key "$work/run/summary.json")" 1e-5 "total porosity, $key"
       i=$((i + 1))
     done
-    for when in "0 0.100" "1 3.600"; do # the curve's macro porosity: CBD outside the bare primaries
-      read -r i time <<<"$when"
-      near "${macro[i]}" "$(awk -F, -v t="$time" 'index($1, t) == 1 { print $14 }' "$work/run/curve.csv")" 0.006 \
-        "macro porosity at $time us"
+    mapfile -t times < <(number time_us "$s")
+    for i in 0 1; do # the curve's macro porosity in the row next to the frame: CBD outside the bare primaries
+      near "${macro[i]}" "$(awk -F, -v t="${times[i]}" 'NR > 1 { d = ($1 - t) ^ 2; if (NR == 2 || d < least) { least = d; p = $14 } }
+        END { print p }' "$work/run/curve.csv")" 0.006 "macro porosity at ${times[i]} us"
     done
     profile() { awk -F, -v m="$1" -v c="$2" '$1 == m { n += $c } END { print n }' "$work/measured/structure.csv"; }
     for moment in before max after; do
