@@ -30,7 +30,7 @@ TEST(GapAtLoss, BetweenRows) {
   EXPECT_FALSE(gap_at_loss({rows.begin(), rows.end() - 2}, 0.05, 100.0).has_value());
 }
 
-// The rows that a film of that pressure gives on release, averaged over `window`, 0.05 um apart.
+// The rows that a film of that pressure gives on release, averaged over `window`, 0.1 um apart.
 template <class Film>
 std::vector<RawRow> released(Film film, double from, double speed, double window) {
   constexpr double dt = 1e-5; // us
@@ -38,7 +38,7 @@ std::vector<RawRow> released(Film film, double from, double speed, double window
   pressure.set_window(window / dt);
   gap.set_window(window / dt);
   std::vector<RawRow> rows = {row(2, from, film(from))};
-  const long apart = std::lround(0.05 / speed / dt);
+  const long apart = std::lround(kAverageTravel / speed / dt);
   for (long n = 0; n * dt * speed < 4.0; ++n) {
     const double h = from + n * dt * speed;
     pressure.add(film(h));
@@ -60,7 +60,8 @@ TEST(GapAtLoss, IsTheFilmsNotTheReleases) {
     for (const double travel : {0.01, 0.05, kAverageTravel}) {
       const auto gap = gap_at_loss(released(film, top, speed, travel / speed), 0.01, 150.0);
       ASSERT_TRUE(gap.has_value());
-      EXPECT_NEAR(*gap, expected, travel * travel / (24.0 * L) + 0.05 * 0.05 / (8.0 * L) + 1e-4)
+      EXPECT_NEAR(*gap, expected,
+                  travel * travel / (24.0 * L) + kAverageTravel * kAverageTravel / (8.0 * L) + 1e-4)
           << speed << " m/s, " << travel << " um";
     }
 }

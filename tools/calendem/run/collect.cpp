@@ -20,8 +20,8 @@ const char *const kStageNames[] = {"hold", "compression", "dwell", "relaxation",
 
 // Waves after a burst of breaks swing for some tenths of a microsecond.
 constexpr double kImbalanceWindow = 0.5; // us
-// Rows are 0.1 us apart: the highest of them lies a little below the pressure that was met. Gaps
-// are averages: where the platen turns at once, a quarter of the window's travel is cut off.
+// Rows are up to 0.1 um apart: the highest of them lies a little below the pressure that was met.
+// Gaps are averages: where the platen turns at once, a quarter of the window's travel is cut off.
 constexpr double kTargetTolerance = 0.02, kCutOff = 0.25 * kAverageTravel; // um
 
 PressInstruments instruments_of(const Settings &s) { // MPa, um

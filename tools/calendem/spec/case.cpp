@@ -88,7 +88,7 @@ const std::vector<Key> &case_keys() {
        "averaging window of pressure and gap; 0: 0.1 um at the platen's highest speed"},
       {"numerics.gravity_m_s2", "gravity_m_s2", "9.81", 0, 1e4, "m/s2", "along -z; 0: none"},
       {"output.every_us", "every_us", "0.1", 1e-3, 1000, "us",
-       "between rows of the curve; on release at most 0.05 um of travel"},
+       "between rows of the curve; at most 0.1 um at the platen's highest speed"},
       {"output.vtk_every_us", "vtk_every_us", "2", 1e-3, 1e4, "us", "between frames"},
       {"output.restart_every_us", "restart_every_us", "5", 1e-2, 1e5, "us",
        "between restart files"},
