@@ -44,8 +44,8 @@ void ComputeCalendering::compute_vector() {
   invoked_vector = update->ntimestep;
   vector[0] = platen_->compute_vector(4);
   vector[1] = collector_->compute_vector(4);
-  vector[2] = platen_->position() - collector_->position();
-  vector[3] = platen_->compute_vector(2);
+  vector[2] = platen_->mean_position() - collector_->mean_position();
+  vector[3] = platen_->mean_displacement();
   for (int n = 0; n < 9; ++n)
     vector[4 + n] = bonds_->compute_vector(n);
   vector[13] = platen_->compute_vector(6);

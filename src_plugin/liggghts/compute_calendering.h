@@ -3,10 +3,11 @@
 //   PLATEN, COLLECTOR: IDs of fixes wall/gran/platen (side top, side bottom). Needs fix bond/bpm.
 // Global vector, for thermo_style custom, fix ave/time and fix print (units micro):
 //   1 pressure on the platen, averaged [kPa]   2 pressure on the collector, averaged [kPa]
-//   3 gap between them [um]   4 displacement of the platen [um]   5 bonds made   6 intact   7
-//   broken 8 tension  9 bending  10 shear  11 torsion (broken, by mode) 12 strain energy of intact
-//   bonds [fJ]  13 strain energy released by breaks [fJ] 14 work of the platen [fJ]  15 work of the
-//   collector [fJ]
+//   3 gap between them, averaged [um]   4 displacement of the platen, averaged [um]   5 bonds made
+//   6 intact   7 broken 8 tension  9 bending  10 shear  11 torsion (broken, by mode) 12 strain
+//   energy of intact bonds [fJ]  13 strain energy released by breaks [fJ] 14 work of the platen
+//   [fJ]  15 work of the collector [fJ]
+// 1 to 4 are averages over the same window, so that pressure and gap belong together.
 #ifdef COMPUTE_CLASS
 
 ComputeStyle(calendering, ComputeCalendering)

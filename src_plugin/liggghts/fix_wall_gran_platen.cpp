@@ -48,9 +48,9 @@ FixWallGranPlaten::FixWallGranPlaten(LAMMPS *lmp, int narg, char **arg)
   programme_.start = record_.state.position = atof(z);
   programme_.lowest = domain->boxlo[2];
   parse();
-  record_.average.set_window(window_ / update->dt);
+  set_window();
   vector_flag = 1;
-  size_vector = 12;
+  size_vector = 13;
   global_freq = 1;
   restart_global = 1;
 }
@@ -144,12 +144,21 @@ int FixWallGranPlaten::setmask() { return FixWallGran::setmask() | INITIAL_INTEG
 
 void FixWallGranPlaten::init() {
   FixWallGran::init();
-  record_.average.set_window(window_ / update->dt);
+  set_window();
   memory_offset_ = get_history_offset("contact_effects");
   shear_ = 1;
   shearDim_ = 2;
   shearAxis_ = -1;
   place_wall();
+}
+
+void FixWallGranPlaten::set_window() {
+  record_.average.set_window(window_ / update->dt);
+  record_.height.set_window(window_ / update->dt);
+}
+
+double FixWallGranPlaten::mean_position() const {
+  return record_.height.empty() ? record_.state.position : record_.height.value();
 }
 
 void FixWallGranPlaten::place_wall() {
@@ -197,6 +206,7 @@ void FixWallGranPlaten::measure() {
   MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   record_.load = sign_ * all;
   record_.work += 0.5 * record_.load * record_.state.speed * update->dt;
+  record_.height.add(record_.state.position);
   if (record_.average.add(record_.load / area()))
     update_slope(programme_, record_.state, record_.average.value(),
                  record_.average.block_length * update->dt);
@@ -218,7 +228,8 @@ double FixWallGranPlaten::compute_vector(int n) {
                            s.max_pressure,
                            s.reached,
                            waits ? 1.0 : 0.0,
-                           window_};
+                           window_,
+                           mean_position()};
   return values[n];
 }
 

@@ -11,7 +11,7 @@
 //   3 displacement (> 0 down), 4 load [nN], 5 pressure averaged over `average` [kPa], 6 pressure
 //   now, 7 work done on the particles [fJ], 8 closing speed, 9 largest averaged pressure, 10 target
 //   reached, 11 1 when the dwell is over and `release no` holds the platen, 12 averaging window
-//   [us].
+//   [us], 13 position averaged as 5 is: what the averaged pressure is compared with.
 // A position is what the machine shows, which is `compliance` [um/kPa] times the pressure further.
 // Load is positive when the wall presses the film. State restarts under the same fix ID.
 #ifdef FIX_CLASS
@@ -53,6 +53,9 @@ public:
   void restart(char *);
 
   double position() const { return record_.state.position; }
+  /// Over the window of pressure(), with its weights.
+  double mean_position() const;
+  double mean_displacement() const { return programme_.start - mean_position(); } ///< > 0 down
   double velocity() const { return -record_.state.speed; } ///< along z [um/us]
   double pressure() const { return record_.average.value(); }
   double largest_pressure() const { return record_.state.max_pressure; } ///< of the averaged ones
@@ -66,7 +69,8 @@ private:
   /// All that restarts, doubles only.
   struct Record {
     calendem::PlatenState state;
-    calendem::MovingAverage average;
+    calendem::MovingAverage average; ///< of the pressure
+    calendem::MovingAverage height;  ///< of the position
     double load = 0.0;
     double work = 0.0;
   };
@@ -82,6 +86,7 @@ private:
   void parse();
   void set_keyword(const std::string &key, const std::string &value);
   double number(const std::string &key, const std::string &value, bool zero_allowed);
+  void set_window();
   void place_wall();
   void measure();
   double area() const;

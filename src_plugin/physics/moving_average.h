@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Average of a signal over the last `window` samples, from kBlocks block sums: no running sum that
 // drifts, and a state of fixed size that restarts write as it is. The window is exact to one block
-// (1/32 of it). Before it is full the average runs over what there is.
+// (1/32 of it). Before it is full the average runs over what there is. Signals that are compared
+// with each other are averaged alike: over a steady change both then belong to half a window ago.
 // Verified by tests/unit/physics/moving_average_test.cpp.
 #ifndef CALENDEM_PHYSICS_MOVING_AVERAGE_H
 #define CALENDEM_PHYSICS_MOVING_AVERAGE_H
@@ -35,6 +36,8 @@ struct MovingAverage {
     partial = count = 0.0;
     return true;
   }
+
+  bool empty() const { return filled <= 0.0 && count <= 0.0; }
 
   double value() const {
     if (filled <= 0.0)

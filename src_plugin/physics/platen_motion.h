@@ -102,7 +102,8 @@ inline void compress(const PlatenProgramme &p, PlatenState &s, double average, d
   s.speed = wanted < s.speed ? wanted : approach_speed(s.speed, wanted, scale, p.ramp_time, dt);
   s.position -= s.speed * dt;
   const bool by_pressure = p.control == PlatenControl::Pressure;
-  const double stretch = p.compliance * average; // the machine is that much further than its platen
+  // The machine is that much further than its platen. The average is of half a window ago.
+  const double stretch = p.compliance * (average + 0.5 * window * std::fmax(s.rate, 0.0));
   const bool there = by_pressure ? average >= p.target : s.position - stretch <= p.target;
   if (!by_pressure && there)
     s.position = p.target + stretch;

@@ -197,6 +197,11 @@ relaxes_into_cohesion() {
   refused case.toml "case.toml:3: effects.cbd_viscoelasticity.relaxed_fraction is 0.9" "am and cbd spheres" \
     "at most 0.3 is allowed"
 }
+averaged_over_too_much() {
+  printf '%s\n' 'electrode = "e"' '[platen]' 'release_speed_m_s = 8' '[numerics]' 'average_us = 0.25' | file case.toml
+  refused case.toml "case.toml:5: numerics.average_us is 0.25: in that time the platen moves 2 um at" \
+    "platen.release_speed_m_s = 8 m/s, at most 0.1 um is allowed" "Give at most 0.0125 us, or 0"
+}
 cohesion_collapses() {
   printf '%s\n' 'electrode = "e"' '[material.cbd]' 'ced_J_m3 = 7e8' | file case.toml
   refused case.toml "case.toml:3: cohesion would collapse the packing: it pulls cbd spheres" \

@@ -144,6 +144,37 @@ TEST(VerificationPlaten, ColumnToAThicknessAndBack) {
   }
 }
 
+// Averaged pressure and averaged position are a point of the closed curve, however long the window:
+// here the platen moves 0.01 um in it, a fifth of the way, on which the position of the moment is
+// up to 0.005 um ahead. The average of a curve is that of its middle but for its bend, F''(x)
+// s^2/24.
+TEST(VerificationPlaten, AveragedPressureAndPositionBelongTogether) {
+  const std::vector<BodySphere> spheres = column(2 * R, false);
+  const double top = top_of(spheres) + kGap, depth = 0.05, speed = 0.005, window = 2.0;
+  Settings of_motion = motion("position", top - depth, top, speed);
+  of_motion["window"] = number(window);
+  const CaseRun run = press(
+      spheres, of_motion, {{"bonded", "0"}, {"dt", "2e-4"}, {"steps", "140000"}, {"every", "100"}});
+  ASSERT_TRUE(run.finished()) << run.why();
+  const double largest = load_of(depth - 2 * kGap, false), s = window * speed, x = 0.5 * depth;
+  const double bend =
+      load_of(x + 0.5 * s, false) - 2.0 * load_of(x, false) + load_of(x - 0.5 * s, false);
+  double error = 0.0, now = 0.0;
+  for (const Row &r : run.rows("platen.csv")) {
+    const double mean = top - r.at("height") - 2 * kGap, p = r.at("average") * kSide * kSide;
+    if (mean < x)
+      continue;
+    error = std::fmax(error, std::fabs(p - load_of(mean, false)) / largest);
+    now = std::fmax(now, std::fabs(p - load_of(r.at("moved") - 2 * kGap, false)) / largest);
+  }
+  std::printf(
+      "averaged pressure against averaged position: %.1e of the largest (bend %.1e), against "
+      "the position of the moment: %.1e\n",
+      error, bend / 6.0 / largest, now);
+  EXPECT_LT(error, bend / 6.0 / largest + 1e-3); // and the wave, as above
+  EXPECT_GT(now, 0.05);
+}
+
 namespace {
 
 // Largest difference of the platen's work from energies, motion and what damping took, in parts of

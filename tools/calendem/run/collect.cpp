@@ -3,6 +3,7 @@
 #include "physics/nanopore_collapse.h"
 #include "physics/press_instruments.h"
 #include "run/energy.h"
+#include "spec/case.h"
 #include "spec/provenance.h"
 #include <algorithm>
 #include <array>
@@ -10,7 +11,6 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <map>
-#include <optional>
 #include <sstream>
 
 namespace calendem {
@@ -20,8 +20,9 @@ const char *const kStageNames[] = {"hold", "compression", "dwell", "relaxation",
 
 // Waves after a burst of breaks swing for some tenths of a microsecond.
 constexpr double kImbalanceWindow = 0.5; // us
-// Rows are 0.1 us apart: the highest of them lies a little below the pressure that was met.
-constexpr double kTargetTolerance = 0.02;
+// Rows are up to 0.1 um apart: the highest of them lies a little below the pressure that was met.
+// Gaps are averages: where the platen turns at once, a quarter of the window's travel is cut off.
+constexpr double kTargetTolerance = 0.02, kCutOff = 0.25 * kAverageTravel; // um
 
 PressInstruments instruments_of(const Settings &s) { // MPa, um
   return {s.number("effects.pressure_calibration.factor"),
@@ -31,16 +32,6 @@ PressInstruments instruments_of(const Settings &s) { // MPa, um
 
 double total_porosity(const ElectrodeFacts &e, double gap) {
   return 1.0 - e.solid / (e.area * gap);
-}
-
-/// Gap at which the averaged pressure first falls below `fraction` of the maximum during
-/// relaxation; none if the platen stopped before that.
-std::optional<double> gap_at_loss(const std::vector<RawRow> &rows, double fraction,
-                                  double max_pressure) {
-  for (const RawRow &r : rows)
-    if (r.stage > 2.5 && r.p_top < fraction * max_pressure)
-      return r.gap;
-  return std::nullopt;
 }
 
 // |P_top - P_bottom| / P_top with both averaged over kImbalanceWindow: rows are averages over
@@ -61,7 +52,7 @@ std::vector<double> imbalance(const std::vector<RawRow> &rows, double average) {
 
 std::string curve(const std::vector<RawRow> &rows, const ElectrodeFacts &e,
                   const UnionVolume &filled, const Settings &settings) {
-  const double average = settings.number("numerics.average_us");
+  const double average = averaging_window(settings);
   const PressInstruments press = instruments_of(settings);
   const std::vector<double> difference = imbalance(rows, average);
   std::string out =
@@ -144,9 +135,10 @@ std::string platen_stopped(const std::vector<RawRow> &rows, const Settings &s) {
   const std::string key =
       control == "pressure" ? "platen.max_pressure_MPa" : "platen." + control + "_um";
   const double target = s.number(key);
-  const bool reached = control == "pressure"    ? pressure >= (1.0 - kTargetTolerance) * target
-                       : control == "thickness" ? gap <= (1.0 + kTargetTolerance) * target
-                                                : moved >= (1.0 - kTargetTolerance) * target;
+  const bool reached = control == "pressure" ? pressure >= (1.0 - kTargetTolerance) * target
+                       : control == "thickness"
+                           ? gap <= (1.0 + kTargetTolerance) * target + kCutOff
+                           : moved >= (1.0 - kTargetTolerance) * target - kCutOff;
   return reached
              ? ""
              : fmt::format("the platen stopped at its lowest position, {:.2f} um, at {:.1f} MPa "
@@ -213,6 +205,19 @@ std::vector<RawRow> read_raw(const std::string &file) {
   return out;
 }
 
+std::optional<double> gap_at_loss(const std::vector<RawRow> &rows, double fraction,
+                                  double max_pressure) {
+  const double lost = fraction * max_pressure;
+  for (size_t k = 1; k < rows.size(); ++k) {
+    const RawRow &above = rows[k - 1], &below = rows[k];
+    if (below.stage > 2.5 && below.p_top < lost)
+      return above.p_top <= lost ? above.gap
+                                 : above.gap + (below.gap - above.gap) * (above.p_top - lost) /
+                                                   (above.p_top - below.p_top);
+  }
+  return std::nullopt;
+}
+
 nlohmann::json collect(const std::string &folder, const Settings &settings, const ElectrodeFacts &e,
                        const RunFacts &facts) {
   const std::vector<RawRow> rows = read_raw(folder + "/curve_raw.csv");
@@ -257,7 +262,7 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   s["cracked_criterion"] = "at least 8 % of its bonds broken and more than one fragment";
   if (const nlohmann::json by_hand = imposed(settings, top.p_top); !by_hand.is_null())
     s["imposed"] = by_hand;
-  s["quasi_static"] = quasi_static(rows, settings.number("numerics.average_us"));
+  s["quasi_static"] = quasi_static(rows, averaging_window(settings));
   s["energy_fJ"] = energy_ledger(rows, top);
   const PressInstruments press = instruments_of(settings);
   s["porosity_initial_shown"] = total_porosity(e, press.thickness_shown(e.thickness));

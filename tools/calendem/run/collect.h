@@ -7,11 +7,13 @@
 #include "run/fracture.h"
 #include "run/run.h"
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <vector>
 
 namespace calendem {
 
-/// One row of curve_raw.csv, in the order of its columns. The last four are NaN in a run that kept
+/// One row of curve_raw.csv, in the order of its columns. Pressures, gap and displacement are
+/// averages over one window. The last four are NaN in a run that kept
 /// no energy ledger.
 struct RawRow {
   double step, time, stage, displacement, gap, p_top, p_bottom, made, broken, tension, bending,
@@ -24,6 +26,11 @@ constexpr double kQuasiStatic = 0.05;
 
 /// Rows by time; after a resumption the last of equal steps counts. Cut lines are dropped.
 std::vector<RawRow> read_raw(const std::string &file);
+
+/// Gap at which the averaged pressure first falls below `fraction` of the maximum during
+/// relaxation, linear between rows; none if the platen stopped before that.
+std::optional<double> gap_at_loss(const std::vector<RawRow> &rows, double fraction,
+                                  double max_pressure);
 
 /// Union volume [um3] of body envelopes and CBD spheres against time, from the frames.
 struct UnionVolume {

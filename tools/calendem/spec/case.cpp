@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "spec/case.h"
 #include "physics/hertz_contact.h"
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace calendem {
 
@@ -76,6 +78,7 @@ const std::vector<Key> &case_keys() {
       {"platen.touch_pressure_MPa", "touch_pressure_MPa", "5", 0, 1000, "MPa",
        "ends the slow approach"},
       {"platen.release_speed_m_s", "release_speed_m_s", "1", 1e-4, 20, "m/s", "upwards"},
+      {"platen.ramp_us", "ramp_us", "0.5", 0, 1e4, "us", "from rest to the speed; 0: at once"},
       {"platen.dwell_us", "dwell_us", "0", 0, 1e4, "us", "at the target"},
       {"platen.contact_lost_fraction", "lost_fraction", "0.01", 1e-4, 0.5, "",
        "contact is lost below this fraction of the maximum pressure"},
@@ -88,10 +91,11 @@ const std::vector<Key> &case_keys() {
       {"effects.thickness_zero.offset_um", "", "0", -50, 50, "um", "added to the thickness shown"},
       {"numerics.timestep_us", "dt_us", "0", 0, 1, "us", "0: timestep_fraction of the bound"},
       {"numerics.timestep_fraction", "dt_fraction", "0.8", 0.01, 1, "", "of the bond-aware bound"},
-      {"numerics.average_us", "average_us", "0.25", 1e-3, 100, "us",
-       "averaging window of pressures"},
+      {"numerics.average_us", "average_us", "0", 0, 100, "us",
+       "averaging window of pressure and gap; 0: 0.1 um at the platen's highest speed"},
       {"numerics.gravity_m_s2", "gravity_m_s2", "9.81", 0, 1e4, "m/s2", "along -z; 0: none"},
-      {"output.every_us", "every_us", "0.1", 1e-3, 1000, "us", "between rows of the curve"},
+      {"output.every_us", "every_us", "0.1", 1e-3, 1000, "us",
+       "between rows of the curve; at most 0.1 um at the platen's highest speed"},
       {"output.vtk_every_us", "vtk_every_us", "2", 1e-3, 1e4, "us", "between frames"},
       {"output.restart_every_us", "restart_every_us", "5", 1e-2, 1e5, "us",
        "between restart files"},
@@ -198,7 +202,37 @@ void check_target(const Settings &s, Mistakes &mistakes) {
                              key, s.number(key)));
 }
 
+const char *const kSpeeds[] = {"platen.speed_m_s", "platen.touch_speed_m_s",
+                               "platen.release_speed_m_s"};
+
+/// The key of the platen's highest speed.
+std::string highest_speed(const Settings &s) {
+  return *std::max_element(std::begin(kSpeeds), std::end(kSpeeds),
+                           [&](const char *a, const char *b) { return s.number(a) < s.number(b); });
+}
+
+void check_window(const Settings &s, Mistakes &mistakes) {
+  const std::string key = "numerics.average_us";
+  if (!s.sound({key, kSpeeds[0], kSpeeds[1], kSpeeds[2]}))
+    return;
+  const std::string speed = highest_speed(s);
+  const double travel = s.number(key) * s.number(speed);
+  if (travel > kAverageTravel * (1.0 + 1e-9))
+    mistakes.add(s.line(key),
+                 fmt::format("{} is {}: in that time the platen moves {:.3g} um at {} = {} m/s, at "
+                             "most {} um is allowed, or pressure and gap are averaged over a bend "
+                             "of the curve. Give at most {:.3g} us, or 0, which is just that; or "
+                             "lower the speed.",
+                             key, s.text(key), travel, speed, s.text(speed), kAverageTravel,
+                             kAverageTravel / s.number(speed)));
+}
+
 } // namespace
+
+double averaging_window(const Settings &s) {
+  const double given = s.number("numerics.average_us");
+  return given > 0.0 ? given : kAverageTravel / s.number(highest_speed(s));
+}
 
 void check_case(const Settings &s, Mistakes &mistakes) {
   check_collapse(s, "am", "am", 0.1, mistakes);
@@ -209,6 +243,7 @@ void check_case(const Settings &s, Mistakes &mistakes) {
   check_imposed(s, mistakes);
   check_relaxed(s, mistakes);
   check_target(s, mistakes);
+  check_window(s, mistakes);
 }
 
 Settings read_case(const std::string &file) {

@@ -10,6 +10,13 @@ namespace calendem {
 
 const std::vector<Key> &case_keys();
 
+/// Most that the platen may move in the averaging window [um]: on release a tenth of a micrometre
+/// is little against the way on which the pressure falls.
+inline constexpr double kAverageTravel = 0.1;
+
+/// Window over which pressure and gap are averaged [us].
+double averaging_window(const Settings &settings);
+
 /// What the settings contradict, beyond what each key may hold.
 void check_case(const Settings &settings, Mistakes &mistakes);
 

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What is read off the curve after the release, and over what its rows are averaged.
+#include "physics/moving_average.h"
+#include "run/collect.h"
+#include "spec/case.h"
+#include "spec/provenance.h"
+#include "support/test_folder.h"
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace calendem;
+
+RawRow row(double stage, double gap, double pressure) {
+  RawRow r = {};
+  r.stage = stage;
+  r.gap = gap;
+  r.p_top = pressure;
+  return r;
+}
+
+// Requirement: the threshold is crossed between two rows, and so is the gap.
+TEST(GapAtLoss, BetweenRows) {
+  const std::vector<RawRow> rows = {row(1, 20.4, 1.0), row(1, 20.0, 100.0), row(3, 20.6, 6.0),
+                                    row(3, 21.0, 4.0), row(4, 21.5, 0.0)};
+  EXPECT_DOUBLE_EQ(*gap_at_loss(rows, 0.05, 100.0), 20.8);
+  EXPECT_DOUBLE_EQ(*gap_at_loss(rows, 0.01, 100.0), 21.375);
+  EXPECT_DOUBLE_EQ(*gap_at_loss(rows, 0.5, 100.0), 20.0 + 0.6 * 50.0 / 94.0);
+  EXPECT_FALSE(gap_at_loss({rows.begin(), rows.end() - 2}, 0.05, 100.0).has_value());
+}
+
+// The rows that a film of that pressure gives on release, averaged over `window`, 0.1 um apart.
+template <class Film>
+std::vector<RawRow> released(Film film, double from, double speed, double window) {
+  constexpr double dt = 1e-5; // us
+  MovingAverage pressure, gap;
+  pressure.set_window(window / dt);
+  gap.set_window(window / dt);
+  std::vector<RawRow> rows = {row(2, from, film(from))};
+  const long apart = std::lround(kAverageTravel / speed / dt);
+  for (long n = 0; n * dt * speed < 4.0; ++n) {
+    const double h = from + n * dt * speed;
+    pressure.add(film(h));
+    gap.add(h);
+    if (n % apart == 0)
+      rows.push_back(row(3, gap.value(), pressure.value()));
+  }
+  return rows;
+}
+
+// Requirement: a film that pays no heed to speed has one thickness after the release, whatever the
+// speed and the window within the bound. P falls to 1 % over some tenths of a micrometre; what is
+// left is the curve's bend over window and rows, L/24 (s/L)^2 + L/8 (r/L)^2 for P = exp(-h/L).
+TEST(GapAtLoss, IsTheFilmsNotTheReleases) {
+  constexpr double L = 0.4, top = 20.0;
+  const auto film = [](double h) { return 150.0 * std::exp((top - h) / L); };
+  const double expected = top + L * std::log(100.0);
+  for (const double speed : {1.0, 4.0, 8.0})
+    for (const double travel : {0.01, 0.05, kAverageTravel}) {
+      const auto gap = gap_at_loss(released(film, top, speed, travel / speed), 0.01, 150.0);
+      ASSERT_TRUE(gap.has_value());
+      EXPECT_NEAR(*gap, expected,
+                  travel * travel / (24.0 * L) + kAverageTravel * kAverageTravel / (8.0 * L) + 1e-4)
+          << speed << " m/s, " << travel << " um";
+    }
+}
+
+Settings case_with(const std::string &tables) {
+  const std::string file = (calendem_test::test_folder() / "case.toml").string();
+  write_file(file, "electrode = \"none\"\n" + tables);
+  return read_case(file);
+}
+
+// Requirement: unless it is given, the window is 0.1 um at the highest of the three speeds; more
+// than that is refused.
+TEST(AveragingWindow, IsBoundByTheFastestSpeed) {
+  EXPECT_DOUBLE_EQ(averaging_window(case_with("")), 0.1);
+  EXPECT_DOUBLE_EQ(averaging_window(case_with("[platen]\nrelease_speed_m_s = 8\n")), 0.0125);
+  EXPECT_DOUBLE_EQ(averaging_window(case_with("[platen]\ntouch_speed_m_s = 4\n")), 0.025);
+  const std::string fast = "[platen]\nrelease_speed_m_s = 8\nspeed_m_s = 4\n";
+  EXPECT_DOUBLE_EQ(averaging_window(case_with(fast + "[numerics]\naverage_us = 0.0125\n")), 0.0125);
+  try {
+    case_with(fast + "[numerics]\naverage_us = 0.1\n");
+    FAIL() << "0.8 um of travel were accepted";
+  } catch (const Failure &f) {
+    for (const char *said : {"numerics.average_us is 0.1", "moves 0.8 um",
+                             "platen.release_speed_m_s = 8", "at most 0.0125 us"})
+      EXPECT_NE(std::string(f.what()).find(said), std::string::npos) << f.what();
+  }
+}
+
+} // namespace
