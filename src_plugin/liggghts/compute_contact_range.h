@@ -6,11 +6,11 @@
 // wall/gran/platen, whose normal law pushes. Contacts inside a body, whose overlap counts from the
 // bond's creation, hold the body's own stress: they have a row of their own and are in no other.
 // Needs fix bond/bpm and `pair_style gran model hertz|hertz_effects`.
-// Global array; rows: 1 all contacts but those inside bodies, 2 with walls, 3 inside bodies
-// (bonded,
-//   or broken and not yet apart), 4 ... pairs of the phases: 1-1, 1-2, ..., 2-2, ...; columns: 1
-//   contacts, 2 sum of their forces [nN], 3 mean and 4 largest overlap over the smaller radius, 5-7
-//   contacts and 8-10 force [nN] beyond 0.1, 0.2, 0.3 of it.
+// Global array. Rows: 1 all contacts but those inside bodies, 2 with walls, 3 inside bodies
+//   (bonded, or broken and not yet apart), 4 ... pairs of the phases: 1-1, 1-2, ..., 2-2, ...
+// Columns: 1 contacts, 2 sum of their elastic normal forces, without cohesion [nN], 3 mean and
+//   4 largest overlap over the smaller radius, 5-7 contacts and 8-10 force [nN] beyond 0.1, 0.2,
+//   0.3 of it.
 #ifdef COMPUTE_CLASS
 
 ComputeStyle(contact/range, ComputeContactRange)

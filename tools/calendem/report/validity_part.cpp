@@ -79,7 +79,7 @@ Chart force_beyond_range(const std::vector<Run> &runs) {
   chart.x_label = "Pressure on the platen (MPa)";
   chart.y_label = "Share of the contact force (%)";
   chart.note =
-      "Sum of the normal forces of contacts whose overlap is beyond a fraction of R, over "
+      "Sum of the elastic normal forces of contacts whose overlap is beyond a fraction of R, over "
       "that of all contacts but those inside bodies. R: smaller radius of the pair, the sphere's "
       "at a wall. Hertz' law asks for contacts that are small beside both spheres.";
   for (std::size_t i = 0; i < runs.size(); ++i)
