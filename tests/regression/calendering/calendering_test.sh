@@ -138,6 +138,11 @@ case $case in
     [ -n "$(number '0\.01' "$work/rare/summary.json")" ] || fail "no porosity at the platen's own threshold"
     awk -F, 'NR > 1 && $1 < 0.01 { n += 1; wrong += $11 != 0 } END { exit !(n > 0 && wrong == 0) }' "$work/rare/breaks.csv" ||
       fail "breaks before first touch have a pressure: $(head -n 3 "$work/rare/breaks.csv")" ;;
+  unbreakable) # bonds weaker than those that break in `run` bear all
+    sed 's/^\[bond\]/&\nbreakable = "no"/; s/^tensile.*/tensile_strength_MPa = 20/; s/^max_pressure.*/max_pressure_MPa = 15/' \
+      "$here/case.toml" >"$work/unbreakable.toml"
+    "$bin/calendem" run "$work/unbreakable.toml" -o "$work/unbreakable" --ranks 1 --force
+    [ "$(rows "$work/unbreakable/breaks.csv" | wc -l)" = 0 ] || fail "a bond broke" ;;
   refused) # another electrode's restart files, nanoporosity of another recipe, paths LIGGGHTS cannot take
     refused() { # TEXT ARGUMENT...: exit status 2 and the text
       local status=0
