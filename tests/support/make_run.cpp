@@ -124,7 +124,8 @@ void write_curve(const fs::path &file, const Film &film, const std::vector<Row> 
   out << "time_us,stage,displacement_um,thickness_um,pressure_MPa,pressure_bottom_MPa,"
          "bonds_broken,broken_fraction,broken_tension,broken_bending,broken_shear,broken_torsion,"
          "porosity_total,porosity_macro,kinetic_to_strain,work_platen_fJ,strain_fJ,"
-         "work_bonds_lost_fJ,damped_fJ,kinetic_fJ\n";
+         "work_bonds_lost_fJ,damped_fJ,kinetic_fJ,inertial_number,kinetic_to_elastic,"
+         "force_beyond_0.1_R,force_beyond_0.2_R,force_beyond_0.3_R\n";
   double work = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Row &r = rows[i];
@@ -141,8 +142,25 @@ void write_curve(const fs::path &file, const Film &film, const std::vector<Row> 
       out << ',' << count[static_cast<std::size_t>(mode)];
     out << ',' << porosity(h) << ',' << porosity(h) - 0.04 * kThickness / h << ",0.002," << work
         << ',' << elastic << ',' << lost << ',' << std::max(0.0, work - elastic - lost) << ','
-        << 2e-3 * elastic << '\n';
+        << 2e-3 * elastic << ',' << 2e-3 / std::sqrt(1 + r.pressure) << ",0.002";
+    for (const double at : {60, 200, 600})
+      out << ',' << r.pressure / (r.pressure + at);
+    out << '\n';
   }
+}
+
+nlohmann::json made_contacts() {
+  const nlohmann::json all = {{"contacts", 4000},
+                              {"force_nN", 4.4e7},
+                              {"overlap_mean", 0.12},
+                              {"overlap_largest", 0.61},
+                              {"contacts_beyond_0.1_R", 0.5},
+                              {"contacts_beyond_0.2_R", 0.25},
+                              {"contacts_beyond_0.3_R", 0.125},
+                              {"force_beyond_0.1_R", 0.714},
+                              {"force_beyond_0.2_R", 0.429},
+                              {"force_beyond_0.3_R", 0.2}};
+  return {{"all", all}, {"am_cbd", all}};
 }
 
 void write_summary(const fs::path &file, const Film &film, const MadeRun &options) {
@@ -159,6 +177,7 @@ void write_summary(const fs::path &file, const Film &film, const MadeRun &option
       {"bodies", options.bodies},
       {"cracked_bodies", options.bodies / 5},
       {"quasi_static", true},
+      {"contact_range", {{"at_max_pressure", made_contacts()}}},
       {"energy", {{"work_platen_fJ", 1.1e8}, {"damped_fJ", 4.0e7}}},
       {"wall_clock_s", 512.3},
       {"atom_steps_per_second", 2.1e6},

@@ -60,6 +60,25 @@ case $case in
             split(last, c, ","); d = c[9] - broken * 1.28 * 1.28
             exit !(c[4] == all && c[5] == apart && c[6] == cracked && d * d < 1e-6 * c[9] * c[9] && c[9] > 0) }' \
       "$work/run/bodies.csv" || fail "cracks.csv does not end as bodies.csv does"
+    # overlaps beyond the range: shares fall with the limit; inertial number at the platen's 2 m/s, kinetic over elastic
+    # energy to their four digits; the summary has the row of maximum pressure
+    said=$(sed -n '/"contact_range"/,$p' "$work/run/summary.json" >"$work/said" && number 'force_beyond_0.2_R' "$work/said" | head -n 1)
+    awk -F, -v said="$said" -v density="$(awk 'NF == 7 && $2 == 1 { print $4; exit }' "$work/electrode/electrode.data")" '
+      function near(x, y, tolerance) { return (x - y) ^ 2 <= (tolerance * y) ^ 2 }
+      NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
+      { for (k = 0; k < 2; ++k) {
+          what = k ? "contacts" : "force"
+          for (n = 1; n <= 3; ++n) s[n] = $at[what "_beyond_0." n "_R"]
+          wrong += !(1 >= s[1] && s[1] >= s[2] && s[2] >= s[3] && s[3] >= 0) }
+        wrong += !near($at["kinetic_to_elastic"], $at["kinetic_fJ"] / ($at["strain_fJ"] + $at["contact_elastic_fJ"]), 1e-3)
+        P = $at["pressure_MPa"]
+        if (P > 5 && P < 15 && $at["stage"] == "compression") { # before the platen slows down
+          rows += 1
+          wrong += !near($at["inertial_number"], 2 / $at["thickness_um"] * 1.59 * sqrt(density / (1e3 * P)), 1e-3) }
+        if (P > highest) { highest = P; beyond = $at["force_beyond_0.2_R"]; largest = $at["am_cbd_overlap_largest"] } }
+      END { print "at maximum pressure: " beyond " of the force beyond 0.2 R, largest overlap of AM and CBD " largest " R"
+            exit !(wrong == 0 && rows > 0 && largest > 0 && near(beyond, said, 1e-5)) }' "$work/run/curve.csv" ||
+      fail "what curve.csv says of overlaps, inertia and energies does not agree with itself or with summary.json ($said)"
     awk -F, 'NR > 1 && $2 + $3 + $4 + $5 != n { if (n) exit 1; n = $2 + $3 + $4 + $5 } END { exit !(NR == 17 && n > 0) }' \
       "$work/run/thresholds.csv" || fail "thresholds.csv does not count every body at each threshold"
     for f in curve.csv bodies.csv case.toml vtk/particles.pvd vtk/bonds.pvd vtk/platen.pvd; do
@@ -122,6 +141,11 @@ case $case in
     [ -n "$(number '0\.01' "$work/rare/summary.json")" ] || fail "no porosity at the platen's own threshold"
     awk -F, 'NR > 1 && $1 < 0.01 { n += 1; wrong += $11 != 0 } END { exit !(n > 0 && wrong == 0) }' "$work/rare/breaks.csv" ||
       fail "breaks before first touch have a pressure: $(head -n 3 "$work/rare/breaks.csv")" ;;
+  unbreakable) # bonds weaker than those that break in `run` bear all
+    sed 's/^\[bond\]/&\nbreakable = "no"/; s/^tensile.*/tensile_strength_MPa = 20/; s/^max_pressure.*/max_pressure_MPa = 15/' \
+      "$here/case.toml" >"$work/unbreakable.toml"
+    "$bin/calendem" run "$work/unbreakable.toml" -o "$work/unbreakable" --ranks 1 --force
+    [ "$(rows "$work/unbreakable/breaks.csv" | wc -l)" = 0 ] || fail "a bond broke" ;;
   refused) # another electrode's restart files, nanoporosity of another recipe, paths LIGGGHTS cannot take
     refused() { # TEXT ARGUMENT...: exit status 2 and the text
       local status=0

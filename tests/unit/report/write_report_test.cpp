@@ -81,7 +81,7 @@ TEST_F(WriteReport, PageIsSelfContained) {
   const std::size_t stages = 5; // the paper's pressures, all below 150 MPa
   EXPECT_EQ(pictures, 6u + 2 * stages + 1 + 2 * stages);
   EXPECT_EQ(json["status"], "finished");
-  EXPECT_EQ(json["charts"].size(), 13u);
+  EXPECT_EQ(json["charts"].size(), 15u);
   EXPECT_EQ(json["runs"][0]["pictures"].size(), 6u);
   EXPECT_EQ(json["runs"][0]["stages"].size(), 2 * stages);
   EXPECT_NEAR(json["runs"][0]["headline"][0]["value"].get<double>(), 150, 1);
@@ -127,6 +127,23 @@ TEST_F(WriteReport, ComparesWithThePaper) {
   EXPECT_NEAR(rows[2]["cells"][0]["difference"], rows[2]["cells"][0]["value"].get<double>() - 25.17,
               1e-9);
   EXPECT_TRUE(rows[7]["cells"][1]["value"].is_null()); // b never sees 146 MPa
+}
+
+// Requirement: the page tells how far contacts are beyond the range of their law; twin and page
+// agree, and what a run does not know is a dash.
+TEST_F(WriteReport, ShowsTheRangeOfTheContactLaw) {
+  make_run(path("run"), small_);
+  ASSERT_EQ(write_report({path("run")}, path("r.html")), 0);
+  const auto json = twin("r.json"), rows = json["runs"][0]["validity"]["rows"];
+  ASSERT_EQ(rows.size(), 6u);
+  EXPECT_EQ(rows[0]["cells"][1]["text"], "44.00");
+  EXPECT_EQ(rows[0]["cells"][8]["text"], "42.9");
+  EXPECT_DOUBLE_EQ(rows[0]["cells"][8]["value"], 0.429);
+  EXPECT_EQ(rows[1]["cells"][0]["text"], "–"); // no contacts between active material
+  const std::string page = contents(path("r.html"));
+  for (const char *text :
+       {"Validity of the contact law", "42.9", "beyond 0.2 R", "Inertial number × 1000"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
 }
 
 // Requirement: an unfinished run gets a report that says so.

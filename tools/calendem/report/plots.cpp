@@ -8,6 +8,7 @@
 #include "report/fracture_part.h"
 #include "report/paper_reference.h"
 #include "report/structure_part.h"
+#include "report/validity_part.h"
 
 namespace calendem::report {
 namespace {
@@ -304,8 +305,8 @@ std::vector<Chart> plots_of(const std::vector<Run> &runs) {
   std::vector<Chart> charts{pressure_displacement(runs), breaks_by_pressure(runs),
                             porosity_by_pressure(runs), both_pressures(runs),
                             quasi_static_check(runs)};
-  for (Chart chart : {cracked_by_pressure(runs), crack_surface(runs), porosity_profiles(runs),
-                      broken_profiles(runs)})
+  for (Chart chart : {force_beyond_range(runs), inertial_numbers(runs), cracked_by_pressure(runs),
+                      crack_surface(runs), porosity_profiles(runs), broken_profiles(runs)})
     if (!chart.series.empty())
       charts.push_back(std::move(chart));
   for (std::size_t i = 0; i < runs.size(); ++i) {

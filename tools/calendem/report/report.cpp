@@ -8,6 +8,7 @@
 #include "report/plots.h"
 #include "report/structure_part.h"
 #include "report/tables.h"
+#include "report/validity_part.h"
 
 #ifndef CALENDEM_VERSION
 #define CALENDEM_VERSION "unknown"
@@ -28,10 +29,11 @@ RunPart part_of(Run &run) {
   part.name = run.name;
   part.unfinished = run.unfinished;
   part.headline = headline_of(run);
-  part.facts = facts_of(run.summary, {"provenance"});
+  part.facts = facts_of(run.summary, {"provenance", "contact_range"});
   part.electrode =
       facts_of(run.electrode, {"provenance", "recipe", "sphericity_histogram", "identity"});
   part.structure = structure_table(run);
+  part.validity = validity_table(run);
   part.provenance = facts_of(run.summary.value("provenance", json::object()), {});
   part.files = json::array();
   for (const auto &file : run.files_read)
@@ -69,6 +71,7 @@ json to_json(const RunPart &run) {
           {"facts", run.facts},
           {"electrode", run.electrode},
           {"structure", run.structure},
+          {"validity", run.validity},
           {"provenance", run.provenance},
           {"files", run.files},
           {"notes", notes},

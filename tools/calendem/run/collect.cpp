@@ -3,11 +3,13 @@
 #include "physics/nanopore_collapse.h"
 #include "physics/press_instruments.h"
 #include "run/energy.h"
+#include "run/validity.h"
 #include "spec/case.h"
 #include "spec/provenance.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <fmt/format.h>
 #include <fstream>
 #include <map>
@@ -60,14 +62,15 @@ std::string curve(const std::vector<RawRow> &rows, const ElectrodeFacts &e,
       "broken_fraction,broken_tension,broken_bending,broken_shear,broken_torsion,porosity_total,"
       "porosity_macro,kinetic_to_strain,kinetic_fJ,strain_fJ,work_platen_fJ,work_bonds_lost_fJ,"
       "work_collector_fJ,pressure_difference,contact_elastic_fJ,cohesion_fJ,damped_fJ,"
-      "friction_fJ,displacement_shown_um,thickness_shown_um,pressure_shown_MPa\n";
+      "friction_fJ,displacement_shown_um,thickness_shown_um,pressure_shown_MPa" +
+      validity_columns() + "\n";
   for (size_t i = 0; i < rows.size(); ++i) {
     const RawRow &r = rows[i];
     out += fmt::format(
         "{:.6f},{},{:.6f},{:.6f},{:.6g},{:.6g},{:.0f},{:.6f},{:.0f},{:.0f},{:.0f},{:.0f},{:.6f},"
         "{:.6f},{:.4g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.4g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6f}"
         ","
-        "{:.6f},{:.6g}\n",
+        "{:.6f},{:.6g}",
         r.time, kStageNames[static_cast<int>(r.stage)], r.displacement, r.gap, r.p_top, r.p_bottom,
         r.broken, r.made > 0 ? r.broken / r.made : 0.0, r.tension, r.bending, r.shear, r.torsion,
         total_porosity(e, r.gap), 1.0 - filled.at(r.time) / (e.area * r.gap),
@@ -75,6 +78,7 @@ std::string curve(const std::vector<RawRow> &rows, const ElectrodeFacts &e,
         r.work_collector, difference[i], r.contact_elastic, r.cohesion, r.damped, r.friction,
         press.displacement_shown(r.displacement, r.p_top), press.thickness_shown(r.gap),
         press.pressure_shown(r.p_top));
+    out += validity_cells(r, e.primary) + "\n";
   }
   return out;
 }
@@ -183,7 +187,7 @@ std::vector<RawRow> read_raw(const std::string &file) {
   while (std::getline(in, line)) {
     if (in.eof()) // a line without its end is being written
       break;
-    std::array<double, 22> v;
+    std::array<double, sizeof(RawRow) / sizeof(double)> v;
     size_t n = 0;
     std::istringstream fields(line);
     std::string field;
@@ -195,9 +199,7 @@ std::vector<RawRow> read_raw(const std::string &file) {
       ++n;
     }
     if (n == v.size())
-      rows[static_cast<long>(v[0])] = {v[0],  v[1],  v[2],  v[3],  v[4],  v[5],  v[6],  v[7],
-                                       v[8],  v[9],  v[10], v[11], v[12], v[13], v[14], v[15],
-                                       v[16], v[17], v[18], v[19], v[20], v[21]};
+      std::memcpy(&rows[static_cast<long>(v[0])], v.data(), sizeof v);
   }
   std::vector<RawRow> out;
   for (const auto &[step, row] : rows)
@@ -263,6 +265,8 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   if (const nlohmann::json by_hand = imposed(settings, top.p_top); !by_hand.is_null())
     s["imposed"] = by_hand;
   s["quasi_static"] = quasi_static(rows, averaging_window(settings));
+  s["quasi_static"].update(inertia(rows, top, e.primary));
+  s["contact_range"] = contact_range(rows, top);
   s["energy_fJ"] = energy_ledger(rows, top);
   const PressInstruments press = instruments_of(settings);
   s["porosity_initial_shown"] = total_porosity(e, press.thickness_shown(e.thickness));
@@ -293,7 +297,8 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
     s["stopped_because"] = facts.stopped_because;
   write_file(folder + "/summary.json", s.dump(2) + "\n");
   for (const std::string &warning :
-       {ledger_warning(s["energy_fJ"]), speed_warning(s["quasi_static"])})
+       {ledger_warning(s["energy_fJ"]), speed_warning(s["quasi_static"]),
+        range_warning(s["contact_range"])})
     if (!warning.empty())
       fmt::print(stderr, "warning: {}\n", warning);
   return s;

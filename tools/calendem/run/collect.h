@@ -4,6 +4,7 @@
 #ifndef CALENDEM_RUN_COLLECT_H
 #define CALENDEM_RUN_COLLECT_H
 
+#include "physics/contact_range.h"
 #include "run/fracture.h"
 #include "run/run.h"
 #include <nlohmann/json.hpp>
@@ -12,13 +13,21 @@
 
 namespace calendem {
 
-/// One row of curve_raw.csv, in the order of its columns. Pressures, gap and displacement are
-/// averages over one window. The last four are NaN in a run that kept
-/// no energy ledger.
+/// Contacts of one kind by overlap over the smaller radius (physics/contact_range.h), as `compute
+/// contact/range` gives them.
+struct RangeOfContacts {
+  double contacts, force, mean, largest, beyond[kRangeLimits], force_beyond[kRangeLimits];
+};
+
+enum KindOfContact { kWallContacts, kInsideBodies, kAmAm, kAmCbd, kCbdCbd, kKindsOfContact };
+
+/// One row of curve_raw.csv: doubles in the order of its columns. Pressures, gap and displacement are
+/// averages over one window; energies of contacts are NaN in a run that kept no ledger.
 struct RawRow {
   double step, time, stage, displacement, gap, p_top, p_bottom, made, broken, tension, bending,
       shear, torsion, kinetic, strain, work_platen, work_lost, work_collector, contact_elastic,
-      cohesion, damped, friction;
+      cohesion, damped, friction, speed;
+  RangeOfContacts ranges[kKindsOfContact];
 };
 
 /// |P platen - P collector| / P platen within which a run counts as quasi-static.

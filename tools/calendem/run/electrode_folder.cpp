@@ -36,8 +36,32 @@ bool numbers(const std::string &line, std::vector<double> &out) {
   return true;
 }
 
-/// Tags of the atoms; mistakes of electrode.data.
-std::set<long> read_atoms(const std::string &file, long &announced, Mistakes &mistakes) {
+/// Mean of the spheres of active material, one row of electrode.data after the other.
+class PrimaryMean {
+public:
+  void add(const std::vector<double> &row) {
+    if (row[1] != kActiveMaterial)
+      return;
+    const double volume = std::pow(row[2], 3);
+    ++n_;
+    diameters_ += row[2];
+    volumes_ += volume;
+    masses_ += row[3] * volume;
+  }
+  MeanSphere mean() const {
+    return n_ > 0 ? MeanSphere{diameters_ / n_, masses_ / volumes_} : MeanSphere();
+  }
+
+private:
+  static constexpr double kActiveMaterial = 1; // atom type
+  long n_ = 0;
+  double diameters_ = 0.0, volumes_ = 0.0, masses_ = 0.0;
+};
+
+/// Tags of the atoms; number and mean of them in `e`; mistakes of electrode.data.
+std::set<long> read_atoms(const std::string &file, ElectrodeFacts &e, Mistakes &mistakes) {
+  long &announced = e.atoms;
+  PrimaryMean primaries;
   std::ifstream in(file);
   std::set<long> tags;
   std::vector<double> row;
@@ -57,7 +81,9 @@ std::set<long> read_atoms(const std::string &file, long &announced, Mistakes &mi
     }
     if (!tags.insert(static_cast<long>(row[0])).second)
       mistakes.add(number, fmt::format("particle {} is there twice. {}", row[0], kAgain));
+    primaries.add(row);
   }
+  e.primary = primaries.mean();
   if (announced <= 0)
     mistakes.add(0, fmt::format("has no line 'N atoms' with N > 0. {}", kAgain));
   else if (static_cast<long>(tags.size()) != announced || !ends_with_newline(file))
@@ -141,7 +167,7 @@ ElectrodeFacts read_electrode(const std::string &folder) {
   } catch (const std::exception &x) { // cut, edited, or of another program
     description.add(0, fmt::format("cannot be used: {}. {}", x.what(), kAgain));
   }
-  const std::set<long> tags = read_atoms(folder + "/electrode.data", e.atoms, data);
+  const std::set<long> tags = read_atoms(folder + "/electrode.data", e, data);
   const long rows = data.empty() ? read_body_map(folder + "/bodies.map", tags, map) : 0;
   if (data.empty() && map.empty() && description.empty() && rows != e.primaries)
     map.add(0, fmt::format("holds {} primaries, electrode.json says {}: it is cut or of another "

@@ -3,6 +3,7 @@
 #ifndef CALENDEM_RUN_RUN_H
 #define CALENDEM_RUN_RUN_H
 
+#include "physics/inertial_number.h"
 #include "spec/toml_reader.h"
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -39,10 +40,11 @@ struct ElectrodeFacts {
   double lattice = 0.0;
   double nanoporosity = 0.0; ///< of CBD, as packed; 0: not known
   double widest = 0.0;       ///< largest diameter of a primary or a CBD sphere [um]
+  MeanSphere primary;        ///< of the active material; from the atoms, as `atoms` is
   long bonds = 0, atoms = 0, bodies = 0, primaries = 0;
 };
 
-/// From electrode.json; `atoms` is not in it. Throws std::exception where a field is missing.
+/// From electrode.json; the atoms are not in it. Throws std::exception where a field is missing.
 ElectrodeFacts describe_electrode(const nlohmann::json &electrode);
 
 /// Throws Failure(2) if a file is missing or cut.

@@ -41,6 +41,7 @@ const std::vector<Key> &case_keys() {
       {"bond.shear_strength_MPa", "tau_c_MPa", "500", 0.1, 1e5, "MPa", "tau_c, eq. 7"},
       {"bond.criterion", "criterion", "signed", 0, 0, "", "sign of F_n in eq. 6",
        "signed|unsigned|as_printed"},
+      {"bond.breakable", "breakable", "yes", 0, 0, "", "no: bonds bear any load", "yes|no"},
       {"bond.damping", "bond_damping", "0.02", 0, 1, "", "fraction of critical damping"},
       {"bond.weibull_modulus", "weibull_m", "0", 0, 100, "", "scatter of strength; 0: none"},
       {"bond.seed", "bond_seed", "1", 0, 4e9, "", "of the scatter", "", false, true},

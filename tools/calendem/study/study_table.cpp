@@ -25,6 +25,15 @@ const char *const kNumbers[] = {"max_pressure_MPa",
                                 "ranks",
                                 "steps",
                                 "wall_clock_s"};
+/// Where in summary.json, and the column's name.
+struct Nested {
+  const char *place, *name;
+};
+const Nested kNested[] = {
+    {"/quasi_static/pressure_difference_max_above_5_MPa", "pressure_difference_max_above_5_MPa"},
+    {"/quasi_static/inertial_number_max_above_5_MPa", "inertial_number_max_above_5_MPa"},
+    {"/quasi_static/kinetic_to_elastic_max_above_5_MPa", "kinetic_to_elastic_max_above_5_MPa"},
+    {"/contact_range/at_max_pressure/all/force_beyond_0.2_R", "force_beyond_0.2_R_at_max"}};
 const char *const kAtPressure[] = {"displacement_um", "thickness_um", "broken_fraction",
                                    "porosity_total"};
 
@@ -51,7 +60,7 @@ std::vector<double> at_pressure(const CsvTable &curve, double pressure) {
   return out;
 }
 
-constexpr std::size_t kOwn = std::size(kNumbers) + 1; // and the imbalance of pressures
+constexpr std::size_t kOwn = std::size(kNumbers) + std::size(kNested);
 
 } // namespace
 
@@ -61,7 +70,8 @@ std::string study_header(const Study &study) {
     out += "," + c;
   for (const char *key : kNumbers)
     out += std::string(",") + key;
-  out += ",pressure_difference_max_above_5_MPa";
+  for (const Nested &n : kNested)
+    out += std::string(",") + n.name;
   for (const double p : study.at_pressure)
     for (const char *key : kAtPressure)
       out += fmt::format(",{}_at_{:g}_MPa", key, p);
@@ -77,14 +87,15 @@ std::string results_of(const std::string &folder, const std::vector<double> &pre
       nlohmann::json::parse(text_of_file(folder + "/summary.json"), nullptr, false);
   if (!s.is_object())
     return no_results(pressures);
-  const auto value = [](const nlohmann::json &j, const char *key) {
-    return j.contains(key) && j[key].is_number() ? j[key].get<double>() : std::nan("");
+  const auto value = [&s](const std::string &place) {
+    const nlohmann::json::json_pointer at(place);
+    return s.contains(at) && s[at].is_number() ? s[at].get<double>() : std::nan("");
   };
   std::string out;
   for (const char *key : kNumbers)
-    out += "," + number(value(s, key));
-  out += "," + number(value(s.value("quasi_static", nlohmann::json::object()),
-                            "pressure_difference_max_above_5_MPa"));
+    out += "," + number(value(std::string("/") + key));
+  for (const Nested &n : kNested)
+    out += "," + number(value(n.place));
   if (pressures.empty())
     return out;
   const CsvTable curve = CsvTable::parse(text_of_file(folder + "/curve.csv"));
