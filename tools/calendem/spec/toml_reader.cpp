@@ -174,7 +174,7 @@ std::string list_of_keys(const std::vector<Key> &keys) {
     const std::string fallback = !k.same_as.empty() ? "same" : k.fallback;
     text += fmt::format("  {:<36} {:>8} {:<7} {:<27} {}{}\n", k.name,
                         fallback.empty() ? "required" : fallback, k.unit, range, k.meaning,
-                        k.same_as.empty() ? "" : "; unless given that of " + k.same_as);
+                        k.same_as.empty() ? "" : "; that of " + k.same_as + " unless given");
   }
   return text;
 }
