@@ -10,18 +10,12 @@
 namespace calendem {
 
 inline const std::vector<Effect> &effects() {
-  static const std::vector<Effect> table = {
-      friction(),
-      nmc_plasticity(),
-      cbd_collapse(),
-      cbd_viscoelasticity(),
-      collector_indentation(),
-      weibull_strength(),
-      pre_cracks(),
-      machine_compliance(),
-      pressure_calibration(),
-      thickness_zero(),
-  };
+  static const std::vector<Effect> table = [] {
+    std::vector<Effect> all = effects_of_contacts();
+    for (const std::vector<Effect> &more : {effects_of_bonds(), effects_of_the_press()})
+      all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }();
   return table;
 }
 

@@ -37,6 +37,8 @@ inline Effect pre_cracks() {
   return e;
 }
 
+inline std::vector<Effect> effects_of_bonds() { return {weibull_strength(), pre_cracks()}; }
+
 } // namespace calendem
 
 #endif

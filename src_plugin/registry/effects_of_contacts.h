@@ -112,6 +112,11 @@ inline Effect collector_indentation() {
   return e;
 }
 
+inline std::vector<Effect> effects_of_contacts() {
+  return {friction(), nmc_plasticity(), cbd_collapse(), cbd_viscoelasticity(),
+          collector_indentation()};
+}
+
 } // namespace calendem
 
 #endif

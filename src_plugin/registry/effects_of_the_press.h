@@ -59,6 +59,10 @@ inline Effect thickness_zero() {
   return e;
 }
 
+inline std::vector<Effect> effects_of_the_press() {
+  return {machine_compliance(), pressure_calibration(), thickness_zero()};
+}
+
 } // namespace calendem
 
 #endif
