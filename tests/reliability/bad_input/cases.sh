@@ -195,7 +195,7 @@ imposed_and_by_law() {
 relaxes_into_cohesion() {
   printf '%s\n' 'electrode = "e"' '[effects.cbd_viscoelasticity]' 'relaxed_fraction = 0.9' | file case.toml
   refused case.toml "case.toml:3: effects.cbd_viscoelasticity.relaxed_fraction is 0.9" "am and cbd spheres" \
-    "at most 0.3 is allowed"
+    "more than 0.3 of their radius" "0 (off) or at most 0."
 }
 averaged_over_too_much() {
   printf '%s\n' 'electrode = "e"' '[platen]' 'release_speed_m_s = 8' '[numerics]' 'average_us = 0.25' | file case.toml
@@ -616,7 +616,9 @@ script_criterion() {
   says "ERROR: Fix bond/bpm" "'criterion singed'" "criterion signed|unsigned|as_printed"
 }
 script_modulus_in_pa() {
-  expect 1 script -var E_am_GPa 2e11
+  expect 1 script -var E_am_GPa 2e11 # of bonds too
+  says "ERROR: Fix bond/bpm" "'youngs_modulus' is 2e+17 kPa = 2e+11 GPa" "Is it given in Pa?"
+  expect 1 script -var E_am_GPa 2e11 -var E_bond_GPa 200
   says "ERROR: Fix bond/bpm" "youngsModulus of atom type 1 is 2e+17 kPa = 2e+11 GPa" "Is it given in Pa?"
   expect 1 script -var p_max_MPa 150e6
   says "ERROR: Fix wall/gran/platen" "'pressure' is" "Is it given in Pa?"

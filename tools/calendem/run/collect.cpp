@@ -2,6 +2,7 @@
 #include "run/collect.h"
 #include "physics/nanopore_collapse.h"
 #include "physics/press_instruments.h"
+#include "registry/effects.h"
 #include "run/energy.h"
 #include "run/validity.h"
 #include "spec/case.h"
@@ -27,9 +28,11 @@ constexpr double kImbalanceWindow = 0.5; // us
 constexpr double kTargetTolerance = 0.02, kCutOff = 0.25 * kAverageTravel; // um
 
 PressInstruments instruments_of(const Settings &s) { // MPa, um
-  return {s.number("effects.pressure_calibration.factor"),
-          s.number("effects.machine_compliance.um_per_MPa"),
-          s.number("effects.thickness_zero.offset_um")};
+  PressInstruments press;
+  for (const Effect &e : effects())
+    if (e.shown)
+      press.*e.shown = s.number(e.parameter.keys.front());
+  return press;
 }
 
 double total_porosity(const ElectrodeFacts &e, double gap) {
