@@ -3,11 +3,14 @@
 //     criterion signed|unsigned|as_printed damping D weibull M SEED pre_cracks F
 //     breakable yes|no log FILE pressure PLATEN_FIX
 //
-// Owns the bonds of `pair_style gran ... cohesion bpm surface bpm`: their material, their creation
-// (at the first set-up after the fix appears, between touching primaries of one body, once), the
-// decision of every break by the rank that owns the lower tag, and the event log. All stresses in
-// kPa (units micro). Global vector: see compute bond/bpm. Everything restarts, under the same fix
-// ID.
+// Keeps positions and periodic sides on a grid on which shifts by a side are exact: both copies of
+// a pair then do the same arithmetic, and find the same breaks, whichever ranks hold them. Owns the
+// bonds of `pair_style gran ... cohesion bpm surface bpm`: their material, their creation (at the
+// first set-up after the fix appears, between touching primaries of one body, once), the breaks,
+// and the event log. Every copy of a pair breaks in the same step without a word between ranks; the
+// rank that owns the lower tag writes the event down, and events are gathered when they are asked
+// for, at the latest after 100 steps. All stresses in kPa (units micro). Global vector: see compute
+// bond/bpm. Everything restarts, under the same fix ID.
 #ifdef FIX_CLASS
 
 FixStyle(bond/bpm, FixBondBpm)
@@ -44,6 +47,12 @@ struct BondSettings {
 /// it travels through MPI and restart files as it is.
 struct BreakEvent {
   double time, tag_low, tag_high, body, mode, sigma, tau, x, y, z, pressure, energy;
+
+  bool operator<(const BreakEvent &o) const {
+    return time != o.time         ? time < o.time
+           : tag_low != o.tag_low ? tag_low < o.tag_low
+                                  : tag_high < o.tag_high;
+  }
 };
 
 class FixBondBpm : public Fix {
@@ -52,8 +61,11 @@ public:
   ~FixBondBpm();
   int setmask();
   void init();
+  void setup_pre_exchange();
   void setup_pre_force(int);
   void setup(int);
+  void post_integrate();
+  void post_run();
   void post_force(int);
   void end_of_step();
   double compute_vector(int);
@@ -80,11 +92,11 @@ public:
   const BondSettings &settings() const { return settings_; }
   bool creating() const { return creating_; }
   void create(int i, int j, double r, BondHistory &bond) const;
-  void record_break(int i, int j, const calendem::BondLoads &, double tension,
+  void record_break(int i, int j, BondHistory bond, const calendem::BondLoads &, double tension,
                     const calendem::BondSection &, const calendem::BondStiffness &, double factor);
-  void check_stretch(int i, int j, double stretch) {
-    if (stretch > kStretchLimit && stretch > overstretched_[2])
-      remember_stretch(i, j, stretch);
+  void check_stretch(double stretch) {
+    if (stretch > kStretchLimit && stretch > overstretched_)
+      overstretched_ = stretch;
   }
   void acts(int i, int j) { acting_ += decides(i, j); }
   void count_acting(bigint bonds) { acting_ += bonds; }
@@ -93,10 +105,12 @@ public:
   // for computes and dumps
   int body(int i) const { return body_[i]; }
   int broken_of(int i) const { return broken_[i]; }
-  const std::vector<BreakEvent> &breaks() const { return breaks_; }
+  /// All so far; all ranks must call.
+  const std::vector<BreakEvent> &breaks() {
+    gather_breaks();
+    return breaks_;
+  }
   bigint initial() const { return initial_; }
-  bigint broken(calendem::BreakMode mode) const { return by_mode_[static_cast<int>(mode)]; }
-  double energy_lost() const { return energy_lost_; }
   /// Calls visit(i, j, history) for every intact bond, each once over all ranks.
   template <class Visit> void for_each_intact(Visit visit);
   /// The same for every copy on this rank: each local atom meets all its bonds.
@@ -124,9 +138,18 @@ private:
   bigint initial_;
   bigint by_mode_[5];
   double energy_lost_;
-  std::vector<BreakEvent> pending_, breaks_;
-  double overstretched_[3]; // tags and stretch of the worst pair found, 0 if none
-  bigint acting_;           // bonds that acted in this step, those this rank decides
+  /// A copy of a bond that fails in this step.
+  struct Break {
+    int i, j;
+    BondHistory bond;
+    BreakEvent event;
+  };
+  std::vector<Break> failing_;     // of this step
+  std::vector<BreakEvent> mine_;   // decided here since the last gathering
+  std::vector<BreakEvent> breaks_; // gathered
+  double overstretched_;           // largest stretch beyond the limit, 0 if none
+  bigint acting_, expected_; // intact bonds that this rank decides: acted in this step; there are
+  double spacing_;           // of the grid of positions
 
   void parse(int narg, char **arg);
   int parse_keyword(int iarg, int narg, char **arg);
@@ -141,15 +164,18 @@ private:
   void read_bodies();
   void check_box();
   bigint count_intact();
+  bool copies_agree();
   bigint broken() const;
   template <class Visit> void for_each_neighbor(Visit visit);
-  void gather_breaks(std::vector<BreakEvent> &all);
-  void apply_breaks(const std::vector<BreakEvent> &all);
+  void choose_grid();
+  void put_on_grid();
+  void check_acting();
+  void apply_breaks();
+  void gather_breaks();
   void open_log();
-  void set_pressure(std::vector<BreakEvent> &events) const;
+  double platen_pressure() const;
   void log_breaks(const std::vector<BreakEvent> &all);
-  void remember_stretch(int i, int j, double stretch);
-  void stop_if_overstretched();
+  void stop_overstretched();
   void stop_lost(bigint acting, bigint intact);
 };
 

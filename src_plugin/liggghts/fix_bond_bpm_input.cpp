@@ -249,13 +249,10 @@ void FixBondBpm::open_log() {
   log_breaks(known);
 }
 
-// A break happens at the platen's pressure of its step.
-void FixBondBpm::set_pressure(std::vector<BreakEvent> &events) const {
+// Averaged, of the step; 0 without a platen.
+double FixBondBpm::platen_pressure() const {
   const int platen = platen_id_.empty() ? -1 : modify->find_fix(platen_id_.c_str());
-  if (platen < 0)
-    return;
-  for (BreakEvent &e : events)
-    e.pressure = modify->fix[platen]->compute_vector(4);
+  return platen < 0 ? 0.0 : modify->fix[platen]->compute_vector(4);
 }
 
 void FixBondBpm::log_breaks(const std::vector<BreakEvent> &all) {

@@ -75,7 +75,7 @@ void FixEnergyBpm::find_walls() {
 void FixEnergyBpm::grow_arrays(int nmax) { loads_.resize(nmax); }
 
 void FixEnergyBpm::pre_force(int) {
-  std::fill(loads_.begin(), loads_.begin() + atom->nlocal, AtomLoads());
+  std::fill(loads_.begin(), loads_.begin() + atom->nlocal + atom->nghost, AtomLoads());
 }
 
 // Atoms may have moved in memory, and the forces that follow no longer know the broken bonds.

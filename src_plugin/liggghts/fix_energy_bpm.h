@@ -65,23 +65,16 @@ public:
   /// The fix of the run, NULL if there is none.
   static FixEnergyBpm *find(class LAMMPS *lmp);
 
-  // for the contact models, per pair; ghosts are their owner's business
-  void add_damping(int i, const ForceAndTorque &a) {
-    if (i < atom->nlocal)
-      loads_[i].damping = loads_[i].damping + a;
-  }
+  // for the contact models, per pair; what is added to ghosts is their owner's business
+  void add_damping(int i, const ForceAndTorque &a) { loads_[i].damping = loads_[i].damping + a; }
   void add_damping(int i, const calendem::Vec3 &force) {
-    if (i < atom->nlocal)
-      loads_[i].damping.force = loads_[i].damping.force + force;
+    loads_[i].damping.force = loads_[i].damping.force + force;
   }
   void add_damping(int i, int j, const calendem::BondAction &a) {
     add_damping(i, {a.force, a.torque_i});
     add_damping(j, {-a.force, a.torque_j});
   }
-  void add_friction(int i, const ForceAndTorque &a) {
-    if (i < atom->nlocal)
-      loads_[i].friction = loads_[i].friction + a;
-  }
+  void add_friction(int i, const ForceAndTorque &a) { loads_[i].friction = loads_[i].friction + a; }
   /// What an effect of a contact has taken: plastic flow, or viscous.
   void add_taken(double work, bool plastic) { sums_[plastic ? kPlastic : kViscous] += work; }
   /// Of a pair: each of its copies calls, one counts.

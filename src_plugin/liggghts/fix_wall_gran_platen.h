@@ -66,12 +66,14 @@ public:
   const double *effect_memory(int i) const;
 
 private:
-  /// All that restarts, doubles only.
+  /// All that restarts. `load`, `block` and `work` are this rank's share; the sum over ranks
+  /// restarts.
   struct Record {
     calendem::PlatenState state;
     calendem::MovingAverage average; ///< of the pressure
     calendem::MovingAverage height;  ///< of the position
-    double load = 0.0;
+    long long load = 0;              ///< as FixedPoint: the same on any number of ranks
+    long long block = 0;             ///< sum of the loads since the average's last block
     double work = 0.0;
   };
 
@@ -90,6 +92,8 @@ private:
   void place_wall();
   void measure();
   double area() const;
+  void add_up(Record &record) const;
+  void keep_share();
 };
 
 } // namespace LAMMPS_NS
