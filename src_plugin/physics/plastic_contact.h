@@ -19,6 +19,7 @@
 #ifndef CALENDEM_PHYSICS_PLASTIC_CONTACT_H
 #define CALENDEM_PHYSICS_PLASTIC_CONTACT_H
 
+#include "contact_limits.h"
 #include "hertz_contact.h"
 
 namespace calendem {
@@ -92,6 +93,15 @@ private:
     return std::fmax(0.0, 1.0 - (largest - overlap) / elastic_overlap(largest));
   }
 };
+
+/// Of the limiting pressure [kPa]: a contact that yields below 2 CED cannot carry its cohesion.
+inline ContactLimits plastic_contact_limits(const PhasePair &phases) {
+  ContactLimits limits;
+  limits.least = 2.5 * phases.cohesion;
+  limits.why = "a contact that yields below twice the cohesion energy density cannot carry its own "
+               "cohesion, and the packing collapses";
+  return limits;
+}
 
 } // namespace calendem
 

@@ -19,6 +19,7 @@
 #ifndef CALENDEM_PHYSICS_VISCOUS_CONTACT_H
 #define CALENDEM_PHYSICS_VISCOUS_CONTACT_H
 
+#include "contact_limits.h"
 #include "hertz_contact.h"
 
 namespace calendem {
@@ -79,6 +80,18 @@ private:
     return std::fmax(overlap - dashpot, lowest(overlap));
   }
 };
+
+/// Of the relaxed fraction: it leaves cohesion a softer contact, whose overlap grows by 1/(1 -
+/// g)^2; at most 0.3 of the radius of equal spheres.
+inline ContactLimits viscous_contact_limits(const PhasePair &phases) {
+  const double overlap = sjkr_equilibrium_overlap(phases.cohesion, phases.modulus, 0.5);
+  ContactLimits limits;
+  limits.most = std::fmax(0.0, 1.0 - std::sqrt(overlap / 0.3));
+  limits.why =
+      "once relaxed, cohesion would pull equal spheres into each other by more than 0.3 of "
+      "their radius, and the packing collapses";
+  return limits;
+}
 
 } // namespace calendem
 

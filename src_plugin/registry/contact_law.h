@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The contact laws that can take Hertz' place between two phases: one row each. A law reads its
+// properties from the script, by pairs of atom types (`fix property/global NAME peratomtypepair`,
+// units micro). It acts where its first property is > 0; a property that is not set is 0. A pair of
+// types may have one law.
+#ifndef CALENDEM_REGISTRY_CONTACT_LAW_H
+#define CALENDEM_REGISTRY_CONTACT_LAW_H
+
+#include "physics/plastic_contact.h"
+#include "physics/viscous_contact.h"
+#include <array>
+
+namespace calendem {
+
+/// Where the law acts a value is > 0 and < `below`.
+struct ContactProperty {
+  const char *name; ///< of the script's property; NULL: the law has no more of them
+  const char *unit; ///< the script's
+  double below = std::numeric_limits<double>::infinity();
+};
+
+struct ContactLaw {
+  const char *name;
+  const char *header; ///< in src_plugin/physics
+  std::array<ContactProperty, 4> properties;
+  /// Contacts get stiffer than Hertz' under the same force: the time step is checked as they do.
+  bool stiffens;
+  ContactLimits (*limits)(const PhasePair &phases); ///< of the first property
+};
+
+inline constexpr ContactLaw kPlasticContact = {"elastic-plastic",
+                                               "plastic_contact.h",
+                                               {{{"contactYieldPressure", "kPa"}}},
+                                               true,
+                                               &plastic_contact_limits};
+
+inline constexpr ContactLaw kViscousContact = {
+    "viscoelastic",
+    "viscous_contact.h",
+    {{{"contactRelaxedFraction", "", 1.0}, {"contactRelaxationTime", "us"}}},
+    false,
+    &viscous_contact_limits};
+
+inline constexpr std::array<const ContactLaw *, 2> kContactLaws = {&kPlasticContact,
+                                                                   &kViscousContact};
+
+} // namespace calendem
+
+#endif
