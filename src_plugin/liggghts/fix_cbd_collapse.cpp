@@ -134,7 +134,7 @@ void FixCbdCollapse::add_pair_forces(std::vector<double> &sum) const {
     const int ti = atom->type[i], tj = atom->type[j];
     const double *memory = pairs_have_effects_ ? bond.effect_memory() : NULL;
     const double net =
-        effects_.force({ti, tj, calendem::effective_radius(R[i], R[j]), R[i] + R[j] - r}, memory) -
+        effects_.force(EffectContact::of_spheres(ti, tj, R[i], R[j], R[i] + R[j] - r), memory) -
         calendem::sjkr_force(cohesion_energy_density_[ti][tj], r, R[i], R[j]);
     for (int a : {i, j})
       if (is_mine(a))
@@ -146,9 +146,10 @@ void FixCbdCollapse::add_wall_forces(std::vector<double> &sum) const {
   for (FixWallGranPlaten *wall : walls_)
     for (int i = 0; i < atom->nlocal; ++i)
       if (is_mine(i))
-        sum[i] += effects_.force({type_, wall->atom_type_wall(), atom->radius[i],
-                                  atom->radius[i] - std::fabs(atom->x[i][2] - wall->position())},
-                                 wall->effect_memory(i));
+        sum[i] += effects_.force(
+            EffectContact::at_wall(type_, wall->atom_type_wall(), atom->radius[i],
+                                   atom->radius[i] - std::fabs(atom->x[i][2] - wall->position())),
+            wall->effect_memory(i));
 }
 
 double FixCbdCollapse::rotational_energy() const {

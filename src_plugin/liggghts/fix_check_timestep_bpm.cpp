@@ -91,8 +91,8 @@ void FixCheckTimestepBpm::add_contacts(std::vector<calendem::BondRowSum> &stiffn
     const int ti = atom->type[i], tj = atom->type[j];
     if (!bond.effect_memory() || !effects_.act(ti, tj))
       return;
-    const double a = effects_.largest_radius(
-        {ti, tj, calendem::effective_radius(R[i], R[j]), R[i] + R[j] - r}, *bond.effect_memory());
+    const double a = effects_.stiffness_radius(
+        EffectContact::of_spheres(ti, tj, R[i], R[j], R[i] + R[j] - r), bond.effect_memory());
     const calendem::BondCoefficients k =
         calendem::contact_stiffness(effects_.modulus(ti, tj), effects_.shear_modulus(ti, tj), a);
     const calendem::BondCoefficients c =
@@ -111,11 +111,11 @@ double FixCheckTimestepBpm::contact_bound() const {
   double least = HUGE_VAL;
   for (int i = 0; i < atom->nlocal; ++i) {
     const int t = atom->type[i];
-    if (!effects_.yields(t, t))
+    if (!effects_.act(t, t) || !effects_.law(t, t).stiffens)
       continue;
     const double R = atom->radius[i], m = atom->rmass[i];
-    const double a =
-        effects_.radius_under(calendem::mean_contact_force(pressure_, R), t, t, 0.5 * R);
+    const double a = effects_.radius_under(calendem::mean_contact_force(pressure_, R),
+                                           EffectContact::of_spheres(t, t, R, R, 0.0));
     const calendem::BondCoefficients k =
         calendem::contact_stiffness(effects_.modulus(t, t), effects_.shear_modulus(t, t), a);
     const calendem::BondCoefficients c =

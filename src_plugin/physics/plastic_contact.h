@@ -19,6 +19,7 @@
 #ifndef CALENDEM_PHYSICS_PLASTIC_CONTACT_H
 #define CALENDEM_PHYSICS_PLASTIC_CONTACT_H
 
+#include "contact_interface.h"
 #include "contact_limits.h"
 #include "hertz_contact.h"
 
@@ -26,10 +27,14 @@ namespace calendem {
 
 class PlasticContact {
 public:
+  static constexpr int kMemory = 1; ///< largest overlap so far [um]
+
   /// Effective modulus [kPa], effective radius [um], limiting pressure [kPa]; all > 0.
   PlasticContact(double E_eff, double R_eff, double yield_pressure)
       : E_(E_eff), R_(R_eff), slope_(kPi_ * yield_pressure * R_eff),
         yield_overlap_(slope_ * slope_ / (4.0 * E_eff * E_eff * R_eff)) {}
+  PlasticContact(const ContactSurfaces &s, const double *values)
+      : PlasticContact(s.E_eff, s.R_eff, values[0]) {}
 
   double yield_overlap() const { return yield_overlap_; }
 
@@ -68,6 +73,12 @@ public:
     return std::sqrt(R_ * largest * still_elastic(overlap, largest));
   }
 
+  /// Unloading begins with the largest stiffness, that of Hertz at the largest overlap.
+  double stiffness_radius(double overlap, double largest) const {
+    return std::sqrt(R_ * (largest > overlap ? largest : overlap));
+  }
+  double radius_under(double force) const { return std::sqrt(R_ * overlap_under(force)); }
+
   /// Energy [fJ] that unloading gives back.
   double elastic_energy(double overlap, double largest) const {
     const double from = std::fmax(std::fmax(overlap, largest), 0.0);
@@ -83,6 +94,14 @@ public:
     const double done = hertz_energy(E_, R_, yield_overlap_) +
                         d * (loading_force(yield_overlap_) + 0.5 * slope_ * d);
     return done - elastic_energy(largest, largest);
+  }
+
+  double advance(double, double now, double, double &largest) const {
+    if (now <= largest)
+      return 0.0;
+    const double taken = plastic_work(now) - plastic_work(largest);
+    largest = now;
+    return taken;
   }
 
 private:
