@@ -30,6 +30,23 @@ void refuse(LAMMPS *lmp, const calendem::ContactProperty &property, int i, int j
   lmp->error->all(FLERR, message);
 }
 
+// Where the property's law acts.
+void check(LAMMPS *lmp, const calendem::ContactProperty &property, int i, int j, double value,
+           double modulus) {
+  char why[200], below[40] = "";
+  if (std::isfinite(property.below))
+    snprintf(below, sizeof below, " and < %g", property.below);
+  snprintf(why, sizeof why, "where the law acts it must be a finite number %s 0%s",
+           property.may_be_zero ? ">=" : ">", below);
+  const bool enough = property.may_be_zero ? value >= 0.0 : value > 0.0;
+  if (!enough || !(value < property.below) || !std::isfinite(value))
+    refuse(lmp, property, i, j, value, why);
+  snprintf(why, sizeof why, "give at most %g, %g of the effective modulus",
+           property.of_modulus * modulus, property.of_modulus);
+  if (value > property.of_modulus * modulus)
+    refuse(lmp, property, i, j, value, why);
+}
+
 } // namespace
 
 bool ContactEffects::in_use(LAMMPS *lmp) {
@@ -63,16 +80,10 @@ void ContactEffects::read(PropertyRegistry &registry, int i, int j, const char *
 void ContactEffects::choose(LAMMPS *lmp, int n, int i, int j, double cohesion) {
   TypePair &p = pairs_[i * (types_ + 1) + j];
   const ContactLaw &law = *kContactLaws[n];
-  char why[400], below[40] = "";
+  char why[400];
   for (size_t k = 0; k < law.properties.size() && law.properties[k].name; ++k) {
-    const calendem::ContactProperty &property = law.properties[k];
-    p.values[k] = optional(lmp, property.name, types_, i, j);
-    if (std::isfinite(property.below))
-      snprintf(below, sizeof below, " and < %g", property.below);
-    snprintf(why, sizeof why, "it must be a finite number > 0%s%s where the law acts", below,
-             k == 0 ? " (0: off)" : "");
-    if (!(p.values[k] > 0.0 && p.values[k] < property.below))
-      refuse(lmp, property, i, j, p.values[k], why);
+    p.values[k] = optional(lmp, law.properties[k].name, types_, i, j);
+    check(lmp, law.properties[k], i, j, p.values[k], p.modulus);
   }
   if (p.law >= 0) {
     snprintf(why, sizeof why, "a contact follows one law: set it or %s to 0",
