@@ -129,7 +129,7 @@ private:
 inline ContactLimits plastic_contact_limits(const PhasePair &phases) {
   ContactLimits limits;
   limits.least = 2.5 * phases.cohesion;
-  limits.why = "a contact that yields below twice the cohesion energy density cannot carry its own "
+  limits.why = "contacts that yield below twice the cohesion energy density cannot carry their own "
                "cohesion, and the packing collapses";
   return limits;
 }

@@ -35,6 +35,7 @@ int main(int argc, char **argv) {
   calendem::add_diagnose_verb(app);
   calendem::add_withheld_verb(app);
   calendem::add_effects_verb(app);
+  calendem::add_registry_verb(app);
   calendem::add_tomogram_verb(app);
   calendem::add_validate_verb(app);
   try {

@@ -14,7 +14,7 @@ plain() { # SCRIPT DIR: the input scripts without the command line tool, with th
   mpirun -np 1 "$bin/liggghts" -in "$scripts/$1" -log "$2/log.liggghts" -var scripts "$scripts" \
     -var electrode "$work/electrode" -var out "$2" -var sigma_c_MPa 200 -var tau_c_MPa 200 \
     -var p_max_MPa 40 -var speed_m_s 2 -var touch_speed_m_s 2 -var release_speed_m_s 2 \
-    -var restart_every_us 0.5 -var vtk_every_us 2 >"$2/screen.txt" || { tail "$2/screen.txt"; exit 1; }
+    -var restart_every_us 0.5 >"$2/screen.txt" || { tail "$2/screen.txt"; exit 1; }
 }
 # kill -9 to the launcher and the ranks of one run; other runs on this machine, even of the same path, go on.
 kill_job() { # PID of calendem run
@@ -36,6 +36,17 @@ kill_and_resume() { # CASE DIR: kill -9 once a restart file and twelve rows are 
 mkdir -p "$work"
 cp "$here/case.toml" "$work/"
 case $case in
+  settings) # the scripts alone: a bond is as stiff as its particles unless asked; every setting is written down
+    written() { # VARIABLE [-var NAME VALUE]...: what settings.txt says of it
+      printf '%s\n' "variable scripts index x" "include $scripts/common/defaults.in" \
+        "include $scripts/common/settings.in" >"$work/in.settings"
+      "$bin/liggghts" -in "$work/in.settings" -log none -var out "$work" "${@:2}" >"$work/said" || { cat "$work/said"; exit 1; }
+      sed -n "s/^$1 //p" "$work/settings.txt"
+    }
+    [ "$(written E_bond_GPa -var E_am_GPa 150)" = 150 ] || fail "E_bond_GPa is not E_am_GPa"
+    [ "$(written nu_bond -var nu_am 0.2)" = 0.2 ] || fail "nu_bond is not nu_am"
+    [ "$(written E_bond_GPa -var E_am_GPa 150 -var E_bond_GPa 200)" = 200 ] || fail "E_bond_GPa cannot be given"
+    [ "$(written vtk_every_us)" = 2 ] || fail "vtk_every_us is not what a case has" ;;
   pack)
     rm -rf "$work/electrode"
     "$bin/calendem" pack "$here/electrode.toml" -o "$work/electrode" --ranks 1

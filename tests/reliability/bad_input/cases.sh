@@ -195,7 +195,7 @@ imposed_and_by_law() {
 relaxes_into_cohesion() {
   printf '%s\n' 'electrode = "e"' '[effects.cbd_viscoelasticity]' 'relaxed_fraction = 0.9' | file case.toml
   refused case.toml "case.toml:3: effects.cbd_viscoelasticity.relaxed_fraction is 0.9" "am and cbd spheres" \
-    "at most 0.3 is allowed"
+    "more than 0.3 of their radius" "0 (off) or at most 0."
 }
 cohesion_collapses() {
   printf '%s\n' 'electrode = "e"' '[material.cbd]' 'ced_J_m3 = 7e8' | file case.toml

@@ -29,7 +29,9 @@ physics_is_self_contained() {
       { echo "FAILED: $name does not compile by itself"; exit 1; }
   done
 }
-includes_point_one_way() { # physics <- liggghts; physics <- tools/calendem; tests on top
+includes_point_one_way() { # physics <- registry <- liggghts, tools/calendem; tests on top
+  includes src_plugin/registry | without '#include (<[a-z_]+>|"(physics|registry)/[a-z0-9_]+\.h")' |
+    report "registry may include standard headers, physics and its own"
   includes src_plugin | matching '"[^"]*(calendem|tools|tests|gtest)[^"]*"' |
     report "src_plugin must not include tools or tests" || exit 1
   includes tools/calendem | matching '"[^"]*(liggghts|tests)/|<(gtest|gmock|benchmark)/|"(fix|pair|compute|dump)_' |

@@ -199,10 +199,8 @@ bool has_release(const BankTable &table) {
 
 SimulatedRun shown_with(const Effect &effect, double value, const SimulatedRun &run) {
   PressInstruments press; // MPa, um
-  if (effect.name == "machine_compliance")
-    press.compliance = value;
-  else if (effect.name == "thickness_zero")
-    press.thickness_zero = value;
+  if (effect.shown)
+    press.*effect.shown = value;
   SimulatedRun out = run;
   out.thickness_at_max = press.thickness_shown(run.thickness_at_max);
   out.thickness_after = press.thickness_shown(run.thickness_after);

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "effects/verb.h"
 #include "effects/effects.h"
+#include "effects/generated_files.h"
 #include "spec/case.h"
+#include "spec/messages.h"
+#include "spec/provenance.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fmt/format.h>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 namespace calendem {
@@ -35,8 +40,7 @@ void print_one(const Effect &e) {
              a.scale == AmplitudeScale::Reciprocal ? "; the smaller, the stronger" : "");
   fmt::print("  moves             {}\n  source            {}\n", e.moves, e.source);
   fmt::print("  law               src_plugin/physics/{}\n  verified by       tests/{}\n", e.law,
-             e.verification.find('/') == std::string::npos ? "verification/" + e.verification
-                                                           : e.verification);
+             folder_of_tests(e));
 }
 
 void print_json(const std::string &name) {
@@ -47,7 +51,41 @@ void print_json(const std::string &name) {
   fmt::print("{}\n", all.dump(2));
 }
 
+void write_generated(const std::string &top, bool check) {
+  std::vector<std::string> stale;
+  for (const GeneratedFile &f : generated_files()) {
+    const std::string path = top + "/" + f.path;
+    std::ifstream in(path);
+    if (std::string(std::istreambuf_iterator<char>(in), {}) == f.text)
+      continue;
+    stale.push_back(f.path);
+    if (!check)
+      write_file(path, f.text);
+  }
+  if (check && !stale.empty())
+    throw Failure(kCheckFailed, fmt::format("not what the rows of src_plugin/registry make: {}. "
+                                            "`calendem registry {}` writes them.",
+                                            fmt::join(stale, ", "), top));
+  for (const std::string &path : stale)
+    fmt::print("registry: {}\n", path);
+}
+
 } // namespace
+
+void add_registry_verb(CLI::App &app) {
+  struct Arguments {
+    std::string top;
+    bool check = false;
+  };
+  auto a = std::make_shared<Arguments>();
+  CLI::App *verb =
+      app.add_subcommand("registry", "Writes the scripts and pages that are made from the rows of "
+                                     "settings and effects");
+  verb->group(""); // for who changes the program
+  verb->add_option("DIR", a->top, "top of the repository")->required();
+  verb->add_flag("--check", a->check, "only tell which are not as the rows make them");
+  verb->callback([a] { write_generated(a->top, a->check); });
+}
 
 void add_effects_verb(CLI::App &app) {
   struct Arguments {

@@ -2,6 +2,7 @@
 #include "run/collect.h"
 #include "physics/nanopore_collapse.h"
 #include "physics/press_instruments.h"
+#include "registry/effects.h"
 #include "run/energy.h"
 #include "spec/provenance.h"
 #include <algorithm>
@@ -24,9 +25,11 @@ constexpr double kImbalanceWindow = 0.5; // us
 constexpr double kTargetTolerance = 0.02;
 
 PressInstruments instruments_of(const Settings &s) { // MPa, um
-  return {s.number("effects.pressure_calibration.factor"),
-          s.number("effects.machine_compliance.um_per_MPa"),
-          s.number("effects.thickness_zero.offset_um")};
+  PressInstruments press;
+  for (const Effect &e : effects())
+    if (e.shown)
+      press.*e.shown = s.number(e.parameter.keys.front());
+  return press;
 }
 
 double total_porosity(const ElectrodeFacts &e, double gap) {

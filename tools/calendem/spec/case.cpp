@@ -1,118 +1,54 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "spec/case.h"
 #include "physics/hertz_contact.h"
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 
 namespace calendem {
 
-const std::vector<Key> &case_keys() {
-  static const std::vector<Key> keys = {
-      {"electrode", "electrode", "", 0, 0, "", "folder made by calendem pack", "", true},
-      {"material.am.youngs_modulus_GPa", "E_am_GPa", "200", 0.01, 1000, "GPa", "active material"},
-      {"material.am.poisson", "nu_am", "0.3", 0, 0.49, "", "Poisson's ratio"},
-      {"material.am.friction", "mu_am", "0.001", 0, 2, "", "coefficient of friction"},
-      {"material.am.restitution", "e_am", "0.15", 0.05, 1, "", "coefficient of restitution"},
-      {"material.am.ced_J_m3", "ced_am_J_m3", "6e8", 0, 1e11, "J/m3", "cohesion energy density"},
-      {"material.cbd.youngs_modulus_GPa", "E_cbd_GPa", "2", 0.01, 1000, "GPa",
-       "carbon-binder domain"},
-      {"material.cbd.poisson", "nu_cbd", "0.49", 0, 0.49, "", "Poisson's ratio"},
-      {"material.cbd.friction", "mu_cbd", "0.001", 0, 2, "", "coefficient of friction"},
-      {"material.cbd.restitution", "e_cbd", "0.15", 0.05, 1, "", "coefficient of restitution"},
-      {"material.cbd.ced_J_m3", "ced_cbd_J_m3", "7e7", 0, 1e11, "J/m3", "cohesion energy density"},
-      {"material.collector.youngs_modulus_GPa", "E_col_GPa", "69", 0.01, 1000, "GPa", "collector"},
-      {"material.collector.poisson", "nu_col", "0.3", 0, 0.49, "", "Poisson's ratio"},
-      {"material.collector.friction", "mu_col", "1.2", 0, 2, "", "coefficient of friction"},
-      {"material.collector.restitution", "e_col", "0.5", 0.05, 1, "", "coefficient of restitution"},
-      {"material.platen.youngs_modulus_GPa", "E_plt_GPa", "200", 0.01, 1000, "GPa", "platen"},
-      {"material.platen.poisson", "nu_plt", "0.3", 0, 0.49, "", "Poisson's ratio"},
-      {"material.platen.friction", "mu_plt", "0.76", 0, 2, "", "coefficient of friction"},
-      {"material.platen.restitution", "e_plt", "0.78", 0.05, 1, "", "coefficient of restitution"},
-      {"bond.youngs_modulus_GPa", "E_bond_GPa", "200", 0.01, 1000, "GPa", "of the bond's cylinder"},
-      {"bond.poisson", "nu_bond", "0.3", 0, 0.49, "", "Poisson's ratio of the bond"},
-      {"bond.radius_ratio", "lambda", "1", 0.05, 1.5, "", "bond radius over the smaller radius"},
-      {"bond.tensile_strength_MPa", "sigma_c_MPa", "500", 0.1, 1e5, "MPa", "sigma_c, eq. 6"},
-      {"bond.shear_strength_MPa", "tau_c_MPa", "500", 0.1, 1e5, "MPa", "tau_c, eq. 7"},
-      {"bond.criterion", "criterion", "signed", 0, 0, "", "sign of F_n in eq. 6",
-       "signed|unsigned|as_printed"},
-      {"bond.damping", "bond_damping", "0.02", 0, 1, "", "fraction of critical damping"},
-      {"bond.weibull_modulus", "weibull_m", "0", 0, 100, "", "scatter of strength; 0: none"},
-      {"bond.seed", "bond_seed", "1", 0, 4e9, "", "of the scatter", "", false, true},
-      {"effects.nmc_plasticity.yield_pressure_GPa", "nmc_yield_GPa", "0", 0, 1000, "GPa",
-       "limit of the contact pressure between bodies and at the platen; 0: elastic"},
-      {"effects.collector_indentation.yield_pressure_GPa", "collector_yield_GPa", "0", 0, 1000,
-       "GPa", "limit of the contact pressure of bodies on the collector; 0: elastic"},
-      {"effects.cbd_collapse.yield_pressure_MPa", "cbd_yield_MPa", "0", 0, 1e5, "MPa",
-       "mean pressure of a CBD sphere at which its nanopores begin to collapse; 0: never"},
-      {"effects.cbd_collapse.hardening_MPa", "cbd_hardening_MPa", "50", 0.1, 1e5, "MPa",
-       "pressure scale of the fall above the yield pressure"},
-      {"effects.cbd_collapse.initial_nanoporosity", "cbd_initial_phi", "0.5", 0, 0.95, "fraction",
-       "the recipe's cbd.nanoporosity_percent"},
-      {"effects.cbd_collapse.floor_nanoporosity", "cbd_floor_phi", "0.27", 0, 0.95, "fraction",
-       "what no pressure goes below"},
-      {"imposed.cbd_nanoporosity_until_MPa", "cbd_imposed_MPa", "0", 0, 2000, "MPa",
-       "pressure of the platen up to which nanoporosity falls from initial to floor in all CBD "
-       "alike, as Xu et al. impose it; 0: it does not"},
-      {"effects.cbd_viscoelasticity.relaxed_fraction", "cbd_relaxed_fraction", "0", 0, 0.95,
-       "fraction", "of the stiffness of contacts with CBD that relaxes; 0: elastic"},
-      {"effects.cbd_viscoelasticity.time_us", "cbd_relaxation_us", "1", 1e-3, 1e6, "us",
-       "relaxation time; the run's own time counts, see platen.speed_m_s"},
-      {"platen.control", "control", "pressure", 0, 0, "", "what the platen goes down to",
-       "pressure|thickness|displacement"},
-      {"platen.max_pressure_MPa", "p_max_MPa", "150", 0.1, 2000, "MPa", "with control = pressure"},
-      {"platen.thickness_um", "h_target_um", "0", 0, 1000, "um", "with control = thickness"},
-      {"platen.displacement_um", "d_target_um", "0", 0, 1000, "um", "with control = displacement"},
-      {"platen.speed_m_s", "speed_m_s", "1", 1e-4, 20, "m/s", "under load"},
-      {"platen.touch_speed_m_s", "touch_speed_m_s", "1", 1e-4, 20, "m/s",
-       "below touch_pressure_MPa"},
-      {"platen.touch_pressure_MPa", "touch_pressure_MPa", "5", 0, 1000, "MPa",
-       "ends the slow approach"},
-      {"platen.release_speed_m_s", "release_speed_m_s", "1", 1e-4, 20, "m/s", "upwards"},
-      {"platen.dwell_us", "dwell_us", "0", 0, 1e4, "us", "at the target"},
-      {"platen.contact_lost_fraction", "lost_fraction", "0.01", 1e-4, 0.5, "",
-       "contact is lost below this fraction of the maximum pressure"},
-      {"effects.pre_cracks.fraction", "pre_cracks", "0", 0, 0.9, "",
-       "of the bonds, without strength"},
-      {"effects.machine_compliance.um_per_MPa", "compliance_um_MPa", "0", 0, 1, "um/MPa",
-       "of frame and rolls, in the displacement shown"},
-      {"effects.pressure_calibration.factor", "pressure_factor", "1", 0.2, 5, "",
-       "pressure shown over pressure"},
-      {"effects.thickness_zero.offset_um", "", "0", -50, 50, "um", "added to the thickness shown"},
-      {"numerics.timestep_us", "dt_us", "0", 0, 1, "us", "0: timestep_fraction of the bound"},
-      {"numerics.timestep_fraction", "dt_fraction", "0.8", 0.01, 1, "", "of the bond-aware bound"},
-      {"numerics.average_us", "average_us", "0.25", 1e-3, 100, "us",
-       "averaging window of pressures"},
-      {"numerics.gravity_m_s2", "gravity_m_s2", "9.81", 0, 1e4, "m/s2", "along -z; 0: none"},
-      {"output.every_us", "every_us", "0.1", 1e-3, 1000, "us", "between rows of the curve"},
-      {"output.vtk_every_us", "vtk_every_us", "2", 1e-3, 1e4, "us", "between frames"},
-      {"output.restart_every_us", "restart_every_us", "5", 1e-2, 1e5, "us",
-       "between restart files"},
-  };
+namespace {
+
+const char *name_of(Phase phase) {
+  static const char *const names[] = {"am", "cbd", "collector", "platen"};
+  return names[int(phase) - int(Phase::Am)];
+}
+
+bool cohesive(Phase phase) { return phase == Phase::Am || phase == Phase::Cbd; }
+
+std::vector<std::string> keys_of(Phase phase) {
+  const std::string at = fmt::format("material.{}.", name_of(phase));
+  std::vector<std::string> keys = {at + "youngs_modulus_GPa", at + "poisson"};
+  if (cohesive(phase))
+    keys.push_back(at + "ced_J_m3");
   return keys;
 }
 
-namespace {
+bool sound(const Settings &s, const std::vector<std::string> &keys) {
+  return std::all_of(keys.begin(), keys.end(), [&](const std::string &k) { return s.sound({k}); });
+}
 
-// Overlap at which cohesion and Hertz repulsion balance, over the radius of two equal spheres.
-double overlap_over_radius(const Settings &s, const std::string &a, const std::string &b) {
-  const auto of = [&](const std::string &phase, const char *key) {
-    return s.number("material." + phase + "." + key);
+PhasePair pair_of(const Settings &s, Phase a, Phase b) {
+  const auto of = [&](Phase phase, const char *key) {
+    return s.number(fmt::format("material.{}.{}", name_of(phase), key));
   };
-  const double ced = 1e-3 * std::sqrt(of(a, "ced_J_m3") * of(b, "ced_J_m3"));
-  const double E = effective_modulus(1e6 * of(a, "youngs_modulus_GPa"), of(a, "poisson"),
-                                     1e6 * of(b, "youngs_modulus_GPa"), of(b, "poisson"));
-  return sjkr_equilibrium_overlap(ced, E, 0.5);
+  PhasePair pair = {0.0, effective_modulus(1e6 * of(a, "youngs_modulus_GPa"), of(a, "poisson"),
+                                           1e6 * of(b, "youngs_modulus_GPa"), of(b, "poisson"))};
+  if (cohesive(a) && cohesive(b))
+    pair.cohesion = 1e-3 * std::sqrt(of(a, "ced_J_m3") * of(b, "ced_J_m3"));
+  return pair;
 }
 
 // AM against CBD is allowed more: the paper's own values give 0.07.
-void check_collapse(const Settings &s, const std::string &a, const std::string &b, double limit,
+void check_collapse(const Settings &s, Phase first, Phase second, double limit,
                     Mistakes &mistakes) {
-  const std::string at_a = "material." + a + ".", at_b = "material." + b + ".";
-  if (!s.sound({at_a + "ced_J_m3", at_a + "youngs_modulus_GPa", at_a + "poisson", at_b + "ced_J_m3",
-                at_b + "youngs_modulus_GPa", at_b + "poisson"}))
+  if (!sound(s, keys_of(first)) || !sound(s, keys_of(second)))
     return;
-  const double overlap = overlap_over_radius(s, a, b);
+  const std::string a = name_of(first), b = name_of(second);
+  const std::string at_a = "material." + a + ".", at_b = "material." + b + ".";
+  const PhasePair pair = pair_of(s, first, second);
+  const double overlap = sjkr_equilibrium_overlap(pair.cohesion, pair.modulus, 0.5);
   if (overlap > limit)
     mistakes.add(
         std::max(s.line(at_a + "ced_J_m3"), s.line(at_b + "ced_J_m3")),
@@ -127,57 +63,41 @@ void check_collapse(const Settings &s, const std::string &a, const std::string &
                                  s.text(at_b + "youngs_modulus_GPa")));
 }
 
-// A contact that yields below 2 CED cannot carry its own cohesion (physics/plastic_contact.h).
-void check_yield(const Settings &s, Mistakes &mistakes) {
-  const std::string key = "effects.nmc_plasticity.yield_pressure_GPa";
-  if (!s.sound({key, "material.am.ced_J_m3"}))
+// What cohesion and modulus of the phases leave to the strength of a contact law between them.
+void check_contact(const Settings &s, const Effect &e, Phase a, Phase b, Mistakes &mistakes) {
+  const Key &key = e.settings.front();
+  if (!s.sound({key.name}) || !sound(s, keys_of(a)) || !sound(s, keys_of(b)))
     return;
-  const double least = 2.5e-9 * s.number("material.am.ced_J_m3");
-  if (s.number(key) > 0.0 && s.number(key) < least)
-    mistakes.add(s.line(key),
-                 fmt::format("{} is {} GPa, below 2.5 times material.am.ced_J_m3 = {}: such "
-                             "contacts cannot carry their own cohesion and the packing collapses. "
-                             "Give 0 (elastic) or at least {:.3g} GPa; NMC's is 1 to 12 GPa.",
-                             key, s.text(key), s.text("material.am.ced_J_m3"), least));
+  const double factor = script_units(key.unit), value = factor * s.number(key.name);
+  const ContactLimits limits = e.contact.law->limits(pair_of(s, a, b));
+  if (value <= 0.0 || (value >= limits.least && value <= limits.most))
+    return;
+  const bool low = value < limits.least;
+  mistakes.add(s.line(key.name),
+               fmt::format("{} is {}{}{}: between {} and {} spheres {}. Give 0 (off) or {} {:.3g}.",
+                           key.name, s.text(key.name), key.unit.empty() ? "" : " ", key.unit,
+                           name_of(a), name_of(b), limits.why, low ? "at least" : "at most",
+                           (low ? limits.least : limits.most) / factor));
 }
 
-// What relaxes in a contact leaves cohesion a softer one: the overlap grows by 1/(1 - g)^2.
-void check_relaxed(const Settings &s, Mistakes &mistakes) {
-  const std::string key = "effects.cbd_viscoelasticity.relaxed_fraction";
-  for (const std::string phase : {"am", "cbd"}) {
-    const std::string at = "material." + phase + ".", cbd = "material.cbd.";
-    if (!s.sound({key, at + "ced_J_m3", at + "youngs_modulus_GPa", at + "poisson", cbd + "ced_J_m3",
-                  cbd + "youngs_modulus_GPa", cbd + "poisson"}))
-      continue;
-    const double left = 1.0 - s.number(key);
-    const double overlap = overlap_over_radius(s, phase, "cbd") / (left * left);
-    if (left < 1.0 && overlap > 0.3)
-      mistakes.add(
-          s.line(key),
-          fmt::format("{} is {}: once relaxed, cohesion pulls {} and cbd spheres into each "
-                      "other by {:.3g} of their radius; at most 0.3 is allowed, or the "
-                      "packing collapses. Lower it or the ced_J_m3.",
-                      key, s.text(key), phase, overlap));
-  }
+void check_relation(const Settings &s, const Relation &r, Mistakes &mistakes) {
+  if (!s.sound({r.key, r.other}))
+    return;
+  const double value = s.number(r.key), other = s.number(r.other);
+  if (r.is == Relation::Is::AtMost && value > other)
+    mistakes.add(s.line(r.key),
+                 fmt::format("{} is {}, above {} = {}: {}. Give a value at or below it.", r.key,
+                             s.text(r.key), r.other, s.text(r.other), r.why));
+  if (r.is == Relation::Is::NotBoth && value > 0.0 && other > 0.0)
+    mistakes.add(s.line(r.key), fmt::format("{} is {} and {} is {}: {}. Set one of them to 0.",
+                                            r.key, s.text(r.key), r.other, s.text(r.other), r.why));
 }
 
-void check_floor(const Settings &s, Mistakes &mistakes) {
-  const std::string at = "effects.cbd_collapse.";
-  const std::string floor = at + "floor_nanoporosity", initial = at + "initial_nanoporosity";
-  if (s.sound({floor, initial}) && s.number(floor) > s.number(initial))
-    mistakes.add(s.line(floor), fmt::format("{} is {}, above {} = {}: pores would open under "
-                                            "pressure. Give a value at or below it.",
-                                            floor, s.text(floor), initial, s.text(initial)));
-}
-
-void check_imposed(const Settings &s, Mistakes &mistakes) {
-  const std::string law = "effects.cbd_collapse.yield_pressure_MPa",
-                    imposed = "imposed.cbd_nanoporosity_until_MPa";
-  if (s.sound({law, imposed}) && s.number(law) > 0.0 && s.number(imposed) > 0.0)
-    mistakes.add(s.line(imposed), fmt::format("{} is {} and {} is {}: nanoporosity follows either "
-                                              "the pressure of each sphere or the platen's. Set "
-                                              "one of them to 0.",
-                                              imposed, s.text(imposed), law, s.text(law)));
+void check_effect(const Settings &s, const Effect &e, Mistakes &mistakes) {
+  for (const auto &[a, b] : e.contact.between)
+    check_contact(s, e, a, b, mistakes);
+  for (const Relation &r : e.relations)
+    check_relation(s, r, mistakes);
 }
 
 void check_target(const Settings &s, Mistakes &mistakes) {
@@ -194,13 +114,11 @@ void check_target(const Settings &s, Mistakes &mistakes) {
 } // namespace
 
 void check_case(const Settings &s, Mistakes &mistakes) {
-  check_collapse(s, "am", "am", 0.1, mistakes);
-  check_collapse(s, "cbd", "cbd", 0.1, mistakes);
-  check_collapse(s, "am", "cbd", 0.2, mistakes);
-  check_yield(s, mistakes);
-  check_floor(s, mistakes);
-  check_imposed(s, mistakes);
-  check_relaxed(s, mistakes);
+  check_collapse(s, Phase::Am, Phase::Am, 0.1, mistakes);
+  check_collapse(s, Phase::Cbd, Phase::Cbd, 0.1, mistakes);
+  check_collapse(s, Phase::Am, Phase::Cbd, 0.2, mistakes);
+  for (const Effect &e : effects())
+    check_effect(s, e, mistakes);
   check_target(s, mistakes);
 }
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A calendering case (case.toml): what `calendem run` simulates. One row per key; `variable` is the
-// name that the input scripts know it by.
+// A calendering case (case.toml): what `calendem run` simulates. Its keys are the rows of
+// registry/settings.h.
 #ifndef CALENDEM_SPEC_CASE_H
 #define CALENDEM_SPEC_CASE_H
 
+#include "registry/settings.h"
 #include "spec/toml_reader.h"
 
 namespace calendem {
-
-const std::vector<Key> &case_keys();
 
 /// What the settings contradict, beyond what each key may hold.
 void check_case(const Settings &settings, Mistakes &mistakes);

@@ -1,27 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// One key of a TOML file, what it may hold, and the messages when it holds something else.
+// The messages when a key of a TOML file holds what it may not.
 #ifndef CALENDEM_SPEC_KEY_H
 #define CALENDEM_SPEC_KEY_H
 
+#include "registry/key.h"
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace calendem {
-
-/// `choices` not empty, or `text`: a string; otherwise a number in [low, high].
-struct Key {
-  std::string name;     ///< dotted, as in the file: "bond.radius_ratio"
-  std::string variable; ///< of the LIGGGHTS script, empty if none
-  std::string fallback; ///< default as text; empty: the key is required
-  double low = 0.0;
-  double high = 0.0;
-  std::string unit;
-  std::string meaning;
-  std::string choices = ""; ///< "a|b|c"
-  bool text = false;
-  bool whole = false; ///< a whole number
-};
 
 /// What is wrong with a number or text for this key; nothing if it is good.
 std::optional<std::string> wrong_number(const Key &key, double value);

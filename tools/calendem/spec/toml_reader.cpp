@@ -87,6 +87,19 @@ private:
 
 double Settings::number(const std::string &name) const { return std::stod(values_.at(name)); }
 
+void Settings::set(const std::string &name, const std::string &value) {
+  follows_.erase(name);
+  values_[name] = value;
+  for (const auto &[follower, other] : follows_)
+    if (other == name)
+      values_[follower] = value;
+}
+
+void Settings::follow(const std::string &name, const std::string &other) {
+  values_[name] = values_.at(other);
+  follows_[name] = other;
+}
+
 int Settings::line(const std::string &name) const {
   const auto at = lines_.find(name);
   return at == lines_.end() ? 0 : at->second;
@@ -118,6 +131,10 @@ Settings read_toml(const std::string &file, FileKind kind, const std::vector<Key
   for (const Key &key : keys) {
     if (out.all().count(key.name))
       continue;
+    if (!key.same_as.empty()) {
+      out.follow(key.name, key.same_as);
+      continue;
+    }
     const bool is_number = !key.fallback.empty() && !wants_text(key);
     out.set(key.name, is_number ? fmt::format("{}", std::stod(key.fallback)) : key.fallback);
     if (!key.fallback.empty())
@@ -154,8 +171,10 @@ std::string list_of_keys(const std::vector<Key> &keys) {
     std::string range = k.choices;
     if (range.empty() && !k.text)
       range = fmt::format("{:g}..{:g}", k.low, k.high);
-    text += fmt::format("  {:<36} {:>8} {:<7} {:<27} {}\n", k.name,
-                        k.fallback.empty() ? "required" : k.fallback, k.unit, range, k.meaning);
+    const std::string fallback = !k.same_as.empty() ? "same" : k.fallback;
+    text += fmt::format("  {:<36} {:>8} {:<7} {:<27} {}{}\n", k.name,
+                        fallback.empty() ? "required" : fallback, k.unit, range, k.meaning,
+                        k.same_as.empty() ? "" : "; unless given that of " + k.same_as);
   }
   return text;
 }

@@ -19,7 +19,10 @@ class Settings {
 public:
   double number(const std::string &name) const;
   const std::string &text(const std::string &name) const { return values_.at(name); }
-  void set(const std::string &name, const std::string &value) { values_[name] = value; }
+  /// Keys that follow this one get its value; a key that is set follows no other.
+  void set(const std::string &name, const std::string &value);
+  /// The key has the value of another, and keeps up with it.
+  void follow(const std::string &name, const std::string &other);
   const std::map<std::string, std::string> &all() const { return values_; }
 
   /// Line of the file that gives the key, 0 if it has its default.
@@ -30,6 +33,7 @@ public:
 
 private:
   std::map<std::string, std::string> values_;
+  std::map<std::string, std::string> follows_; ///< key, the one it follows
   std::map<std::string, int> lines_;
   std::set<std::string> wrong_;
 };

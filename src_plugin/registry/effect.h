@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The row of an effect: physics, or measurement, that the base model leaves out and that can be
+// switched on in the simulation. From it come its keys of the case with their checks, the variables
+// and fixes of the input scripts, `calendem effects`, and all that banks and the diagnosis know.
+#ifndef CALENDEM_REGISTRY_EFFECT_H
+#define CALENDEM_REGISTRY_EFFECT_H
+
+#include "physics/press_instruments.h"
+#include "registry/contact_law.h"
+#include "registry/key.h"
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace calendem {
+
+/// How an effect's strength is spread before anything is measured, between `low` and `high`.
+enum class Spread { Uniform, LogUniform };
+
+/// The amplitude of an effect as a function of its key's value v; 0 when the effect is off.
+enum class AmplitudeScale {
+  Difference, ///< v - off
+  Reciprocal, ///< 1/v, off: key 0
+  Logarithm   ///< ln v, off: key 1
+};
+
+/// A setting of the case that an effect moves.
+struct EffectParameter {
+  std::vector<std::string> keys; ///< of case.toml; all get the same value
+  std::string off;               ///< the value without the effect: the key's default
+  double low = 0.0, high = 0.0;  ///< in the key's unit
+  Spread spread = Spread::Uniform;
+  AmplitudeScale scale = AmplitudeScale::Difference;
+  /// What the effect does grows about with this power of the amplitude; 0: with the logarithm of
+  /// its ratio to the weakest of `low` and `high`, where it ceases. Chosen by how well emulators
+  /// foretell packings that are left out.
+  double power = 1.0;
+
+  double amplitude(double value) const;
+  double value(double amplitude) const;
+};
+
+/// The phases, by their atom type in the input scripts.
+enum class Phase { Am = 1, Cbd, Collector, Platen };
+
+/// A contact law between some phases, with the settings of the effect as its properties, in order.
+struct ContactAction {
+  const ContactLaw *law = nullptr;
+  std::vector<std::pair<Phase, Phase>> between; ///< either way round
+};
+
+/// A value in a setting's unit, times this, is in the units of the input scripts (um, us, kPa).
+inline double script_units(const std::string &unit) {
+  return unit == "GPa" ? 1e6 : unit == "MPa" ? 1e3 : unit == "J/m3" ? 1e-3 : 1.0;
+}
+
+/// What two keys of the case may not be together.
+struct Relation {
+  enum class Is {
+    AtMost, ///< the other
+    NotBoth ///< above 0
+  };
+  std::string key;
+  Is is;
+  std::string other;
+  std::string why; ///< what is wrong if they are, and what to give
+};
+
+struct Effect {
+  std::string name, layer; ///< contact, bond, boundary, measurement
+  std::string what;        ///< one sentence
+  /// Keys of its own, the one that `parameter` moves first; none: it moves the base model's.
+  std::vector<Key> settings;
+  EffectParameter parameter;
+  ContactAction contact;                     ///< if it is a law of contacts
+  double PressInstruments::*shown = nullptr; ///< what of the press's instruments it sets
+  /// Only what the press shows changes: no run of its own is needed to know what it does.
+  bool instrument = false;
+  std::vector<Relation> relations;
+  std::string moves; ///< the observables it should move, and how
+  std::string source;
+  std::string law;          ///< file in src_plugin/physics
+  std::string verification; ///< folder of tests/verification, or the unit test where the host has
+                            ///< no part in it
+};
+
+/// The parameter of an effect that has a key of its own.
+inline EffectParameter strength(const Key &key, double low, double high, Spread spread,
+                                AmplitudeScale scale = AmplitudeScale::Difference,
+                                double power = 1.0) {
+  return {{key.name}, key.fallback, low, high, spread, scale, power};
+}
+
+inline double EffectParameter::amplitude(double value) const {
+  switch (scale) {
+  case AmplitudeScale::Reciprocal:
+    return value > 0.0 ? 1.0 / value : 0.0;
+  case AmplitudeScale::Logarithm:
+    return std::log(value);
+  default:
+    return value - std::stod(off);
+  }
+}
+
+inline double EffectParameter::value(double amplitude) const {
+  switch (scale) {
+  case AmplitudeScale::Reciprocal:
+    return amplitude > 0.0 ? 1.0 / amplitude : 0.0;
+  case AmplitudeScale::Logarithm:
+    return std::exp(amplitude);
+  default:
+    return amplitude + std::stod(off);
+  }
+}
+
+} // namespace calendem
+
+#endif

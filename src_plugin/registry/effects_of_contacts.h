@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Effects at the contacts of particles, with each other and with the walls: a function returns a
+// row.
+#ifndef CALENDEM_REGISTRY_EFFECTS_OF_CONTACTS_H
+#define CALENDEM_REGISTRY_EFFECTS_OF_CONTACTS_H
+
+#include "registry/effect.h"
+
+namespace calendem {
+
+inline Effect friction() {
+  Effect e;
+  e.name = "friction";
+  e.layer = "contact";
+  e.what = "Coulomb friction between particles at a physical level";
+  e.parameter = {{"material.am.friction", "material.cbd.friction"},
+                 "0.001",
+                 0.05,
+                 0.6,
+                 Spread::Uniform,
+                 AmplitudeScale::Difference,
+                 0.7};
+  e.moves = "more pressure from 1 to 30 MPa on, more hysteresis, a gradient through the thickness";
+  e.source = "public calendering decks use 0.001; 0.3-0.6 is usual for dry mineral grains";
+  e.law = "hertz_contact.h";
+  e.verification = "collision";
+  return e;
+}
+
+inline Effect nmc_plasticity() {
+  Effect e;
+  e.name = "nmc_plasticity";
+  e.layer = "contact";
+  e.what = "contacts of primaries yield at a limiting pressure: elastic-plastic, stiff unloading";
+  e.settings = {{"effects.nmc_plasticity.yield_pressure_GPa", "nmc_yield_GPa", "0", 0, 1000, "GPa",
+                 "limit of the contact pressure between bodies and at the platen; 0: elastic"}};
+  e.parameter = strength(e.settings[0], 1.5, 12, Spread::LogUniform, AmplitudeScale::Reciprocal, 0);
+  e.contact = {&kPlasticContact, {{Phase::Am, Phase::Am}, {Phase::Am, Phase::Platen}}};
+  e.moves = "lower pressure above some 50 MPa, steeper unloading, no more breaks";
+  e.source = "Thornton 1997; hardness of NMC grains 1-12 GPa is an unsourced prior";
+  e.law = kPlasticContact.header;
+  e.verification = "plastic_contact";
+  return e;
+}
+
+inline Effect cbd_collapse() {
+  Effect e;
+  e.name = "cbd_collapse";
+  e.layer = "contact";
+  e.what = "nanopores of the carbon-binder domain collapse under pressure and stay so";
+  const std::string at = "effects.cbd_collapse.";
+  e.settings = {
+      {at + "yield_pressure_MPa", "cbd_yield_MPa", "0", 0, 1e5, "MPa",
+       "mean pressure of a CBD sphere at which its nanopores begin to collapse; 0: never"},
+      {at + "hardening_MPa", "cbd_hardening_MPa", "50", 0.1, 1e5, "MPa",
+       "pressure scale of the fall above the yield pressure"},
+      {at + "initial_nanoporosity", "cbd_initial_phi", "0.5", 0, 0.95, "fraction",
+       "the recipe's cbd.nanoporosity_percent"},
+      {at + "floor_nanoporosity", "cbd_floor_phi", "0.27", 0, 0.95, "fraction",
+       "what no pressure goes below"}};
+  e.parameter = strength(e.settings[0], 5, 300, Spread::LogUniform, AmplitudeScale::Reciprocal, 0);
+  e.relations = {{at + "floor_nanoporosity", Relation::Is::AtMost, at + "initial_nanoporosity",
+                  "pores would open under pressure"},
+                 {"imposed.cbd_nanoporosity_until_MPa", Relation::Is::NotBoth,
+                  at + "yield_pressure_MPa",
+                  "nanoporosity follows either the pressure of each sphere or the platen's"}};
+  e.moves = "total porosity falls by some points at a given pressure, and does not come back";
+  e.source = "Heckel 1961; from 50 % to 27 % nanoporosity as Xu et al. impose it";
+  e.law = "nanopore_collapse.h";
+  e.verification = "nanopore_collapse";
+  return e;
+}
+
+inline Effect cbd_viscoelasticity() {
+  Effect e;
+  e.name = "cbd_viscoelasticity";
+  e.layer = "contact";
+  e.what = "contacts with the carbon-binder domain relax (Prony series of one term)";
+  e.settings = {{"effects.cbd_viscoelasticity.relaxed_fraction", "cbd_relaxed_fraction", "0", 0,
+                 0.95, "fraction",
+                 "of the stiffness of contacts with CBD that relaxes; 0: elastic"},
+                {"effects.cbd_viscoelasticity.time_us", "cbd_relaxation_us", "1", 1e-3, 1e6, "us",
+                 "relaxation time; the run's own time counts, see platen.speed_m_s"}};
+  e.parameter = strength(e.settings[0], 0.05, 0.35, Spread::Uniform);
+  e.contact = {&kViscousContact,
+               {{Phase::Cbd, Phase::Am},
+                {Phase::Cbd, Phase::Cbd},
+                {Phase::Cbd, Phase::Collector},
+                {Phase::Cbd, Phase::Platen}}};
+  e.moves = "pressure depends on speed and decays in a dwell; springback is delayed";
+  e.source = "Christensen, Theory of Viscoelasticity, ch. 1";
+  e.law = kViscousContact.header;
+  e.verification = "viscous_contact";
+  return e;
+}
+
+inline Effect collector_indentation() {
+  Effect e;
+  e.name = "collector_indentation";
+  e.layer = "boundary";
+  e.what = "primaries press into the collector's foil beyond a limiting pressure";
+  e.settings = {{"effects.collector_indentation.yield_pressure_GPa", "collector_yield_GPa", "0", 0,
+                 1000, "GPa",
+                 "limit of the contact pressure of bodies on the collector; 0: elastic"}};
+  e.parameter = strength(e.settings[0], 0.1, 1.5, Spread::LogUniform, AmplitudeScale::Reciprocal);
+  e.contact = {&kPlasticContact, {{Phase::Am, Phase::Collector}}};
+  e.moves = "a lasting offset of some tenths of a micrometre; fewer breaks near the collector";
+  e.source =
+      "Thornton 1997; some three times the yield stress of an aluminium foil, an unsourced prior";
+  e.law = kPlasticContact.header;
+  e.verification = "plastic_contact";
+  return e;
+}
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the press's instruments show that is not so: a function returns a row.
+#ifndef CALENDEM_REGISTRY_EFFECTS_OF_THE_PRESS_H
+#define CALENDEM_REGISTRY_EFFECTS_OF_THE_PRESS_H
+
+#include "registry/effect.h"
+
+namespace calendem {
+
+inline Effect machine_compliance() {
+  Effect e;
+  e.name = "machine_compliance";
+  e.layer = "boundary";
+  e.what = "frame and rolls give way in proportion to the pressure";
+  e.settings = {{"effects.machine_compliance.um_per_MPa", "compliance_um_MPa", "0", 0, 1, "um/MPa",
+                 "of frame and rolls, in the displacement shown"}};
+  e.parameter = strength(e.settings[0], 0.005, 0.2, Spread::LogUniform);
+  e.shown = &PressInstruments::compliance;
+  e.instrument = true;
+  e.moves = "displacement shown grows with pressure on both ways; thickness after relaxation does "
+            "not";
+  e.source = "Oliver & Pharr 1992: frame and sample as springs in series; an unsourced prior";
+  e.law = "press_instruments.h";
+  e.verification = "platen";
+  return e;
+}
+
+inline Effect pressure_calibration() {
+  Effect e;
+  e.name = "pressure_calibration";
+  e.layer = "measurement";
+  e.what = "the pressure shown is the pressure times a factor";
+  e.settings = {{"effects.pressure_calibration.factor", "pressure_factor", "1", 0.2, 5, "",
+                 "pressure shown over pressure"}};
+  e.parameter = strength(e.settings[0], 0.6, 1.6, Spread::LogUniform, AmplitudeScale::Logarithm);
+  e.shown = &PressInstruments::pressure_factor;
+  e.moves = "stretches the pressure axis of every curve, and nothing else";
+  e.source = "pressures converted from a roll gap: 10-25 % systematic is plausible; unsourced, "
+             "widened here";
+  e.law = "press_instruments.h";
+  e.verification = "unit/physics";
+  return e;
+}
+
+inline Effect thickness_zero() {
+  Effect e;
+  e.name = "thickness_zero";
+  e.layer = "measurement";
+  e.what = "the thickness shown is off by a constant";
+  e.settings = {
+      {"effects.thickness_zero.offset_um", "", "0", -50, 50, "um", "added to the thickness shown"}};
+  e.parameter = strength(e.settings[0], -6, 6, Spread::Uniform);
+  e.shown = &PressInstruments::thickness_zero;
+  e.instrument = true;
+  e.moves = "the same shift of every thickness and its porosity, at any pressure";
+  e.source = "micrometre zero, foil thickness; table 1 states 0.8 um between samples";
+  e.law = "press_instruments.h";
+  e.verification = "unit/physics";
+  return e;
+}
+
+} // namespace calendem
+
+#endif

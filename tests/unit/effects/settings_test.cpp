@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The rows of settings and contact laws: what they need to be scripts and keys.
+#include "effects/generated_files.h"
+#include "spec/case.h"
+#include "spec/provenance.h"
+#include "support/test_folder.h"
+#include <gtest/gtest.h>
+#include <set>
+
+namespace {
+
+using namespace calendem;
+
+Settings case_of(const std::string &text) {
+  const std::string file = (calendem_test::test_folder() / "case.toml").string();
+  write_file(file, "electrode = \"none\"\n" + text);
+  return read_case(file);
+}
+
+// Requirement: the paper's E_p and E_b are one number; they part only when asked.
+TEST(Settings, ABondIsAsStiffAsItsParticles) {
+  Settings s = case_of("[material.am]\nyoungs_modulus_GPa = 150\npoisson = 0.2\n");
+  EXPECT_EQ(s.number("bond.youngs_modulus_GPa"), 150.0);
+  EXPECT_EQ(s.number("bond.poisson"), 0.2);
+  s.set("material.am.youngs_modulus_GPa", "120"); // as a study or a bank does
+  EXPECT_EQ(s.number("bond.youngs_modulus_GPa"), 120.0);
+  s.set("bond.youngs_modulus_GPa", "30");
+  s.set("material.am.youngs_modulus_GPa", "140");
+  EXPECT_EQ(s.number("bond.youngs_modulus_GPa"), 30.0);
+}
+
+TEST(Settings, ABondMayBeGivenItsOwn) {
+  Settings s = case_of("[material.am]\nyoungs_modulus_GPa = 150\n"
+                       "[bond]\nyoungs_modulus_GPa = 200\n");
+  EXPECT_EQ(s.number("bond.youngs_modulus_GPa"), 200.0);
+  s.set("material.am.youngs_modulus_GPa", "120");
+  EXPECT_EQ(s.number("bond.youngs_modulus_GPa"), 200.0);
+}
+
+// Requirement: a run's case.toml states what it was run with.
+TEST(Settings, TheCaseAsRunStatesTheModulusOfTheBond) {
+  const Settings s = case_of("[material.am]\nyoungs_modulus_GPa = 150\n");
+  const std::string written = write_toml(s, case_keys(), "");
+  const std::size_t bond = written.find("[bond]");
+  ASSERT_NE(bond, std::string::npos);
+  EXPECT_EQ(written.find("youngs_modulus_GPa = 150 ", bond), bond + 7);
+}
+
+TEST(Settings, NamesAndVariablesAreUnique) {
+  std::set<std::string> names, variables;
+  for (const Key &key : case_keys()) {
+    EXPECT_TRUE(names.insert(key.name).second) << key.name;
+    EXPECT_TRUE(key.variable.empty() || variables.insert(key.variable).second) << key.variable;
+    EXPECT_TRUE(key.same_as.empty() || names.count(key.same_as)) << key.name; // stands before
+  }
+}
+
+// Requirement: every property of a contact law is a setting, and no two effects that a case may
+// have have the same pair of phases.
+TEST(Settings, ContactLawsHaveTheirSettings) {
+  std::set<std::pair<int, int>> taken;
+  for (const Effect &e : effects()) {
+    if (!e.contact.law)
+      continue;
+    std::size_t properties = 0;
+    while (properties < e.contact.law->properties.size() &&
+           e.contact.law->properties[properties].name)
+      ++properties;
+    EXPECT_EQ(e.settings.size(), properties) << e.name;
+    EXPECT_EQ(e.law, e.contact.law->header) << e.name;
+    EXPECT_EQ(e.settings[0].name, e.parameter.keys.at(0)) << e.name;
+    for (const auto &[a, b] : e.contact.between)
+      EXPECT_TRUE(taken.emplace(std::min(int(a), int(b)), std::max(int(a), int(b))).second)
+          << e.name;
+  }
+}
+
+// Requirement: limits are those of the laws' heads, in the key's unit, at the key's line.
+TEST(Settings, LimitsOfContactLawsCountCohesion) {
+  const auto refusal = [](const std::string &text) -> std::string {
+    try {
+      case_of(text);
+    } catch (const Failure &e) {
+      return e.what();
+    }
+    return "";
+  };
+  const std::string yields = "[effects.nmc_plasticity]\nyield_pressure_GPa = ";
+  EXPECT_NE(refusal(yields + "1.49\n").find(":3: "), std::string::npos);
+  EXPECT_EQ(refusal(yields + "1.51\n"), ""); // 2.5 x 0.6 GPa
+  EXPECT_EQ(refusal("[effects.collector_indentation]\nyield_pressure_GPa = 0.1\n"), "");
+  // AM and CBD: CED sqrt(6e5 7e4) kPa, 1/E* = 0.91/2e8 + 0.7599/2e6 1/kPa, overlap 0.0689 R
+  const std::string relaxes = "[effects.cbd_viscoelasticity]\nrelaxed_fraction = ";
+  EXPECT_EQ(refusal(relaxes + "0.52\n"), "");
+  EXPECT_NE(refusal(relaxes + "0.54\n").find("at most 0.5"), std::string::npos);
+}
+
+// Requirement: every setting of a script is defined and written down by it.
+TEST(Settings, ScriptsHaveEverySetting) {
+  const std::vector<GeneratedFile> files = generated_files();
+  for (const Key &key : case_keys())
+    if (!key.variable.empty()) {
+      EXPECT_NE(files[0].text.find("variable " + key.variable + " "), std::string::npos);
+      EXPECT_NE(files[1].text.find("\"" + key.variable + " ${"), std::string::npos);
+    }
+}
+
+} // namespace
