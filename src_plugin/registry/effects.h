@@ -11,15 +11,9 @@ namespace calendem {
 
 inline const std::vector<Effect> &effects() {
   static const std::vector<Effect> table = {
-      friction(),
-      nmc_plasticity(),
-      cbd_collapse(),
-      cbd_viscoelasticity(),
-      collector_indentation(),
-      weibull_strength(),
-      pre_cracks(),
-      machine_compliance(),
-      pressure_calibration(),
+      friction(),         nmc_plasticity(),  cbd_collapse(),       cbd_viscoelasticity(),
+      cbd_plasticity(),   cbd_confinement(), nmc_confinement(),    collector_indentation(),
+      weibull_strength(), pre_cracks(),      machine_compliance(), pressure_calibration(),
       thickness_zero(),
   };
   return table;
