@@ -60,17 +60,23 @@ public:
         c, memory, [&](const auto &law, auto... m) { return law.elastic_energy(c.overlap, m...); });
   }
 
-  // Of contacts that an effect acts on; see physics/contact_interface.h.
+  // Of contacts that an effect acts on, the two for the time step of others too; see
+  // physics/contact_interface.h.
   double contact_radius(const EffectContact &c, const double *memory) const {
     return with_law(
         c, memory, [&](const auto &law, auto... m) { return law.contact_radius(c.overlap, m...); });
   }
   double stiffness_radius(const EffectContact &c, const double *memory) const {
+    if (!memory || !act(c.itype, c.jtype))
+      return std::sqrt(c.effective_radius * c.overlap);
     return with_law(c, memory, [&](const auto &law, auto... m) {
       return law.stiffness_radius(c.overlap, m...);
     });
   }
   double radius_under(double force, const EffectContact &c) const {
+    if (!act(c.itype, c.jtype))
+      return std::sqrt(c.effective_radius * calendem::hertz_overlap(modulus(c.itype, c.jtype),
+                                                                    c.effective_radius, force));
     const double none[kMemory] = {};
     return with_law(c, none, [&](const auto &law, auto...) { return law.radius_under(force); });
   }

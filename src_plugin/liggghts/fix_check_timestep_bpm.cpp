@@ -24,7 +24,7 @@ const char *const kUsage =
 
 FixCheckTimestepBpm::FixCheckTimestepBpm(LAMMPS *lmp, int narg, char **arg)
     : Fix(lmp, narg, arg), fraction_(0.0), bound_(0.0), rayleigh_(0.0), pressure_(0.0),
-      warned_(HUGE_VAL), stop_(false) {
+      warned_(HUGE_VAL), pairs_have_effects_(false), stop_(false) {
   if (narg < 5 || narg > 9)
     error->fix_error(FLERR, this, kUsage);
   nevery = atoi(arg[3]);
@@ -47,8 +47,8 @@ FixCheckTimestepBpm::FixCheckTimestepBpm(LAMMPS *lmp, int narg, char **arg)
 int FixCheckTimestepBpm::setmask() { return END_OF_STEP; }
 
 void FixCheckTimestepBpm::init() {
-  if (ContactEffects::in_use(lmp))
-    effects_.connect(force->registry, "fix check/timestep/bpm");
+  effects_.connect(force->registry, "fix check/timestep/bpm");
+  pairs_have_effects_ = ContactEffects::in_use(lmp);
 }
 
 void FixCheckTimestepBpm::setup(int) { end_of_step(); }
@@ -57,7 +57,7 @@ double FixCheckTimestepBpm::bond_bound() const {
   FixBondBpm *bonds = FixBondBpm::find(lmp, "fix check/timestep/bpm");
   const calendem::BondMaterial &material = bonds->settings().material;
   const int nlocal = atom->nlocal;
-  std::vector<calendem::BondRowSum> stiffness(nlocal), damping(nlocal);
+  Rows rows(nlocal);
   const double *m = atom->rmass, *R = atom->radius;
   bonds->for_each_copy([&](int i, int j, const BondHistory &bond) {
     const calendem::BondSection section(material.radius_ratio * std::min(R[i], R[j]));
@@ -67,60 +67,69 @@ double FixCheckTimestepBpm::bond_bound() const {
     const calendem::Vec3 d = calendem::load(atom->x[i]) - calendem::load(atom->x[j]);
     const calendem::Vec3 n = (1.0 / norm(d)) * d;
     for (int a : {i, j})
-      if (a < nlocal) {
-        stiffness[a].add(k, n, bond.length());
-        damping[a].add(c, n, bond.length());
-      }
+      if (a < nlocal)
+        rows[a].add(k, c, n, bond.length());
   });
-  double least = HUGE_VAL;
-  if (ContactEffects::in_use(lmp))
-    add_contacts(stiffness, damping);
-  if (ContactEffects::in_use(lmp) && pressure_ > 0.0)
-    least = contact_bound();
+  double least = pressure_ > 0.0 ? contact_bound(rows) : HUGE_VAL;
+  add_contacts(rows);
   for (int i = 0; i < nlocal; ++i)
-    least = std::min(least, calendem::stable_step(stiffness[i], damping[i], m[i], R[i]));
+    least = std::min(least, calendem::stable_step(rows[i].stiffness, rows[i].damping, m[i], R[i]));
   return least;
 }
 
-void FixCheckTimestepBpm::add_contacts(std::vector<calendem::BondRowSum> &stiffness,
-                                       std::vector<calendem::BondRowSum> &damping) const {
+// The contacts that there are. That of a bonded pair begins beyond its reference.
+void FixCheckTimestepBpm::add_contacts(Rows &rows) const {
   const int nlocal = atom->nlocal;
   const double *R = atom->radius, *m = atom->rmass;
   FixBondBpm *bonds = FixBondBpm::find(lmp, "fix check/timestep/bpm");
   bonds->for_each_touching_copy([&](int i, int j, double r, const BondHistory &bond) {
     const int ti = atom->type[i], tj = atom->type[j];
-    if (!bond.effect_memory() || !effects_.act(ti, tj))
-      return;
+    const double overlap = R[i] + R[j] - r - bond.reference_overlap(R[i] + R[j]);
     const double a = effects_.stiffness_radius(
-        EffectContact::of_spheres(ti, tj, R[i], R[j], R[i] + R[j] - r), bond.effect_memory());
-    const calendem::BondCoefficients k =
-        calendem::contact_stiffness(effects_.modulus(ti, tj), effects_.shear_modulus(ti, tj), a);
+        EffectContact::of_spheres(ti, tj, R[i], R[j], std::max(overlap, 0.0)),
+        pairs_have_effects_ ? bond.effect_memory() : NULL);
+    const calendem::BondCoefficients k = stiffness_of(ti, tj, a);
     const calendem::BondCoefficients c =
         calendem::contact_damping(k, effects_.damping(ti, tj), m[i] * m[j] / (m[i] + m[j]));
     const calendem::Vec3 n = (1.0 / r) * (calendem::load(atom->x[i]) - calendem::load(atom->x[j]));
     for (int b : {i, j})
-      if (b < nlocal) {
-        stiffness[b].add(k, n, 2.0 * R[b]);
-        damping[b].add(c, n, 2.0 * R[b]);
-      }
+      if (b < nlocal)
+        rows[b].add(k, c, n, 2.0 * R[b]);
   });
 }
 
-// A free sphere with the contacts that `pressure` will make.
-double FixCheckTimestepBpm::contact_bound() const {
+calendem::BondCoefficients FixCheckTimestepBpm::stiffness_of(int ti, int tj, double a) const {
+  return calendem::contact_stiffness(effects_.modulus(ti, tj), effects_.shear_modulus(ti, tj), a);
+}
+
+// The stiffest contact that `pressure` will make for a sphere of this type.
+FixCheckTimestepBpm::Contact FixCheckTimestepBpm::coming_contact(int type, double mass,
+                                                                 double radius) const {
+  const double force = calendem::mean_contact_force(pressure_, radius);
+  Contact stiffest;
+  for (int other = 1; other <= atom->ntypes; ++other) {
+    const double a =
+        effects_.radius_under(force, EffectContact::of_spheres(type, other, radius, radius, 0.0));
+    const calendem::BondCoefficients k = stiffness_of(type, other, a);
+    if (k.normal > stiffest.stiffness.normal)
+      stiffest = {k, calendem::contact_damping(k, effects_.damping(type, other), 0.5 * mass)};
+  }
+  return stiffest;
+}
+
+double FixCheckTimestepBpm::contact_bound(const Rows &bonds) const {
+  const calendem::BondMaterial &material =
+      FixBondBpm::find(lmp, "fix check/timestep/bpm")->settings().material;
   double least = HUGE_VAL;
   for (int i = 0; i < atom->nlocal; ++i) {
-    const int t = atom->type[i];
-    if (!effects_.act(t, t) || !effects_.law(t, t).stiffens)
-      continue;
     const double R = atom->radius[i], m = atom->rmass[i];
-    const double a = effects_.radius_under(calendem::mean_contact_force(pressure_, R),
-                                           EffectContact::of_spheres(t, t, R, R, 0.0));
-    const calendem::BondCoefficients k =
-        calendem::contact_stiffness(effects_.modulus(t, t), effects_.shear_modulus(t, t), a);
-    const calendem::BondCoefficients c =
-        calendem::contact_damping(k, effects_.damping(t, t), 0.5 * m);
-    least = std::min(least, calendem::stable_step_of_contacts(k, c, m, R));
+    const Contact c = coming_contact(atom->type[i], m, R);
+    const calendem::BondSection section(material.radius_ratio * R);
+    const bool bonds_are_softer =
+        calendem::BondStiffness(material, section, 2.0 * R).normal < c.stiffness.normal;
+    const Row beside = bonds_are_softer ? bonds[i] : Row();
+    least = std::min(least, calendem::stable_step_of_contacts(c.stiffness, c.damping, m, R,
+                                                              beside.stiffness, beside.damping));
   }
   return least;
 }
@@ -149,11 +158,10 @@ void FixCheckTimestepBpm::end_of_step() {
   if (update->dt <= limit)
     return;
   char message[256];
-  snprintf(
-      message, sizeof message,
-      "time step %g us exceeds %g of the smaller of the bonds' bound (%g us, contacts of effects "
-      "included) and the Rayleigh time (%g us); use at most %g us",
-      update->dt, fraction_, bound_, rayleigh_, limit);
+  snprintf(message, sizeof message,
+           "time step %g us exceeds %g of the smaller of the bonds' bound (%g us, contacts "
+           "included) and the Rayleigh time (%g us); use at most %g us",
+           update->dt, fraction_, bound_, rayleigh_, limit);
   if (stop_)
     error->fix_error(FLERR, this, message);
   if (comm->me == 0 && limit < 0.9 * warned_)

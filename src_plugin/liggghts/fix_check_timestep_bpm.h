@@ -2,11 +2,11 @@
 // fix ID all check/timestep/bpm N FRACTION [error yes|no] [pressure P]
 // Every N steps (and at set-up) compares the time step with the bound of physics/time_step_bound.h
 // and with the Rayleigh time; warns, or stops with `error yes`, when it exceeds FRACTION of the
-// smaller. The bound is over all intact bonds, damping included; over the contacts that `model
-// hertz_effects` changes, each as stiff as its largest area so far makes it (its unloading is not
-// stiffer); and with `pressure` over those that this pressure [kPa] will make, for a step that must
-// last. Global vector: 1 bound [us], 2 time step / bound, 3 smallest Rayleigh time [us], 4 time
-// step / that.
+// smaller. The bound is over all intact bonds and the contacts that there are, damping included; a
+// plastic contact is as stiff as its largest area so far makes it (its unloading is not stiffer).
+// With `pressure` it is also over the contacts that this pressure [kPa] will make, for a step that
+// must last. Global vector: 1 bound [us], 2 time step / bound, 3 smallest Rayleigh time [us], 4
+// time step / that.
 #ifdef FIX_CLASS
 
 FixStyle(check/timestep/bpm, FixCheckTimestepBpm)
@@ -35,12 +35,27 @@ private:
   double fraction_, bound_, rayleigh_, pressure_;
   double warned_; ///< limit of the last warning; again when it has fallen by a tenth [us]
   ContactEffects effects_;
-  bool stop_;
+  bool pairs_have_effects_, stop_;
+
+  /// Of one sphere.
+  struct Row {
+    calendem::BondRowSum stiffness, damping;
+    void add(const calendem::BondCoefficients &k, const calendem::BondCoefficients &c,
+             const calendem::Vec3 &n, double length) {
+      stiffness.add(k, n, length);
+      damping.add(c, n, length);
+    }
+  };
+  typedef std::vector<Row> Rows;
+  struct Contact {
+    calendem::BondCoefficients stiffness, damping;
+  };
 
   double bond_bound() const;
-  double contact_bound() const;
-  void add_contacts(std::vector<calendem::BondRowSum> &stiffness,
-                    std::vector<calendem::BondRowSum> &damping) const;
+  double contact_bound(const Rows &bonds) const;
+  Contact coming_contact(int type, double mass, double radius) const;
+  void add_contacts(Rows &rows) const;
+  calendem::BondCoefficients stiffness_of(int ti, int tj, double a) const;
   double rayleigh_time() const;
 };
 

@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Normal contact at large overlap: Hertz, and beside it the bulk stiffness of a sphere that its
-// contacts enclose. With x = (a/R_s)^2 = R d/R_s^2 the contact's area over that of the smaller
-// sphere's section (a Hertz' radius of the area, d the overlap):
-//   F = 4/3 E sqrt(R) d^(3/2) + B(x),  B = 3 pi/4 z K R_s^2 x^2 (x - x_b) for x > x_b, otherwise 0
+// contacts enclose. With x = R d/R_s^2, the area of the contact over the section of the smaller
+// sphere (d: overlap, Hertz' area pi R d):
+//   F = 4/3 E sqrt(R) d^(3/2) + B,  B = 3 pi/4 z K R_s^2 x^2 (x - x_b) for x > x_b, otherwise 0
 //   x_b = 4 (1 - psi)/z
-// E, R: effective modulus [kPa], radius [um]; R_s: radius of the smaller sphere [um]; K: bulk
-// modulus [kPa], > 0; psi: share of the surface still free at which the bulk answers, 0 < psi < 1;
-// z = 12 contacts of a sphere that is enclosed. F in nN, > 0 repulsive, with a continuous value
-// and, but for a step of 3 pi/4 z K R x_b^2 at x_b, slope. K -> 0 is Hertz; below x_b it is exactly
-// Hertz. B is the pressure K A_c d_b/V on a sphere of volume V, whose z contacts of area A_c = pi
-// R_s^2 x each move in by d_b = R_s (x - x_b), times A_c. Range: x below about 0.5, where the caps
-// of the contacts are half of the sphere. Conservative: elastic_energy is the integral of F.
-// Source: Zunker and Kamrin, J. Mech. Phys. Solids 183 (2024) 105493 (MDR, part II: bulk elastic
-// response), as in LAMMPS' `normal mdr`, F_BULK = kappa A_c A_con d_BULK/V. Deviations: theirs
-// knows the area A_con and the mean displacement of all contacts of the sphere, here all z are
-// taken to be like this one; Hertz instead of their elastic-plastic part; the smaller sphere
-// instead of the mean of both; radii do not grow. Damping and tangential stiffness stay those of
-// Hertz' area. Verified by tests/unit/physics/confined_contact_test.cpp,
-// tests/verification/confined_contact.
+// E, R: effective modulus [kPa], radius [um]; R_s: radius of the smaller sphere [um]; K > 0: bulk
+// modulus [kPa]; psi: share of the sphere's surface that is free when the bulk begins to answer,
+// 0 < psi < 1; z = 12 contacts enclose a sphere. F in nN, > 0 repulsive. Below x_b exactly Hertz
+// (x_b = 1/6 with psi = 0.5); at x_b the slope rises by 3 pi/4 z K R x_b^2. B is the pressure
+// K z A d_b/V of a sphere of volume V whose z areas A = pi R_s^2 x move in by d_b = R_s (x - x_b),
+// times A. Range: x up to 4/z, where z such areas cover the sphere; beyond, extrapolated.
+// Conservative: elastic_energy is the integral of F. Source: Zunker and Kamrin, J. Mech. Phys.
+// Solids 183 (2024) 105493, part II of the mechanically derived model (MDR): bulk elastic response,
+// there F_BULK = kappa A_c A_con d_BULK/V below a free share psi_b = 0.5, as LAMMPS' `normal mdr`
+// has it. Deviations: theirs knows area and mean displacement of all contacts of a sphere, here all
+// z are like this one; Hertz for their elastic-plastic part; the smaller sphere for the mean of
+// both sides; radii do not grow; damping and tangential stiffness stay those of Hertz' area.
+// Verified by tests/unit/physics/confined_contact_test.cpp, tests/verification/confined_contact.
 #ifndef CALENDEM_PHYSICS_CONFINED_CONTACT_H
 #define CALENDEM_PHYSICS_CONFINED_CONTACT_H
 
@@ -66,7 +65,7 @@ public:
 
   /// The force is convex: Newton comes down to the overlap from that of Hertz.
   double radius_under(double force_) const {
-    double d = std::cbrt(0.5625 * force_ * force_ / (E_ * E_ * R_));
+    double d = hertz_overlap(E_, R_, force_);
     for (int k = 0; k < 60 && d > 0.0; ++k)
       d -= std::fmax(0.0, force(d) - force_) / stiffness(d);
     return stiffness_radius(d);
@@ -76,7 +75,7 @@ public:
 
 private:
   static constexpr double kPi_ = 3.14159265358979323846;
-  double E_, R_, per_overlap_, begin_, bulk_; // x = per_overlap d
+  double E_, R_, per_overlap_, begin_, bulk_; // x = per_overlap d; x_b
 };
 
 /// Of the bulk modulus: any. Contacts only become stiffer.

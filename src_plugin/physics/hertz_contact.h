@@ -21,6 +21,11 @@ inline double hertz_force(double E_eff, double R_eff, double overlap) {
   return overlap > 0.0 ? 4.0 / 3.0 * E_eff * std::sqrt(R_eff * overlap) * overlap : 0.0;
 }
 
+/// Overlap [um] at which the force is `force` [nN] >= 0.
+inline double hertz_overlap(double E_eff, double R_eff, double force) {
+  return std::pow(0.75 * force / (E_eff * std::sqrt(R_eff)), 2.0 / 3.0);
+}
+
 /// Tangent stiffness dF/d(delta) [nN/um].
 inline double hertz_stiffness(double E_eff, double R_eff, double overlap) {
   return overlap > 0.0 ? 2.0 * E_eff * std::sqrt(R_eff * overlap) : 0.0;

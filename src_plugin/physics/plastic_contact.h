@@ -56,7 +56,7 @@ public:
   double overlap_under(double force) const {
     const double at_yield = 2.0 / 3.0 * slope_ * yield_overlap_;
     if (force <= at_yield)
-      return std::pow(0.75 * force / (E_ * std::sqrt(R_)), 2.0 / 3.0);
+      return hertz_overlap(E_, R_, force);
     const double perfect = force / slope_ + yield_overlap_ / 3.0, u = perfect - yield_overlap_;
     const double root = std::sqrt(1.0 + 4.0 * growth_ * u / slope_);
     return perfect - u * (root - 1.0) / (root + 1.0);

@@ -10,7 +10,9 @@
 // Contacts enter as bonds along the line of centres with k_n = 2 E* a, k_t = 8 G* a (a: radius of
 // the area) and the host's damping c = 2 sqrt(5/6) |beta| sqrt(k m*). Where contacts are still to
 // grow, a sphere with six of them, two per axis, stands for all, each under the mean force of a
-// packing of solid fraction 0.6 at the pressure P: F = 4 pi R^2 P/(0.6 * 6). Also here: Rayleigh
+// packing of solid fraction 0.6 at the pressure P: F = 4 pi R^2 P/(0.6 * 6). Of a bonded pair the
+// stiffer of bond and contact bears F: softer bonds count beside the six contacts, stiffer ones
+// without. Also here: Rayleigh
 // time T_R = pi R sqrt(rho/G) / (0.1631 nu + 0.8766). Deviations: none (the paper uses 1.5 % of the
 // Rayleigh time). Verified by tests/unit/physics/time_step_bound_test.cpp and
 // tests/verification/timestep.
@@ -77,10 +79,10 @@ inline double stable_step(const BondRowSum &stiffness, const BondRowSum &damping
   return least;
 }
 
-/// Bound [us] for a sphere with six such contacts and nothing else.
+/// Bound [us] for a sphere with six such contacts beside the rows `k` and `c`.
 inline double stable_step_of_contacts(const BondCoefficients &stiffness,
-                                      const BondCoefficients &damping, double mass, double radius) {
-  BondRowSum k, c;
+                                      const BondCoefficients &damping, double mass, double radius,
+                                      BondRowSum k = BondRowSum(), BondRowSum c = BondRowSum()) {
   for (const Vec3 &n : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
     for (int side = 0; side < 2; ++side) {
       k.add(stiffness, n, 2.0 * radius);

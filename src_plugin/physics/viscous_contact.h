@@ -57,7 +57,7 @@ public:
   }
 
   double stiffness_radius(double overlap, double) const { return std::sqrt(R_ * overlap); }
-  double radius_under(double force) const { return std::cbrt(0.75 * R_ * force / E_); }
+  double radius_under(double force) const { return std::sqrt(R_ * hertz_overlap(E_, R_, force)); }
 
   /// Moves the dashpot while the overlap goes from `before` to `now` in `time` [us]; returns the
   /// work [fJ] that it takes.

@@ -20,6 +20,7 @@ TEST(HertzContact, EffectiveValues) {
 // delta = 4. No force without overlap.
 TEST(HertzContact, Force) {
   EXPECT_DOUBLE_EQ(hertz_force(3.0, 4.0, 4.0), 64.0);
+  EXPECT_DOUBLE_EQ(hertz_overlap(3.0, 4.0, 64.0), 4.0);
   EXPECT_DOUBLE_EQ(hertz_stiffness(3.0, 4.0, 4.0), 24.0);
   EXPECT_EQ(hertz_force(3.0, 4.0, 0.0), 0.0);
   EXPECT_EQ(hertz_force(3.0, 4.0, -1.0), 0.0);

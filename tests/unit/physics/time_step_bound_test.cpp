@@ -220,6 +220,10 @@ TEST(TimeStepBound, SphereWithSixContacts) {
   const BondCoefficients c = contact_damping(k, -0.5, 0.5 * m);
   EXPECT_DOUBLE_EQ(c.normal, std::sqrt(5.0 / 6.0) * std::sqrt(k.normal * 0.5 * m));
   EXPECT_DOUBLE_EQ(c.shear, std::sqrt(5.0 / 6.0) * std::sqrt(k.shear * 0.5 * m));
+  BondRowSum beside; // softer bonds, of a quarter of the contacts' stiffness
+  for (const Vec3 &n : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
+    beside.add({0.5 * k.normal, 0.5 * k.shear, 0.0, 0.0}, n, 2.0 * R);
+  EXPECT_DOUBLE_EQ(stable_step_of_contacts(k, none, m, R, beside), 2.0 / std::sqrt(1.25 * K));
   EXPECT_LT(stable_step_of_contacts(k, c, m, R), 0.6 * stable_step_of_contacts(k, none, m, R));
 }
 
