@@ -102,34 +102,31 @@ calendem::BondCoefficients FixCheckTimestepBpm::stiffness_of(int ti, int tj, dou
   return calendem::contact_stiffness(effects_.modulus(ti, tj), effects_.shear_modulus(ti, tj), a);
 }
 
-// The stiffest contact that `pressure` will make for a sphere of this type.
-FixCheckTimestepBpm::Contact FixCheckTimestepBpm::coming_contact(int type, double mass,
+// The contact that `pressure` will make for a sphere of this type with one of the other type.
+FixCheckTimestepBpm::Contact FixCheckTimestepBpm::coming_contact(int type, int other, double mass,
                                                                  double radius) const {
-  const double force = calendem::mean_contact_force(pressure_, radius);
-  Contact stiffest;
-  for (int other = 1; other <= atom->ntypes; ++other) {
-    const double a =
-        effects_.radius_under(force, EffectContact::of_spheres(type, other, radius, radius, 0.0));
-    const calendem::BondCoefficients k = stiffness_of(type, other, a);
-    if (k.normal > stiffest.stiffness.normal)
-      stiffest = {k, calendem::contact_damping(k, effects_.damping(type, other), 0.5 * mass)};
-  }
-  return stiffest;
+  const double a =
+      effects_.radius_under(calendem::mean_contact_force(pressure_, radius),
+                            EffectContact::of_spheres(type, other, radius, radius, 0.0));
+  const calendem::BondCoefficients k = stiffness_of(type, other, a);
+  return {k, calendem::contact_damping(k, effects_.damping(type, other), 0.5 * mass)};
 }
 
+// The stiffest contact need not bound most: another may be damped more.
 double FixCheckTimestepBpm::contact_bound(const Rows &bonds) const {
   const calendem::BondMaterial &material =
       FixBondBpm::find(lmp, "fix check/timestep/bpm")->settings().material;
   double least = HUGE_VAL;
   for (int i = 0; i < atom->nlocal; ++i) {
     const double R = atom->radius[i], m = atom->rmass[i];
-    const Contact c = coming_contact(atom->type[i], m, R);
     const calendem::BondSection section(material.radius_ratio * R);
-    const bool bonds_are_softer =
-        calendem::BondStiffness(material, section, 2.0 * R).normal < c.stiffness.normal;
-    const Row beside = bonds_are_softer ? bonds[i] : Row();
-    least = std::min(least, calendem::stable_step_of_contacts(c.stiffness, c.damping, m, R,
-                                                              beside.stiffness, beside.damping));
+    const double of_bond = calendem::BondStiffness(material, section, 2.0 * R).normal;
+    for (int other = 1; other <= atom->ntypes; ++other) {
+      const Contact c = coming_contact(atom->type[i], other, m, R);
+      const Row beside = of_bond < c.stiffness.normal ? bonds[i] : Row();
+      least = std::min(least, calendem::stable_step_of_contacts(c.stiffness, c.damping, m, R,
+                                                                beside.stiffness, beside.damping));
+    }
   }
   return least;
 }

@@ -53,7 +53,7 @@ private:
 
   double bond_bound() const;
   double contact_bound(const Rows &bonds) const;
-  Contact coming_contact(int type, double mass, double radius) const;
+  Contact coming_contact(int type, int other, double mass, double radius) const;
   void add_contacts(Rows &rows) const;
   calendem::BondCoefficients stiffness_of(int ti, int tj, double a) const;
   double rayleigh_time() const;
