@@ -20,7 +20,7 @@ inline Key hardening(const std::string &key, const std::string &variable) {
 
 /// The contacts of the carbon-binder domain.
 inline std::vector<std::pair<Phase, Phase>> all_of_cbd() {
-  return {{Phase::Cbd, Phase::Am},
+  return {{Phase::Am, Phase::Cbd},
           {Phase::Cbd, Phase::Cbd},
           {Phase::Cbd, Phase::Collector},
           {Phase::Cbd, Phase::Platen}};

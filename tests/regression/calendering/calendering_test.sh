@@ -93,14 +93,18 @@ case $case in
   effects_resumed) # the same with every effect on: memories of contacts, radii, nanoporosities restart
     # a contact follows one law: two runs
     for effects in \
-      "nmc_plasticity.yield_pressure_GPa=2 collector_indentation.yield_pressure_GPa=0.5
-       cbd_collapse.yield_pressure_MPa=2 cbd_collapse.hardening_MPa=10
-       cbd_viscoelasticity.relaxed_fraction=0.3 cbd_viscoelasticity.time_us=0.5" \
-      "nmc_confinement.bulk_modulus_GPa=150 nmc_confinement.free_surface=0.95
-       cbd_plasticity.yield_pressure_GPa=0.55 cbd_plasticity.hardening_GPa=0.2"; do
+      "nmc_plasticity.yield_pressure_GPa = 2
+       collector_indentation.yield_pressure_GPa = 0.5
+       cbd_collapse.yield_pressure_MPa = 2
+       cbd_collapse.hardening_MPa = 10
+       cbd_viscoelasticity.relaxed_fraction = 0.3
+       cbd_viscoelasticity.time_us = 0.5" \
+      "nmc_confinement.bulk_modulus_GPa = 150
+       nmc_confinement.free_surface = 0.95
+       cbd_plasticity.yield_pressure_GPa = 0.55
+       cbd_plasticity.hardening_GPa = 0.2"; do
       sed 's/^max_pressure_MPa = .*/control = "displacement"\ndisplacement_um = 2.8/; s/= 2$/= 4/' "$here/case.toml" >"$work/effects.toml"
-      printf '\n[effects]\n' >>"$work/effects.toml"
-      printf '%s\n' $effects >>"$work/effects.toml"
+      printf '\n[effects]\n%s\n' "$effects" >>"$work/effects.toml"
       rm -rf "$work/effects" "$work/effects_killed"
       "$bin/calendem" run "$work/effects.toml" -o "$work/effects" --ranks 1
       left=$(number unaccounted_fraction "$work/effects/summary.json")
