@@ -4,8 +4,10 @@
 #include "spec/case.h"
 #include "spec/provenance.h"
 #include "support/test_folder.h"
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <set>
+#include <sstream>
 #include <tuple>
 
 namespace {
@@ -120,6 +122,34 @@ TEST(Settings, LimitsOfContactLawsCountCohesion) {
   const std::string relaxes = "[effects.cbd_viscoelasticity]\nrelaxed_fraction = ";
   EXPECT_EQ(refusal(relaxes + "0.52\n"), "");
   EXPECT_NE(refusal(relaxes + "0.54\n").find("at most 0.5"), std::string::npos);
+}
+
+// Requirement: a law acts on a pair of types either way round, and on no other.
+TEST(Settings, ContactLawsInTheScriptAreSymmetric) {
+  std::istringstream script(generated_files()[2].text);
+  const std::string begin = "peratomtypepair 4 ";
+  std::string line;
+  int properties = 0;
+  while (std::getline(script, line)) {
+    const std::size_t at = line.find(begin);
+    if (at == std::string::npos)
+      continue;
+    ++properties;
+    std::istringstream rest(line.substr(at + begin.size(), line.rfind('"') - at - begin.size()));
+    std::vector<std::string> v;
+    for (std::string word; rest >> word;)
+      v.push_back(word);
+    ASSERT_EQ(v.size(), 16u) << line;
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j)
+        EXPECT_EQ(v[4 * i + j], v[4 * j + i]) << line;
+    EXPECT_EQ(v[15], "0") << line; // nothing acts between platens
+  }
+  int due = 0;
+  for (const ContactLaw *law : kContactLaws)
+    for (const ContactProperty &p : law->properties)
+      due += p.name != nullptr;
+  EXPECT_EQ(properties, due);
 }
 
 // Requirement: every setting of a script is defined and written down by it.

@@ -2,6 +2,8 @@
 #include "pack/packing_state.h"
 #include "physics/hertz_contact.h"
 #include "physics/sjkr_cohesion.h"
+#include "registry/settings.h"
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -59,6 +61,11 @@ void note_pairs(PackingState &s, const Body &b, const Particle *first, const Rec
 }
 
 } // namespace
+
+double case_default(const std::string &key) {
+  const auto is = [&](const Key &k) { return k.name == key; };
+  return std::stod(std::find_if(case_keys().begin(), case_keys().end(), is)->fallback);
+}
 
 PackingState examine(const Recipe &recipe, const std::vector<Body> &bodies,
                      const std::vector<Particle> &particles, const FinalMaterial &material) {

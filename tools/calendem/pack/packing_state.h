@@ -7,12 +7,17 @@
 
 namespace calendem {
 
-/// Stiffness and cohesion at which a packing is relaxed and its forces are judged: the defaults of
-/// input_scripts/common/defaults.in. Handed to in.pack as variables.
+/// What a setting of the case is unless given.
+double case_default(const std::string &key);
+
+/// Stiffness and cohesion at which a packing is relaxed and its forces are judged: a case's unless
+/// given. Handed to in.pack as variables.
 struct FinalMaterial {
-  double E_am_GPa = 200.0, E_cbd_GPa = 2.0;
-  double nu_am = 0.3, nu_cbd = 0.49;
-  double ced_am_J_m3 = 6e8, ced_cbd_J_m3 = 7e7;
+  double E_am_GPa = case_default("material.am.youngs_modulus_GPa");
+  double E_cbd_GPa = case_default("material.cbd.youngs_modulus_GPa");
+  double nu_am = case_default("material.am.poisson"), nu_cbd = case_default("material.cbd.poisson");
+  double ced_am_J_m3 = case_default("material.am.ced_J_m3");
+  double ced_cbd_J_m3 = case_default("material.cbd.ced_J_m3");
 };
 
 /// Overlaps of touching pairs over the radius of the CBD sphere.
