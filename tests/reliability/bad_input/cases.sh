@@ -601,7 +601,9 @@ script_criterion() {
   says "ERROR: Fix bond/bpm" "'criterion singed'" "criterion signed|unsigned|as_printed"
 }
 script_modulus_in_pa() {
-  expect 1 script -var E_am_GPa 2e11
+  expect 1 script -var E_am_GPa 2e11 # of bonds too
+  says "ERROR: Fix bond/bpm" "'youngs_modulus' is 2e+17 kPa = 2e+11 GPa" "Is it given in Pa?"
+  expect 1 script -var E_am_GPa 2e11 -var E_bond_GPa 200
   says "ERROR: Fix bond/bpm" "youngsModulus of atom type 1 is 2e+17 kPa = 2e+11 GPa" "Is it given in Pa?"
   expect 1 script -var p_max_MPa 150e6
   says "ERROR: Fix wall/gran/platen" "'pressure' is" "Is it given in Pa?"

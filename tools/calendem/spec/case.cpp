@@ -73,11 +73,14 @@ void check_contact(const Settings &s, const Effect &e, Phase a, Phase b, Mistake
   if (value <= 0.0 || (value >= limits.least && value <= limits.most))
     return;
   const bool low = value < limits.least;
+  const std::string unit = key.unit == "fraction" ? "" : " " + key.unit;
   mistakes.add(s.line(key.name),
-               fmt::format("{} is {}{}{}: between {} and {} spheres {}. Give 0 (off) or {} {:.3g}.",
-                           key.name, s.text(key.name), key.unit.empty() ? "" : " ", key.unit,
-                           name_of(a), name_of(b), limits.why, low ? "at least" : "at most",
-                           (low ? limits.least : limits.most) / factor));
+               fmt::format("{} is {}{}, too {} for {} and {} spheres: {}. Give 0 (off) or {} "
+                           "{:.3g}{}.",
+                           key.name, s.text(key.name), unit, low ? "low" : "high",
+                           name_of(std::min(a, b)), name_of(std::max(a, b)), limits.why,
+                           low ? "at least" : "at most",
+                           (low ? limits.least : limits.most) / factor, unit));
 }
 
 // A property that may be only some part of the effective modulus.
