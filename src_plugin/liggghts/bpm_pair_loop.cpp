@@ -230,11 +230,11 @@ void BpmPairLoop::sort() {
 void BpmPairLoop::leave(const Pair &pair) const {
   *pair.flags = (*pair.flags | CONTACT_NORMAL_MODEL) & ~CONTACT_TANGENTIAL_MODEL;
   double *spring = pair.history + spring_;
-  if (spring[0] != 0.0 || spring[1] != 0.0 ||
-      spring[2] != 0.0) // most are zero: leave their line be
+  // most are zero: leave their line of the cache be
+  if (spring[0] != 0.0 || spring[1] != 0.0 || spring[2] != 0.0)
     spring[0] = spring[1] = spring[2] = 0.0;
   if (memory_ >= 0)
-    pair.history[memory_] = 0.0;
+    std::fill_n(pair.history + memory_, ContactEffects::kMemory, 0.0);
 }
 
 void BpmPairLoop::fill(Kind kind) {
@@ -298,18 +298,18 @@ void BpmPairLoop::act_effects() {
     if (!effects_.act(a, b) || BondHistory(pair.history + bond_).has_reference())
       continue;
     const double overlap = acting_overlap(t, p);
-    const EffectContact contact = {a, b, calendem::effective_radius(t.radius_i[p], t.radius_j[p]),
-                                   overlap};
-    double &memory = pair.history[memory_];
+    const EffectContact contact =
+        EffectContact::of_spheres(a, b, t.radius_i[p], t.radius_j[p], overlap);
+    double *memory = pair.history + memory_;
     if (update_) {
       const Vec3 n = (1.0 / std::sqrt(pair.r_squared)) * t.d[p];
       const double before = overlap + dot(t.v[p], n) * update->dt;
       const double taken = effects_.advance(contact, before, update->dt, memory);
       if (energy_ && taken != 0.0)
-        energy_->add_taken(pair.i, pair.j, taken, effects_.yields(a, b));
+        energy_->add_taken(pair.i, pair.j, taken, effects_.law(a, b).takes);
     }
     t.contact_radius[p] = effects_.contact_radius(contact, memory);
-    t.elastic[p] = effects_.force(contact, &memory);
+    t.elastic[p] = effects_.force(contact, memory);
   }
 }
 

@@ -74,11 +74,14 @@ public:
     add_damping(i, {a.force, a.torque_i});
     add_damping(j, {-a.force, a.torque_j});
   }
-  void add_friction(int i, const ForceAndTorque &a) { loads_[i].friction = loads_[i].friction + a; }
-  /// What an effect of a contact has taken: plastic flow, or viscous.
-  void add_taken(double work, bool plastic) { sums_[plastic ? kPlastic : kViscous] += work; }
+    void add_friction(int i, const ForceAndTorque &a) { loads_[i].friction = loads_[i].friction + a; }
+
+  /// What the law of a contact has taken.
+  void add_taken(double work, calendem::WorkTaken term) {
+    sums_[term == calendem::WorkTaken::PlasticFlow ? kPlastic : kViscous] += work;
+  }
   /// Of a pair: each of its copies calls, one counts.
-  void add_taken(int i, int j, double work, bool plastic);
+  void add_taken(int i, int j, double work, calendem::WorkTaken term);
   /// Energy [fJ] in this rank's contacts, elastic and cohesive: before and after radii change.
   double stored_in_contacts() const;
   void add_collapse(double work) { sums_[kCollapse] += work; }

@@ -12,10 +12,10 @@ using namespace calendem;
 
 namespace {
 
-constexpr double kSite = 4.0, kSide = 24.0;
+constexpr double kSite = 4.0;
 constexpr int kSites = 6; // per direction
 
-double wrapped(double x) { return x - kSide * std::floor(x / kSide); }
+double wrapped(double x, double side) { return x - side * std::floor(x / side); }
 
 // Reproducible numbers in (-1, 1).
 double noise(int n) {
@@ -25,12 +25,13 @@ double noise(int n) {
 
 // On every site of a grid that the faces of the cell and of the ranks cut, a pair in a direction of
 // its own or, on each fourth, a cube of eight.
-Files thrown_bodies() {
+Files thrown_bodies(double between = kSite) {
+  const double side = kSites * between;
   std::vector<BodySphere> all;
   int body = 0, n = 0;
   for (int site = 0; site < kSites * kSites * kSites; ++site) {
-    const Vec3 centre = {kSite * (site % kSites), kSite * (site / kSites % kSites),
-                         kSite * (site / kSites / kSites)};
+    const Vec3 centre = {between * (site % kSites), between * (site / kSites % kSites),
+                         between * (site / kSites / kSites)};
     ++body;
     std::vector<BodySphere> made;
     if (site % 4 == 0) {
@@ -41,13 +42,13 @@ Files thrown_bodies() {
       made = {{centre + half, 0.795, body}, {centre - half, 0.795, body}};
     }
     for (BodySphere &s : made) {
-      s.x = {wrapped(s.x.x), wrapped(s.x.y), wrapped(s.x.z)};
+      s.x = {wrapped(s.x.x, side), wrapped(s.x.y, side), wrapped(s.x.z, side)};
       s.v = 0.4 * Vec3{noise(++n), noise(++n), noise(++n)};
       s.omega = 0.5 * Vec3{noise(++n), noise(++n), noise(++n)};
       all.push_back(s);
     }
   }
-  return files_of(all, {0, 0, 0}, {kSide, kSide, kSide});
+  return files_of(all, {0, 0, 0}, {side, side, side});
 }
 
 struct Outcome {
@@ -252,4 +253,35 @@ TEST(SamePhysics, PeriodicRestartIsWriteRestart) {
   EXPECT_EQ(o.state, reference().state);
   EXPECT_EQ(go_on(periodic, {{"px", "2"}, {"py", "1"}, {"pz", "1"}}, 2, "half.250.restart").breaks,
             reference().breaks);
+}
+
+// Bodies so close that surfaces of different ones press, rub and part.
+TEST(SamePhysics, OnePassGivesTheHostsForces) {
+  const std::pair<const char *, const char *> laws[] = {
+      {"none", "hertz"}, {"plastic", "flow"}, {"viscous", "dashpots"}, {"confined", "hertz"}};
+  std::string first;
+  for (const auto &[law, taken] : laws) {
+    const auto in = [&, law = law](const char *fused) {
+      const Settings s =
+          with({{"law", law},
+                {"fused", fused},
+                {"how", "once"},
+                {"steps", "3000"},
+                {"contact", std::string(law) == "none" ? "hertz" : "hertz_effects"}});
+      return outcome(CaseRun("in.breaks", s, 1, thrown_bodies(2.7)));
+    };
+    const Outcome host = in("off"), one = in("on");
+    EXPECT_EQ(one.breaks, host.breaks) << law;
+    EXPECT_EQ(one.state, host.state) << law;
+    ASSERT_FALSE(host.rows.empty()) << law;
+    ASSERT_EQ(one.rows.size(), host.rows.size()) << law;
+    for (size_t i = 0; i < host.rows.size(); ++i)
+      for (const auto &[term, value] : host.rows[i])
+        EXPECT_NEAR(one.rows[i].at(term), value, 1e-12 * std::fabs(value)) << law << " " << term;
+    const Row &end = host.rows.back();
+    for (const char *term : {"broken", "damped", "rubbed", taken})
+      EXPECT_GT(end.at(term), 0.0) << law << " " << term;
+    EXPECT_NE(host.state, first) << law << " does not act";
+    first = first.empty() ? host.state : first;
+  }
 }

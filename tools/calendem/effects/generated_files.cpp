@@ -94,15 +94,19 @@ std::map<std::string, std::string> short_names() {
   return out;
 }
 
-/// The property by pairs of types: the setting of the effect that acts there, 0 elsewhere.
+/// The property by pairs of types: the setting of the effect that acts there, 0 elsewhere and for
+/// an effect that leaves it out.
 std::string matrix(const LawInScript &l, std::size_t property) {
   static const std::map<std::string, std::string> name = short_names();
   constexpr int kTypes = 4;
   std::string cell[kTypes][kTypes], out;
-  for (const Effect *e : l.effects)
+  for (const Effect *e : l.effects) {
+    if (property >= e->settings.size())
+      continue;
     for (const auto &[a, b] : e->contact.between)
       cell[int(a) - 1][int(b) - 1] = cell[int(b) - 1][int(a) - 1] =
-          "${" + name.at(e->settings.at(property).variable) + "}";
+          "${" + name.at(e->settings[property].variable) + "}";
+  }
   for (const auto &row : cell)
     for (const std::string &value : row)
       out += " " + (value.empty() ? std::string("0") : value);
