@@ -48,7 +48,7 @@ void BpmPairLoop::connect(int bond_offset, int effects_offset) {
   if (memory_ >= 0)
     effects_.connect(registry, "pair_style gran");
   tiles_.reset(new PairTile[kApart]());
-  choose_unit();
+  choose_units();
 }
 
 bool BpmPairLoop::serves(PairGran *pair) const {
@@ -59,8 +59,8 @@ bool BpmPairLoop::serves(PairGran *pair) const {
          !modify->n_fixes_style("insert/stream/predefined");
 }
 
-// A sphere pressed by its own modulus over 16 R^2 is far beyond any law.
-void BpmPairLoop::choose_unit() {
+// A force of E R^2 would press a sphere into another by its radius.
+void BpmPairLoop::choose_units() {
   double radius = 0.0, largest = 0.0;
   for (int i = 0; i < atom->nlocal; ++i)
     radius = std::max(radius, atom->radius[i]);
@@ -69,9 +69,11 @@ void BpmPairLoop::choose_unit() {
   for (int a = 1; a <= atom->ntypes; ++a)
     for (int b = 1; b <= atom->ntypes; ++b)
       modulus = std::max(modulus, modulus_[a][b]);
-  const double force = 16.0 * modulus * largest * largest;
-  unit_ =
-      force > 0.0 ? calendem::FixedPoint(force * std::max(1.0, largest)) : calendem::FixedPoint();
+  const double force = modulus * largest * largest;
+  if (force > 0.0) {
+    force_unit_ = calendem::FixedPoint(force);
+    torque_unit_ = calendem::FixedPoint(force * largest);
+  }
 }
 
 // Anew in every step: the host's properties may change.
@@ -337,7 +339,7 @@ void BpmPairLoop::keep_contacts(Kind kind) {
 
 void BpmPairLoop::sum_forces(Kind kind) {
   PairTile &t = tiles_[kind];
-  round_off(t, unit_);
+  round_off(t, force_unit_, torque_unit_);
   for (int p = 0; p < t.size; ++p) {
     const Pair &pair = pairs_[of_kind_[kind][p]];
     unsigned long long *on_i = forces_[pair.i].sum, *on_j = forces_[pair.j].sum;
@@ -355,8 +357,8 @@ void BpmPairLoop::add_forces(PairGran *pair) {
     const double relax = pair->relax(i);
     const unsigned long long *sum = forces_[i].sum;
     for (int k = 0; k < 3; ++k) {
-      atom->f[i][k] += relax * unit_.value(static_cast<long long>(sum[k]));
-      atom->torque[i][k] += relax * unit_.value(static_cast<long long>(sum[3 + k]));
+      atom->f[i][k] += relax * force_unit_.value(static_cast<long long>(sum[k]));
+      atom->torque[i][k] += relax * torque_unit_.value(static_cast<long long>(sum[3 + k]));
     }
   }
 }

@@ -65,7 +65,7 @@ private:
   int bond_ = 0, memory_ = -1, spring_ = -1;             // offsets in the history
   std::vector<Sphere> spheres_;                          // atoms and ghosts in this step
   std::vector<WholeForce> forces_;                       // on them
-  calendem::FixedPoint unit_;                            // of these [nN], [nN um]
+  calendem::FixedPoint force_unit_, torque_unit_;        // of these [nN], [nN um]
   std::vector<double> dx_, dy_, dz_, r_squared_, limit_; // of the neighbours of one atom
   std::vector<int> near_;
   std::unique_ptr<PairTile[]> tiles_; // one of each kind but kApart
@@ -88,7 +88,7 @@ private:
   void act_effects();
   void keep_bonds(Kind kind);
   void keep_contacts(Kind kind);
-  void choose_unit();
+  void choose_units();
   void sum_forces(Kind kind);
   void add_forces(class PairGran *pair);
   void book();

@@ -28,7 +28,7 @@ const int kGatherEvery = 100; // steps
 FixBondBpm::FixBondBpm(LAMMPS *lmp, int narg, char **arg)
     : Fix(lmp, narg, arg), energy_(NULL), body_(NULL), broken_(NULL), history_offset_(-1),
       created_(false), creating_(false), log_ready_(false), initial_(0), by_mode_(),
-      energy_lost_(0.0), overstretched_(0.0), acting_(0), expected_(-1), spacing_(0.0) {
+      energy_lost_(0.0), overstretched_(0.0), acting_(0), expected_(-1), missing_(0), spacing_() {
   if (!atom->sphere_flag || !atom->tag_enable)
     error->fix_error(FLERR, this, "needs atom_style granular (or sphere) with atom tags");
   if (domain->triclinic)
@@ -109,38 +109,32 @@ void FixBondBpm::check_box() {
     }
 }
 
-// Twice the largest coordinate leaves room for ghosts beyond the box.
+// Ghosts lie beyond the box by no more than its half: check_box().
 void FixBondBpm::choose_grid() {
-  double largest = 0.0;
-  for (int k = 0; k < 3; ++k)
-    largest = std::max(largest, std::max(std::fabs(domain->boxlo[k]), std::fabs(domain->boxhi[k])));
-  spacing_ = calendem::exact_spacing(2.0 * largest);
-  for (int k = 0; k < 3; ++k)
-    if (domain->periodicity[k]) {
-      domain->boxlo[k] = calendem::nearest_multiple(domain->boxlo[k], spacing_);
-      domain->boxhi[k] = calendem::nearest_multiple(domain->boxhi[k], spacing_);
-    }
+  for (int k = 0; k < 3; ++k) {
+    spacing_[k] = 0.0;
+    if (!domain->periodicity[k])
+      continue;
+    const double largest = std::max(std::fabs(domain->boxlo[k]), std::fabs(domain->boxhi[k]));
+    spacing_[k] = calendem::exact_spacing(largest + 0.5 * domain->prd[k]);
+    domain->boxlo[k] = calendem::nearest_multiple(domain->boxlo[k], spacing_[k]);
+    domain->boxhi[k] = calendem::nearest_multiple(domain->boxhi[k], spacing_[k]);
+  }
   domain->set_global_box();
   domain->set_local_box();
 }
 
 void FixBondBpm::put_on_grid() {
-  const double per_spacing = 1.0 / spacing_; // both are powers of two
-  double *x = atom->x[0];
-  const int n = 3 * atom->nlocal;
-  for (int k = 0; k < n; ++k)
-    x[k] = std::nearbyint(x[k] * per_spacing) * spacing_;
+  for (int k = 0; k < 3; ++k) {
+    const double spacing = spacing_[k], per_spacing = 1.0 / spacing; // powers of two
+    for (int i = 0; spacing > 0.0 && i < atom->nlocal; ++i)
+      atom->x[i][k] = std::rint(atom->x[i][k] * per_spacing) * spacing;
+  }
 }
 
-void FixBondBpm::setup_pre_exchange() {
-  if (atom->nlocal)
-    put_on_grid();
-}
+void FixBondBpm::setup_pre_exchange() { put_on_grid(); }
 
-void FixBondBpm::post_integrate() {
-  if (atom->nlocal)
-    put_on_grid();
-}
+void FixBondBpm::post_integrate() { put_on_grid(); }
 
 void FixBondBpm::setup_pre_force(int) {
   expected_ = -1;
@@ -202,15 +196,30 @@ void FixBondBpm::record_break(int i, int j, BondHistory bond, const calendem::Bo
   failing_.push_back({i, j, bond, e});
 }
 
-void FixBondBpm::stop_overstretched() {
+void FixBondBpm::stop_overstretched(double stretch) {
   char message[300];
   snprintf(
       message, sizeof message,
-      "fix bond/bpm: an intact bond is stretched to %.4f times the sum of radii; beyond %.2f its "
-      "history would be lost. The time step is too large or the bonds are unbreakable or too "
-      "strong",
-      overstretched_, kContactDistanceFactor);
-  error->one(FLERR, message);
+      "an intact bond is stretched to %.4f times the sum of radii; beyond %.2f its history would "
+      "be lost. The time step is too large or the bonds are unbreakable or too strong",
+      stretch, kContactDistanceFactor);
+  error->fix_error(FLERR, this, message);
+}
+
+// What one rank has found wrong stops all of them, where they meet.
+void FixBondBpm::stop_if_wrong() {
+  double stretch = 0.0;
+  MPI_Allreduce(&overstretched_, &stretch, 1, MPI_DOUBLE, MPI_MAX, world);
+  if (stretch > 0.0)
+    stop_overstretched(stretch);
+  const bigint mine[3] = {missing_, expected_, static_cast<bigint>(mine_.size())};
+  bigint all[3];
+  MPI_Allreduce(mine, all, 3, MPI_LMP_BIGINT, MPI_SUM, world);
+  const bigint intact = initial_ - broken() - all[2];
+  if (all[0] != 0)
+    stop_lost(intact - all[0], intact);
+  if (all[1] != intact)
+    stop_lost(all[1], intact);
 }
 
 void FixBondBpm::gather_breaks() {
@@ -235,9 +244,12 @@ void FixBondBpm::gather_breaks() {
 }
 
 void FixBondBpm::post_force(int) {
-  check_acting();
-  if (overstretched_ > 0.0)
-    stop_overstretched();
+  const bool new_lists = neighbor->ago == 0 || expected_ < 0;
+  check_acting(new_lists);
+  const bool wrong = overstretched_ > 0.0 || missing_ != 0;
+  const bool due = new_lists || update->ntimestep % kGatherEvery == 0;
+  if (due || (wrong && comm->nprocs == 1))
+    stop_if_wrong();
   apply_breaks();
   if (update->ntimestep % kGatherEvery == 0)
     gather_breaks();
@@ -246,19 +258,14 @@ void FixBondBpm::post_force(int) {
 void FixBondBpm::post_run() { gather_breaks(); }
 
 // Every intact bond must act in every step. A rank counts its own; where the lists are new, or the
-// run is, ranks also see that together they have all.
-void FixBondBpm::check_acting() {
-  if (neighbor->ago == 0 || expected_ < 0) {
+// run is, all see that together they have all.
+void FixBondBpm::check_acting(bool new_lists) {
+  if (new_lists) {
     expected_ = 0;
     for_each_intact([this](int, int, const BondHistory &) { ++expected_; });
-    const bigint mine[2] = {expected_, static_cast<bigint>(mine_.size())};
-    bigint all[2];
-    MPI_Allreduce(mine, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
-    if (all[0] != initial_ - broken() - all[1])
-      stop_lost(all[0], initial_ - broken() - all[1]);
   }
-  if (acting_ != expected_)
-    stop_lost(acting_, expected_);
+  if (missing_ == 0)
+    missing_ = expected_ - acting_;
   acting_ = 0;
 }
 
@@ -267,12 +274,13 @@ void FixBondBpm::check_acting() {
 void FixBondBpm::stop_lost(bigint acting, bigint intact) {
   char message[500];
   snprintf(message, sizeof message,
-           "fix bond/bpm: " BIGINT_FORMAT " of " BIGINT_FORMAT
-           " intact bonds acted in this step. Either a bond was stretched within one step to more "
+           BIGINT_FORMAT
+           " of " BIGINT_FORMAT
+           " intact bonds acted in a step. Either a bond was stretched within one step to more "
            "than %.2f times the sum of radii, where its history is lost: the time step is too "
            "large. Or the host lost histories: leave 'one' and 'page' of neigh_modify as they are",
            acting, intact, kContactDistanceFactor);
-  error->one(FLERR, message);
+  error->fix_error(FLERR, this, message);
 }
 
 bigint FixBondBpm::broken() const { return by_mode_[1] + by_mode_[2] + by_mode_[3] + by_mode_[4]; }

@@ -95,7 +95,7 @@ public:
   void record_break(int i, int j, BondHistory bond, const calendem::BondLoads &, double tension,
                     const calendem::BondSection &, const calendem::BondStiffness &, double factor);
   void check_stretch(double stretch) {
-    if (stretch > kStretchLimit && stretch > overstretched_)
+    if (stretch > kStretchLimit && overstretched_ == 0.0)
       overstretched_ = stretch;
   }
   void acts(int i, int j) { acting_ += decides(i, j); }
@@ -147,9 +147,11 @@ private:
   std::vector<Break> failing_;     // of this step
   std::vector<BreakEvent> mine_;   // decided here since the last gathering
   std::vector<BreakEvent> breaks_; // gathered
-  double overstretched_;           // largest stretch beyond the limit, 0 if none
-  bigint acting_, expected_; // intact bonds that this rank decides: acted in this step; there are
-  double spacing_;           // of the grid of positions
+  double overstretched_;           // the first stretch beyond the limit, 0 if none
+  // intact bonds that this rank decides: acted in this step; are there; did not act when they had
+  // to
+  bigint acting_, expected_, missing_;
+  double spacing_[3]; // of the grid of positions, 0 along sides that are not periodic
 
   void parse(int narg, char **arg);
   int parse_keyword(int iarg, int narg, char **arg);
@@ -169,13 +171,14 @@ private:
   template <class Visit> void for_each_neighbor(Visit visit);
   void choose_grid();
   void put_on_grid();
-  void check_acting();
+  void check_acting(bool new_lists);
+  void stop_if_wrong();
   void apply_breaks();
   void gather_breaks();
   void open_log();
   double platen_pressure() const;
   void log_breaks(const std::vector<BreakEvent> &all);
-  void stop_overstretched();
+  void stop_overstretched(double stretch);
   void stop_lost(bigint acting, bigint intact);
 };
 

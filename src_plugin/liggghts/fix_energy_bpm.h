@@ -74,7 +74,7 @@ public:
     add_damping(i, {a.force, a.torque_i});
     add_damping(j, {-a.force, a.torque_j});
   }
-    void add_friction(int i, const ForceAndTorque &a) { loads_[i].friction = loads_[i].friction + a; }
+  void add_friction(int i, const ForceAndTorque &a) { loads_[i].friction = loads_[i].friction + a; }
 
   /// What the law of a contact has taken.
   void add_taken(double work, calendem::WorkTaken term) {

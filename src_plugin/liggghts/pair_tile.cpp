@@ -150,16 +150,17 @@ void LAMMPS_NS::run_contacts(PairTile &t, bool bonded, bool update, double dt) {
     bonded ? ::run_contacts<false, true>(t, dt) : ::run_contacts<false, false>(t, dt);
 }
 
-void LAMMPS_NS::round_off(PairTile &t, const calendem::FixedPoint &unit) {
+void LAMMPS_NS::round_off(PairTile &t, const calendem::FixedPoint &force,
+                          const calendem::FixedPoint &torque) {
   const Row *const rows[9] = {&t.force.x,    &t.force.y,    &t.force.z,
                               &t.torque_i.x, &t.torque_i.y, &t.torque_i.z,
                               &t.torque_j.x, &t.torque_j.y, &t.torque_j.z};
-  const calendem::FixedPoint own = unit;
   for (int k = 0; k < 9; ++k) {
+    const calendem::FixedPoint unit = k < 3 ? force : torque;
     const double *from = rows[k]->at;
     long long *to = t.whole[k].at;
 #pragma GCC ivdep
     for (int p = 0; p < t.size; ++p)
-      to[p] = own.of(from[p]);
+      to[p] = unit.of(from[p]);
   }
 }

@@ -99,7 +99,7 @@ void run_hertz(PairTile &);
 /// contacts' are added and cohesion does not act.
 void run_contacts(PairTile &, bool bonded, bool update, double dt);
 /// Force and torques as whole numbers.
-void round_off(PairTile &, const calendem::FixedPoint &);
+void round_off(PairTile &, const calendem::FixedPoint &force, const calendem::FixedPoint &torque);
 
 } // namespace LAMMPS_NS
 

@@ -20,7 +20,7 @@ struct FixedPoint {
   explicit FixedPoint(double largest)
       : unit(std::exp2(std::ceil(std::log2(largest)) - 62.0)), per_unit(1.0 / unit) {}
 
-  long long of(double term) const { return static_cast<long long>(term * per_unit); }
+  long long of(double term) const { return static_cast<long long>(std::rint(term * per_unit)); }
   double value(long long sum) const { return static_cast<double>(sum) * unit; }
 };
 

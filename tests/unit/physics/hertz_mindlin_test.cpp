@@ -13,7 +13,8 @@ const double kContactRadius = std::sqrt(0.5 * kRadius * kOverlap);
 
 ContactMotion moving(const Vec3 &v, const Vec3 &spin_i = {}, const Vec3 &spin_j = {}) {
   const double r = 2.0 * kRadius - kOverlap;
-  return contact_motion({r, 0, 0}, v, spin_i, spin_j, {1, 0, 0}, 1.0 / r, kOverlap, kRadius, kRadius);
+  return contact_motion({r, 0, 0}, v, spin_i, spin_j, {1, 0, 0}, 1.0 / r, kOverlap, kRadius,
+                        kRadius);
 }
 } // namespace
 

@@ -21,8 +21,8 @@ struct RangeOfContacts {
 
 enum KindOfContact { kWallContacts, kInsideBodies, kAmAm, kAmCbd, kCbdCbd, kKindsOfContact };
 
-/// One row of curve_raw.csv: doubles in the order of its columns. Pressures, gap and displacement are
-/// averages over one window; energies of contacts are NaN in a run that kept no ledger.
+/// One row of curve_raw.csv: doubles in the order of its columns. Pressures, gap and displacement
+/// are averages over one window; energies of contacts are NaN in a run that kept no ledger.
 struct RawRow {
   double step, time, stage, displacement, gap, p_top, p_bottom, made, broken, tension, bending,
       shear, torsion, kinetic, strain, work_platen, work_lost, work_collector, contact_elastic,
