@@ -29,6 +29,7 @@ inline Effect pre_cracks() {
   e.settings = {{"effects.pre_cracks.fraction", "pre_cracks", "0", 0, 0.9, "",
                  "of the bonds, without strength"}};
   e.parameter = strength(e.settings[0], 0.02, 0.5, Spread::LogUniform);
+  e.bond_law = "pre_cracks";
   e.moves =
       "weaker bodies from the first load on: lower pressure at a displacement, more cracked bodies";
   e.source = "a random choice of bonds; tomograms show pores and cracks in NMC, an unsourced prior";
