@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // fix ID all bond/bpm bodies FILE youngs_modulus E nu NU radius_ratio L tensile S shear T
-//     criterion signed|unsigned|as_printed damping D weibull M SEED pre_cracks F
-//     breakable yes|no log FILE pressure PLATEN_FIX
+//     criterion signed|unsigned|as_printed damping D weibull M SEED breakable yes|no log FILE
+//     pressure PLATEN_FIX LAW NUMBERS ...
+// fix_modify ID LAW NUMBERS ...       with a further law of strength, see bond_strengths.h
 //
 // Keeps positions and periodic sides on a grid on which shifts by a side are exact: both copies of
 // a pair then do the same arithmetic, and find the same breaks, whichever ranks hold them. Owns the
@@ -20,9 +21,11 @@ FixStyle(bond/bpm, FixBondBpm)
 #define LMP_FIX_BOND_BPM_H
 
 #include "bond_bpm_history.h"
+#include "bond_strengths.h"
 #include "fix.h"
 #include "physics/bond_failure.h"
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -33,9 +36,7 @@ struct BondSettings {
   calendem::BondMaterial material;
   calendem::BondStrength strength = {0.0, 0.0};
   calendem::FailureCriterion criterion = calendem::FailureCriterion::Signed;
-  double weibull_modulus = 0.0; ///< <= 0: no scatter
-  double pre_cracks = 0.0;      ///< fraction of the bonds that have no strength
-  std::uint64_t seed = 0;       ///< of both
+  BondStrengths strengths; ///< from bond to bond
   bool breakable = true;
 
   calendem::BondStrength strength_of(double factor) const {
@@ -60,6 +61,7 @@ public:
   FixBondBpm(class LAMMPS *, int, char **);
   ~FixBondBpm();
   int setmask();
+  int modify_param(int narg, char **arg) { return parse_strength(narg, arg); }
   void init();
   void setup_pre_exchange();
   void setup_pre_force(int);
@@ -131,7 +133,8 @@ private:
   BondSettings settings_;
   class FixEnergyBpm *energy_; // NULL when no ledger is kept
   std::string bodies_file_, log_file_, platen_id_;
-  std::vector<int> body_of_tag_; // from the body map; empty after a restart
+  std::vector<int> body_of_tag_;        // from the body map; empty after a restart
+  std::map<int, double> body_diameter_; // of the sphere of the primaries' volume; likewise
   int *body_, *broken_;
   int history_offset_;
   bool created_, creating_, log_ready_;
@@ -155,6 +158,7 @@ private:
 
   void parse(int narg, char **arg);
   int parse_keyword(int iarg, int narg, char **arg);
+  int parse_strength(int narg, char **arg);
   double positive(const char *keyword, const char *text, bool zero_allowed);
   std::uint64_t seed(const char *text);
   void check_settings();
@@ -164,6 +168,7 @@ private:
   void check_materials();
   void check_collapse(int i, int j, double ced, double effective_modulus);
   void read_bodies();
+  void measure_bodies();
   void check_box();
   bigint count_intact();
   bool copies_agree();

@@ -153,6 +153,20 @@ std::string effects_in() {
   return out;
 }
 
+std::string bond_laws_in() {
+  std::string out = "# Laws of bond strength that the base model leaves out, each off at 0.\n";
+  out += kMade;
+  for (const Effect &e : effects()) {
+    if (e.bond_law.empty())
+      continue;
+    out += "fix_modify bonds " + e.bond_law;
+    for (const Key &key : e.settings)
+      out += fmt::format(" ${{{}}}", key.variable);
+    out += fmt::format(" # {} (physics/{})\n", e.name, e.law);
+  }
+  return out;
+}
+
 std::string of_unit(const Effect &e) {
   const std::string unit = key_named(e.parameter.keys.front()).unit;
   return unit.empty() ? "" : " " + unit;
@@ -194,6 +208,7 @@ std::vector<GeneratedFile> generated_files() {
   return {{"input_scripts/common/defaults.in", defaults_in()},
           {"input_scripts/common/settings.in", settings_in()},
           {"input_scripts/common/effects.in", effects_in()},
+          {"input_scripts/common/bond_laws.in", bond_laws_in()},
           {"tools/calendem/effects/README.md", effects_page()}};
 }
 
