@@ -5,6 +5,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_property_atom.h"
+#include "granular_sliding_wall.h"
 #include "primitive_wall.h"
 #include "update.h"
 #include <cmath>
@@ -36,7 +37,8 @@ PlatenArguments::PlatenArguments(int narg, char **arg) {
 
 FixWallGranPlaten::FixWallGranPlaten(LAMMPS *lmp, int narg, char **arg)
     : PlatenArguments(narg, arg), FixWallGran(lmp, static_cast<int>(host_.size()), host_.data()),
-      sign_(-1.0), window_(0.25), may_release_(true), moved_(false), memory_offset_(-1) {
+      sign_(-1.0), window_(0.25), may_release_(true), moved_(false), sliding_(0.0),
+      memory_offset_(-1) {
   const char *z = NULL;
   for (size_t i = 0; i + 1 < host_.size(); ++i)
     if (!strcmp(host_[i], "zplane"))
@@ -49,8 +51,10 @@ FixWallGranPlaten::FixWallGranPlaten(LAMMPS *lmp, int narg, char **arg)
   programme_.lowest = domain->boxlo[2];
   parse();
   set_window();
+  if (slides())
+    impl = new SlidingWall(impl, sliding_);
   vector_flag = 1;
-  size_vector = 13;
+  size_vector = 15;
   global_freq = 1;
   restart_global = 1;
 }
@@ -68,7 +72,28 @@ double FixWallGranPlaten::number(const std::string &key, const std::string &valu
   return x;
 }
 
+bool FixWallGranPlaten::set_roll_keyword(const std::string &key, const std::string &value) {
+  if (key == "roll") {
+    programme_.control = PlatenControl::Roll;
+    programme_.target = number(key, value, false);
+  } else if (key == "roll_radius")
+    programme_.roll.radius = number(key, value, false);
+  else if (key == "counter_radius")
+    programme_.roll.counter = number(key, value, true);
+  else if (key == "slip")
+    programme_.roll.slip = number(key, value, true);
+  else if (key == "passes")
+    programme_.passes = number(key, value, false);
+  else if (key == "first_gap")
+    programme_.first_gap = number(key, value, true);
+  else
+    return false;
+  return true;
+}
+
 void FixWallGranPlaten::set_keyword(const std::string &key, const std::string &value) {
+  if (set_roll_keyword(key, value))
+    return;
   if (key == "side" && (value == "top" || value == "bottom"))
     sign_ = value == "top" ? -1.0 : 1.0;
   else if (key == "motion" && value == "hold")
@@ -101,7 +126,8 @@ void FixWallGranPlaten::set_keyword(const std::string &key, const std::string &v
   else {
     const std::string message =
         "unknown setting '" + key + " " + value +
-        "'; known: side top|bottom, motion hold | motion pressure P | motion position Z, "
+        "'; known: side top|bottom, motion hold | motion pressure P | motion position Z | "
+        "motion roll GAP, roll_radius, counter_radius, slip, passes, first_gap, "
         "touch_speed, load_speed, release_speed, touch_pressure, dwell, ramp, lost, lowest, "
         "average, compliance, release yes|no";
     error->fix_error(FLERR, this, message.c_str());
@@ -133,11 +159,35 @@ void FixWallGranPlaten::parse() {
         FLERR, this,
         "'pressure' is more than 100 GPa (units micro: 1 is 1 kPa). Is it given in Pa? "
         "The input scripts take MPa");
-  if (programme_.control == PlatenControl::Position && programme_.target >= programme_.start)
+  if (programme_.control == PlatenControl::Roll)
+    check_roll();
+  if (programme_.control != PlatenControl::Pressure && programme_.target >= programme_.start)
     error->fix_error(FLERR, this,
                      "the target position must lie below the start ('zplane'); nothing would be "
                      "compressed");
   enter(record_.state, PlatenStage::Compression, update->ntimestep * update->dt);
+}
+
+void FixWallGranPlaten::check_roll() {
+  if (programme_.roll.radius <= 0.0)
+    error->fix_error(FLERR, this, "'motion roll' needs 'roll_radius' > 0");
+  if (programme_.passes < 1.0 || programme_.passes != std::floor(programme_.passes))
+    error->fix_error(FLERR, this, "'passes' must be a whole number, at least 1");
+  if (programme_.first_gap > 0.0 &&
+      (programme_.first_gap < programme_.target || programme_.first_gap >= programme_.start))
+    error->fix_error(FLERR, this,
+                     "'first_gap' must lie between the roll's gap and the start ('zplane'), or be "
+                     "0: the gap of the last pass");
+  if (programme_.compliance > 0.0)
+    error->fix_error(
+        FLERR, this,
+        "the gap of 'motion roll' is that of the loaded rolls: 'compliance' must be 0");
+}
+
+bool FixWallGranPlaten::slides() const {
+  const calendem::RollNip &roll = programme_.roll;
+  return programme_.control == PlatenControl::Roll &&
+         (roll.slip > 0.0 || roll.radius != roll.counter);
 }
 
 int FixWallGranPlaten::setmask() { return FixWallGran::setmask() | INITIAL_INTEGRATE; }
@@ -166,6 +216,7 @@ void FixWallGranPlaten::place_wall() {
   delete primitiveWall_;
   primitiveWall_ = new PrimitiveWall(lmp, PRIMITIVE_WALL_DEFINITIONS::ZPLANE, 1, &z);
   vshear_ = -record_.state.speed;
+  sliding_ = slip_speed(programme_, record_.state);
   moved_ = true;
 }
 
@@ -179,6 +230,7 @@ void FixWallGranPlaten::initial_integrate(int) {
   // half of the step's work with the load at its beginning, the other half in measure()
   record_.work += 0.5 * record_.load * (z - record_.state.position);
   place_wall();
+  record_.work += 0.5 * record_.drag * sliding_ * dt;
 }
 
 void FixWallGranPlaten::pre_force(int vflag) {
@@ -195,8 +247,11 @@ double FixWallGranPlaten::area() const { return domain->xprd * domain->yprd; }
 
 void FixWallGranPlaten::post_force(int vflag) {
   FixWallGran::post_force(vflag);
-  if (!update->setupflag)
-    measure();
+  if (update->setupflag)
+    return;
+  measure();
+  if (slides())
+    measure_drag();
 }
 
 void FixWallGranPlaten::measure() {
@@ -212,11 +267,19 @@ void FixWallGranPlaten::measure() {
                  record_.average.block_length * update->dt);
 }
 
+void FixWallGranPlaten::measure_drag() {
+  double mine = 0.0;
+  for (int i = 0; i < atom->nlocal; ++i)
+    mine += fix_wallforce_->array_atom[i][0];
+  MPI_Allreduce(&mine, &record_.drag, 1, MPI_DOUBLE, MPI_SUM, world);
+  record_.work += 0.5 * record_.drag * sliding_ * update->dt;
+}
+
 double FixWallGranPlaten::compute_vector(int n) {
   const calendem::PlatenState &s = record_.state;
   const double time = update->ntimestep * update->dt;
   const bool waits = stage_of(s) == PlatenStage::Dwell && !may_release_ &&
-                     time - s.stage_start >= programme_.dwell;
+                     last_pass(programme_, s) && time - s.stage_start >= programme_.dwell;
   const double values[] = {s.stage,
                            s.position,
                            programme_.start - s.position,
@@ -229,7 +292,9 @@ double FixWallGranPlaten::compute_vector(int n) {
                            s.reached,
                            waits ? 1.0 : 0.0,
                            window_,
-                           mean_position()};
+                           mean_position(),
+                           std::fmax(programme_.passes - s.passed - 1.0, 0.0),
+                           sliding_};
   return values[n];
 }
 

@@ -21,8 +21,8 @@ struct RangeOfContacts {
 
 enum KindOfContact { kWallContacts, kInsideBodies, kAmAm, kAmCbd, kCbdCbd, kKindsOfContact };
 
-/// One row of curve_raw.csv: doubles in the order of its columns. Pressures, gap and displacement are
-/// averages over one window; energies of contacts are NaN in a run that kept no ledger.
+/// One row of curve_raw.csv: doubles in the order of its columns. Pressures, gap and displacement
+/// are averages over one window; energies of contacts are NaN in a run that kept no ledger.
 struct RawRow {
   double step, time, stage, displacement, gap, p_top, p_bottom, made, broken, tension, bending,
       shear, torsion, kinetic, strain, work_platen, work_lost, work_collector, contact_elastic,
@@ -36,7 +36,7 @@ constexpr double kQuasiStatic = 0.05;
 /// Rows by time; after a resumption the last of equal steps counts. Cut lines are dropped.
 std::vector<RawRow> read_raw(const std::string &file);
 
-/// Gap at which the averaged pressure first falls below `fraction` of the maximum during
+/// Gap at which the averaged pressure first falls below `fraction` of the maximum during the last
 /// relaxation, linear between rows; none if the platen stopped before that.
 std::optional<double> gap_at_loss(const std::vector<RawRow> &rows, double fraction,
                                   double max_pressure);
