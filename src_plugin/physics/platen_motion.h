@@ -16,7 +16,7 @@
 #ifndef CALENDEM_PHYSICS_PLATEN_MOTION_H
 #define CALENDEM_PHYSICS_PLATEN_MOTION_H
 
-#include "physics/roll_nip.h"
+#include "roll_nip.h"
 #include <cmath>
 
 namespace calendem {

@@ -142,7 +142,7 @@ case $case in
     mapfile -t gaps < <(number gap_um "$work/said")
     # a row is an average over 0.1 um at the highest speed, which turns in the nip: a quarter of that at most
     holds "${gaps[0]} >= 15 && ${gaps[0]} < 15.025 && ${gaps[1]} >= 14 && ${gaps[1]} < 14.025" "gaps of the passes: ${gaps[*]}"
-    # at 5 % of the maximum: in this cell 1 % is a single contact. Over six speeds the platen's thickness scatters by 0.057 um,
+    # at 5 % of the maximum: in this cell 1 % is a single contact. Over six speeds the platen's thickness scatters by 0.058 um,
     # the roll's by 0.036: 0.2 um is three times what both together do
     under passed_once.toml 'control = "roll_gap"\nroll_gap_um = 14' ''
     under pressed.toml 'control = "thickness"\nthickness_um = 14' ''
@@ -150,10 +150,10 @@ case $case in
       "$bin/calendem" run "$work/$run.toml" -o "$work/$run" --ranks 1
       s=$work/$run/summary.json
       released=$(awk "BEGIN { print $(number thickness_at_max_um "$s") * (1 - $(number porosity_at_max "$s")) / (1 - $(number '0\.05' "$s")) }")
-      echo "$run: $(number max_pressure_MPa "$s" | head -n 1) MPa, $released um at 5 % of it"
-      eval "$run=$released"
-    done
-    holds "($passed_once) - ($pressed) < 0.2 && ($pressed) - ($passed_once) < 0.2" "roll and platen are apart" ;;
+      echo "$run: $released um at 5 % of the largest pressure"
+      [ -z "${other:-}" ] || holds "($other - $released) ^ 2 < 0.2 ^ 2" "roll and platen are apart"
+      other=$released
+    done ;;
   many_kills) # twenty kill -9 at random moments, every time gone on with: the uninterrupted run's bytes
     [ "${CALENDEM_HEAVY:-0}" = 1 ] || { echo "skipped: calendering.many_kills runs with tools/test --all"; exit 77; }
     RANDOM=4

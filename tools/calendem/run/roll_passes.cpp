@@ -31,10 +31,11 @@ Side side_of(const Rows &pass, bool way_out, const RollNip &nip, double gap, dou
   for (const RawRow &r : pass) {
     if ((r.stage > 2.5) != way_out)
       continue;
-    if (last && std::max(r.p_top, last->p_top) > least) {
+    if (last) {
       const double way = std::fabs(nip.distance(r.gap - gap) - nip.distance(last->gap - gap));
       side.load += 0.5 * (r.p_top + last->p_top) * way;
-      side.length += way;
+      if (std::max(r.p_top, last->p_top) > least)
+        side.length += way;
     }
     last = &r;
   }
