@@ -25,9 +25,7 @@ public:
   double length() const { return h_[kLength]; } ///< centre distance at creation [um]
   double strength_factor() const { return h_[7]; }
 
-  calendem::BondLoads loads() const {
-    return {calendem::load(h_), calendem::load(h_ + 4), h_[3]};
-  }
+  calendem::BondLoads loads() const { return {calendem::load(h_), calendem::load(h_ + 4), h_[3]}; }
   void set_loads(const calendem::BondLoads &l) {
     calendem::store(l.shear, h_);
     h_[3] = l.twist;

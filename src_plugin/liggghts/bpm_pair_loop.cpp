@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#pragma GCC optimize("no-tree-slp-vectorize")
 #include "bpm_pair_loop.h"
 #include "atom.h"
 #include "contact_model_constants.h"
@@ -27,12 +26,6 @@ Vec3 difference(const double *a, const double *b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-void add(double factor, const Vec3 &a, double *to) {
-  to[0] += factor * a.x;
-  to[1] += factor * a.y;
-  to[2] += factor * a.z;
-}
-
 } // namespace
 
 void BpmPairLoop::connect(int bond_offset, int effects_offset) {
@@ -55,14 +48,32 @@ void BpmPairLoop::connect(int bond_offset, int effects_offset) {
   if (memory_ >= 0)
     effects_.connect(registry, "pair_style gran");
   tiles_.reset(new PairTile[kApart]());
+  choose_units();
 }
 
 bool BpmPairLoop::serves(PairGran *pair) const {
-  return spring_ >= 0 && pair->computeflag() && pair->shearupdate() && !fix_->creating() && atom->rmass &&
-         !pair->fr_pair() && !pair->freeze_group_bit() && !pair->storeSumDelta() &&
-         !pair->storeContactForces() && !pair->storeContactForcesStress() &&
-         !pair->store_sum_normal_force() && force->nktv2p == 1.0 && !force->newton_pair &&
+  return spring_ >= 0 && pair->computeflag() && atom->rmass && !pair->fr_pair() &&
+         !pair->freeze_group_bit() && !pair->storeSumDelta() && !pair->storeContactForces() &&
+         !pair->storeContactForcesStress() && !pair->store_sum_normal_force() &&
+         force->nktv2p == 1.0 && !force->newton_pair &&
          !modify->n_fixes_style("insert/stream/predefined");
+}
+
+// A force of E R^2 would press a sphere into another by its radius.
+void BpmPairLoop::choose_units() {
+  double radius = 0.0, largest = 0.0;
+  for (int i = 0; i < atom->nlocal; ++i)
+    radius = std::max(radius, atom->radius[i]);
+  MPI_Allreduce(&radius, &largest, 1, MPI_DOUBLE, MPI_MAX, world);
+  double modulus = fix_->settings().material.youngs_modulus;
+  for (int a = 1; a <= atom->ntypes; ++a)
+    for (int b = 1; b <= atom->ntypes; ++b)
+      modulus = std::max(modulus, modulus_[a][b]);
+  const double force = modulus * largest * largest;
+  if (force > 0.0) {
+    force_unit_ = calendem::FixedPoint(force);
+    torque_unit_ = calendem::FixedPoint(force * largest);
+  }
 }
 
 // Anew in every step: the host's properties may change.
@@ -77,8 +88,11 @@ void BpmPairLoop::copy_materials() {
 
 void BpmPairLoop::copy_spheres() {
   const int n = atom->nlocal + atom->nghost;
-  if (n > static_cast<int>(spheres_.size()))
+  if (n > static_cast<int>(spheres_.size())) {
     spheres_.resize(n + n / 8);
+    forces_.resize(n + n / 8);
+  }
+  std::fill(forces_.begin(), forces_.begin() + n, WholeForce());
   for (int k = 0; k < n; ++k) {
     Sphere &s = spheres_[k];
     for (int c = 0; c < 3; ++c) {
@@ -123,6 +137,7 @@ void BpmPairLoop::compute_force(PairGran *pair) {
   const NeighList *list = pair->list;
   const int dnum = pair->dnum();
   const double factor = neighbor->contactDistanceFactor * neighbor->contactDistanceFactor;
+  update_ = pair->shearupdate();
   acting_ = 0;
   copy_materials();
   copy_spheres();
@@ -135,34 +150,45 @@ void BpmPairLoop::compute_force(PairGran *pair) {
     for (int n = 0; n < near; ++n) {
       const int k = near_[n];
       if (found_ == kTilePairs)
-        work_off(pair);
+        work_off();
       double *values = history + dnum * k;
       __builtin_prefetch(values);
       __builtin_prefetch(values + dnum - 1);
-      pairs_[found_++] = {i, neighbors[k] & NEIGHMASK, kApart, 0, values, flags + k, r_squared_[k],
+      pairs_[found_++] = {i,
+                          neighbors[k] & NEIGHMASK,
+                          kApart,
+                          0,
+                          values,
+                          flags + k,
+                          r_squared_[k],
                           {dx_[k], dy_[k], dz_[k]}};
     }
   }
-  work_off(pair);
-  fix_->count_acting(acting_);
+  work_off();
+  add_forces(pair);
+  if (update_)
+    fix_->count_acting(acting_);
 }
 
-void BpmPairLoop::work_off(PairGran *pair) {
+void BpmPairLoop::work_off() {
   const BondSettings &b = fix_->settings();
   const double dt = update->dt;
   sort();
   for (const Kind kind : {kBond, kPressedBond}) {
-    run_bonds(tiles_[kind], b.material, b.strength, b.criterion, dt);
-    keep_bonds(kind);
+    run_bonds(tiles_[kind], b.material, b.strength, b.criterion, update_, dt);
+    if (update_)
+      keep_bonds(kind);
   }
   for (const Kind kind : {kPressedBond, kContact}) {
     run_hertz(tiles_[kind]);
     if (kind == kContact && memory_ >= 0)
       act_effects();
-    run_contacts(tiles_[kind], kind == kPressedBond, dt);
-    keep_contacts(kind);
+    run_contacts(tiles_[kind], kind == kPressedBond, update_, dt);
+    if (update_)
+      keep_contacts(kind);
   }
-  add_forces(pair);
+  for (const Kind kind : {kBond, kPressedBond, kContact})
+    sum_forces(kind);
   if (energy_)
     book();
   found_ = 0;
@@ -171,14 +197,18 @@ void BpmPairLoop::work_off(PairGran *pair) {
 // Which kind a pair is changes from pair to pair without a pattern: no branch depends on it.
 void BpmPairLoop::sort() {
   const int nlocal = atom->nlocal, *tag = atom->tag;
+  const bool creating = fix_->creating();
   std::fill(count_, count_ + kKinds, 0);
   for (int n = 0; n < found_; ++n) {
     Pair &pair = pairs_[n];
     const Sphere &a = spheres_[pair.i], &b = spheres_[pair.j];
-    const BondHistory bond(pair.history + bond_);
-    const double radius_sum = a.radius + b.radius, length = bond.length();
-    const bool intact = bond.state() == kIntact;
+    BondHistory bond(pair.history + bond_);
+    const double radius_sum = a.radius + b.radius;
     const bool touches = pair.r_squared < radius_sum * radius_sum;
+    if (creating && touches)
+      fix_->create(pair.i, pair.j, std::sqrt(pair.r_squared), bond);
+    const double length = bond.length();
+    const bool intact = bond.state() == kIntact;
     const bool pressed = touches & (pair.r_squared < length * length);
     pair.kind = intact ? (pressed ? kPressedBond : kBond) : (touches ? kContact : kApart);
     pair.at = count_[pair.kind]++;
@@ -191,7 +221,7 @@ void BpmPairLoop::sort() {
   for (int p = 0; p < count_[kApart]; ++p) {
     const Pair &pair = pairs_[of_kind_[kApart][p]];
     BondHistory bond(pair.history + bond_);
-    if (bond.state() == kBrokenTouching)
+    if (bond.state() == kBrokenTouching && update_)
       bond.set_state(kBrokenSeparated);
     leave(pair);
   }
@@ -202,10 +232,11 @@ void BpmPairLoop::sort() {
 void BpmPairLoop::leave(const Pair &pair) const {
   *pair.flags = (*pair.flags | CONTACT_NORMAL_MODEL) & ~CONTACT_TANGENTIAL_MODEL;
   double *spring = pair.history + spring_;
-  if (spring[0] != 0.0 || spring[1] != 0.0 || spring[2] != 0.0) // most are zero: leave their line be
+  // most are zero: leave their line of the cache be
+  if (spring[0] != 0.0 || spring[1] != 0.0 || spring[2] != 0.0)
     spring[0] = spring[1] = spring[2] = 0.0;
   if (memory_ >= 0)
-    pair.history[memory_] = 0.0;
+    std::fill_n(pair.history + memory_, ContactEffects::kMemory, 0.0);
 }
 
 void BpmPairLoop::fill(Kind kind) {
@@ -269,16 +300,18 @@ void BpmPairLoop::act_effects() {
     if (!effects_.act(a, b) || BondHistory(pair.history + bond_).has_reference())
       continue;
     const double overlap = acting_overlap(t, p);
-    const EffectContact contact = {
-        a, b, calendem::effective_radius(t.radius_i[p], t.radius_j[p]), overlap};
-    double &memory = pair.history[memory_];
-    const Vec3 n = (1.0 / std::sqrt(pair.r_squared)) * t.d[p];
-    const double before = overlap + dot(t.v[p], n) * update->dt;
-    const double taken = effects_.advance(contact, before, update->dt, memory);
-    if (energy_ && taken != 0.0)
-      energy_->add_taken(pair.i, pair.j, taken, effects_.yields(a, b));
+    const EffectContact contact =
+        EffectContact::of_spheres(a, b, t.radius_i[p], t.radius_j[p], overlap);
+    double *memory = pair.history + memory_;
+    if (update_) {
+      const Vec3 n = (1.0 / std::sqrt(pair.r_squared)) * t.d[p];
+      const double before = overlap + dot(t.v[p], n) * update->dt;
+      const double taken = effects_.advance(contact, before, update->dt, memory);
+      if (energy_ && taken != 0.0)
+        energy_->add_taken(pair.i, pair.j, taken, effects_.law(a, b).takes);
+    }
     t.contact_radius[p] = effects_.contact_radius(contact, memory);
-    t.elastic[p] = effects_.force(contact, &memory);
+    t.elastic[p] = effects_.force(contact, memory);
   }
 }
 
@@ -287,13 +320,14 @@ void BpmPairLoop::keep_bonds(Kind kind) {
   const PairTile &t = tiles_[kind];
   for (int p = 0; p < t.size; ++p) {
     const Pair &pair = pairs_[of_kind_[kind][p]];
-    BondHistory(pair.history + bond_).set_loads(loads_of(t, p));
-    fix_->check_stretch(pair.i, pair.j, t.stretch[p]);
+    BondHistory history(pair.history + bond_);
+    history.set_loads(loads_of(t, p));
+    fix_->check_stretch(t.stretch[p]);
     if (t.failed[p] == 0.0 || !b.breakable)
       continue;
     const BondPair bond(b.material, t, p);
-    fix_->record_break(pair.i, pair.j, loads_of(t, p), bond.tension, bond.section, bond.stiffness,
-                       t.strength[p]);
+    fix_->record_break(pair.i, pair.j, history, loads_of(t, p), bond.tension, bond.section,
+                       bond.stiffness, t.strength[p]);
   }
 }
 
@@ -303,24 +337,29 @@ void BpmPairLoop::keep_contacts(Kind kind) {
     calendem::store(t.displacement[p], pairs_[of_kind_[kind][p]].history + spring_);
 }
 
-// In the order of the neighbour list, as the host's loop does.
-void BpmPairLoop::add_forces(PairGran *gran) {
-  double *const *f = atom->f, *const *torque = atom->torque;
-  const int nlocal = atom->nlocal;
-  for (int n = 0; n < found_; ++n) {
-    const Pair &pair = pairs_[n];
-    if (pair.kind == kApart)
-      continue;
-    const PairTile &t = tiles_[pair.kind];
-    const int p = pair.at, i = pair.i, j = pair.j;
-    const double relax_i = gran->relax(i);
-    add(relax_i, t.force[p], f[i]);
-    add(relax_i, t.torque_i[p], torque[i]);
-    if (j >= nlocal)
-      continue;
-    const double relax_j = gran->relax(j);
-    add(relax_j, -t.force[p], f[j]);
-    add(relax_j, t.torque_j[p], torque[j]);
+void BpmPairLoop::sum_forces(Kind kind) {
+  PairTile &t = tiles_[kind];
+  round_off(t, force_unit_, torque_unit_);
+  for (int p = 0; p < t.size; ++p) {
+    const Pair &pair = pairs_[of_kind_[kind][p]];
+    unsigned long long *on_i = forces_[pair.i].sum, *on_j = forces_[pair.j].sum;
+    for (int k = 0; k < 3; ++k) {
+      on_i[k] += t.whole[k][p];
+      on_j[k] -= t.whole[k][p];
+      on_i[3 + k] += t.whole[3 + k][p];
+      on_j[3 + k] += t.whole[6 + k][p];
+    }
+  }
+}
+
+void BpmPairLoop::add_forces(PairGran *pair) {
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const double relax = pair->relax(i);
+    const unsigned long long *sum = forces_[i].sum;
+    for (int k = 0; k < 3; ++k) {
+      atom->f[i][k] += relax * force_unit_.value(static_cast<long long>(sum[k]));
+      atom->torque[i][k] += relax * torque_unit_.value(static_cast<long long>(sum[3 + k]));
+    }
   }
 }
 
@@ -329,8 +368,9 @@ void BpmPairLoop::book() {
     const PairTile &t = tiles_[kind];
     for (int p = 0; p < t.size; ++p) {
       const Pair &pair = pairs_[of_kind_[kind][p]];
-      energy_->add_damping(pair.i, pair.j, {t.bond_damping[p], t.bond_damping_torque_i[p],
-                                            t.bond_damping_torque_j[p]});
+      energy_->add_damping(
+          pair.i, pair.j,
+          {t.bond_damping[p], t.bond_damping_torque_i[p], t.bond_damping_torque_j[p]});
     }
   }
   for (const Kind kind : {kPressedBond, kContact}) {

@@ -77,7 +77,7 @@ public:
     const calendem::Vec3 n = (1.0 / r) * calendem::load(s.delta);
     bond_force(s, bond, n, r, i_forces, j_forces);
     s.has_force_update = true;
-    fix_->check_stretch(s.i, s.j, r / s.radsum);
+    fix_->check_stretch(r / s.radsum);
   }
 
   // For the energy ledger: what the tangential model has added since, and the normal damping.
@@ -140,7 +140,7 @@ private:
       bond.set_loads(loads);
       if (b.breakable && calendem::fails(loads, tension, section,
                                          b.strength_of(bond.strength_factor()), b.criterion))
-        fix_->record_break(s.i, s.j, loads, tension, section, k, bond.strength_factor());
+        fix_->record_break(s.i, s.j, bond, loads, tension, section, k, bond.strength_factor());
     }
     calendem::BondDamping damping;
     if (b.material.damping > 0.0) {

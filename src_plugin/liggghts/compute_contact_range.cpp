@@ -55,17 +55,16 @@ int ComputeContactRange::row_of(int itype, int jtype) const {
   return low < 0 ? -1 : kPairs + low * phases_ - low * (low - 1) / 2 + high - low;
 }
 
-void ComputeContactRange::add(int row, const EffectContact &contact, double smaller_radius,
-                              const double *memory) {
+void ComputeContactRange::add(int row, const EffectContact &contact, const double *memory) {
   if (contact.overlap <= 0.0)
     return;
   const double force = effects_.force(contact, memory);
   if (force <= 0.0)
     return;
   if (row != kInsideBodies)
-    mine_[kAll].add(contact.overlap, smaller_radius, force);
+    mine_[kAll].add(contact.overlap, contact.radius, force);
   if (row >= 0)
-    mine_[row].add(contact.overlap, smaller_radius, force);
+    mine_[row].add(contact.overlap, contact.radius, force);
 }
 
 void ComputeContactRange::add_pairs() {
@@ -74,9 +73,9 @@ void ComputeContactRange::add_pairs() {
   bonds_->for_each_touching([&](int i, int j, double r, const BondHistory &bond) {
     const double sum = radius[i] + radius[j];
     add(bond.has_reference() ? int(kInsideBodies) : row_of(type[i], type[j]),
-        {type[i], type[j], calendem::effective_radius(radius[i], radius[j]),
-         sum - r - bond.reference_overlap(sum)},
-        std::min(radius[i], radius[j]), pairs_have_effects_ ? bond.effect_memory() : NULL);
+        EffectContact::of_spheres(type[i], type[j], radius[i], radius[j],
+                                  sum - r - bond.reference_overlap(sum)),
+        pairs_have_effects_ ? bond.effect_memory() : NULL);
   });
 }
 
@@ -85,9 +84,9 @@ void ComputeContactRange::add_walls() {
     for (int i = 0; i < atom->nlocal; ++i) {
       const double radius = atom->radius[i];
       add(kWalls,
-          {atom->type[i], wall->atom_type_wall(), radius,
-           radius - std::fabs(atom->x[i][2] - wall->position())},
-          radius, wall->effect_memory(i));
+          EffectContact::at_wall(atom->type[i], wall->atom_type_wall(), radius,
+                                 radius - std::fabs(atom->x[i][2] - wall->position())),
+          wall->effect_memory(i));
     }
 }
 

@@ -46,7 +46,7 @@ private:
   std::vector<calendem::ContactRange> mine_; // of this rank, by rows
 
   int row_of(int itype, int jtype) const;
-  void add(int row, const EffectContact &contact, double smaller_radius, const double *memory);
+  void add(int row, const EffectContact &contact, const double *memory);
   void add_pairs();
   void add_walls();
 };

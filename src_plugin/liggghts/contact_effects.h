@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Which contacts follow another law than Hertz, by pairs of atom types, and what of a contact
 // others ask for: force, area, energy. Used by `model hertz_effects`, the energy ledger, the
-// collapse of CBD and the check of the time step. Read from the script's properties
-// (peratomtypepair, units micro; one that is missing is 0 everywhere), of which a pair of types may
-// have one:
-//   contactYieldPressure [kPa]  > 0: elastic-plastic, physics/plastic_contact.h
-//   contactRelaxedFraction, contactRelaxationTime [us]  > 0: viscoelastic,
-//   physics/viscous_contact.h
-// A contact has one number in its history, its memory [um]: its largest overlap if it is plastic,
-// the dashpot's part of its overlap if it is viscous.
+// collapse of CBD and the check of the time step. The laws, and the properties that the script
+// gives them (peratomtypepair, units micro; one that is missing is 0 everywhere), are those of
+// registry/contact_law.h; a pair of types may have one of them. A contact's history holds its
+// law's values, at most kMemory.
 #ifndef CALENDEM_CONTACT_EFFECTS_H
 #define CALENDEM_CONTACT_EFFECTS_H
 
-#include "physics/plastic_contact.h"
-#include "physics/viscous_contact.h"
 #include "pointers.h"
+#include "registry/contact_law.h"
+#include <utility>
+#include <vector>
 
 class PropertyRegistry;
 
@@ -23,68 +20,110 @@ namespace LAMMPS_NS {
 /// A contact as the laws see it.
 struct EffectContact {
   int itype, jtype;
-  double effective_radius, overlap; ///< [um]
+  double effective_radius, overlap, radius; ///< [um]; the last of the smaller sphere
+
+  static EffectContact of_spheres(int itype, int jtype, double Ri, double Rj, double overlap) {
+    return {itype, jtype, calendem::effective_radius(Ri, Rj), overlap, Ri < Rj ? Ri : Rj};
+  }
+  static EffectContact at_wall(int type, int wall_type, double R, double overlap) {
+    return {type, wall_type, R, overlap, R};
+  }
 };
 
 class ContactEffects {
 public:
   static constexpr const char *kModel = "hertz_effects";
-  static constexpr int kMemory = 1; ///< history values of a contact
+  /// History values of a contact.
+  static constexpr int kMemory =
+      calendem::most_memory(static_cast<calendem::ContactLaws *>(nullptr));
 
   /// True if the pair style's normal model is `hertz_effects`.
   static bool in_use(class LAMMPS *lmp);
 
-  /// Stops with a message if the script's values cannot be used.
+  /// Reads the properties; stops with a message if the script's values cannot be used.
   void connect(PropertyRegistry &registry, const char *caller);
 
   /// True if contacts of these types follow another law than Hertz.
-  bool act(int itype, int jtype) const { return yields(itype, jtype) || relaxes(itype, jtype); }
-  bool yields(int itype, int jtype) const { return yield_pressure_[itype][jtype] > 0.0; }
-  bool relaxes(int itype, int jtype) const { return relaxed_fraction_[itype][jtype] > 0.0; }
+  bool act(int itype, int jtype) const { return pair(itype, jtype).law >= 0; }
 
   /// Elastic force [nN] and stored energy [fJ]; Hertz' without effect or memory (NULL).
-  double force(const EffectContact &c, const double *memory) const;
-  double elastic_energy(const EffectContact &c, const double *memory) const;
-
-  /// Radius [um] of the area of a contact that an effect acts on; 0 if the law has opened it.
-  double contact_radius(const EffectContact &c, double memory) const;
-  /// Largest radius [um] of its area so far: its stiffness is at most 2 E* times it.
-  double largest_radius(const EffectContact &c, double memory) const;
-  /// Radius [um] of the area of a contact under a force [nN] that it has not borne before; of a
-  /// viscous one unrelaxed.
-  double radius_under(double force, int itype, int jtype, double effective_radius) const;
-
-  /// Brings the memory of a contact that an effect acts on up to its overlap, which `time` [us] ago
-  /// was `before`; returns the work [fJ] that this has taken.
-  double advance(const EffectContact &c, double before, double time, double &memory) const;
-
-  double modulus(int itype, int jtype) const { return modulus_[itype][jtype]; }
-  double shear_modulus(int itype, int jtype) const { return shear_modulus_[itype][jtype]; }
-  double damping(int itype, int jtype) const { return damping_[itype][jtype]; } ///< the host's beta
-
-  /// Brings a contact's memory up to its overlap; returns the work [fJ] that this has taken.
-  double advance(const EffectContact &c, double &memory) const {
-    if (c.overlap <= memory)
-      return 0.0;
-    const double before = plastic(c).plastic_work(memory);
-    memory = c.overlap;
-    return plastic(c).plastic_work(memory) - before;
+  double force(const EffectContact &c, const double *memory) const {
+    if (!memory || !act(c.itype, c.jtype))
+      return calendem::hertz_force(modulus(c.itype, c.jtype), c.effective_radius, c.overlap);
+    return with_law(c, memory,
+                    [&](const auto &law, auto... m) { return law.force(c.overlap, m...); });
   }
+  double elastic_energy(const EffectContact &c, const double *memory) const {
+    if (!memory || !act(c.itype, c.jtype))
+      return calendem::hertz_energy(modulus(c.itype, c.jtype), c.effective_radius, c.overlap);
+    return with_law(
+        c, memory, [&](const auto &law, auto... m) { return law.elastic_energy(c.overlap, m...); });
+  }
+
+  // Of contacts that an effect acts on, the two for the time step of others too; see
+  // physics/contact_interface.h.
+  double contact_radius(const EffectContact &c, const double *memory) const {
+    return with_law(
+        c, memory, [&](const auto &law, auto... m) { return law.contact_radius(c.overlap, m...); });
+  }
+  double stiffness_radius(const EffectContact &c, const double *memory) const {
+    if (!memory || !act(c.itype, c.jtype))
+      return std::sqrt(c.effective_radius * c.overlap);
+    return with_law(c, memory, [&](const auto &law, auto... m) {
+      return law.stiffness_radius(c.overlap, m...);
+    });
+  }
+  double radius_under(double force, const EffectContact &c) const {
+    if (!act(c.itype, c.jtype))
+      return std::sqrt(c.effective_radius * calendem::hertz_overlap(modulus(c.itype, c.jtype),
+                                                                    c.effective_radius, force));
+    const double none[kMemory] = {};
+    return with_law(c, none, [&](const auto &law, auto...) { return law.radius_under(force); });
+  }
+  /// Brings the memory up to the contact's overlap, which `time` [us] ago was `before`; returns the
+  /// work [fJ] that this has taken.
+  double advance(const EffectContact &c, double before, double time, double *memory) const {
+    return with_law(c, memory, [&](const auto &law, auto &...m) {
+      return law.advance(before, c.overlap, time, m...);
+    });
+  }
+  const calendem::ContactLaw &law(int itype, int jtype) const {
+    return *calendem::kContactLaws[pair(itype, jtype).law];
+  }
+
+  double modulus(int itype, int jtype) const { return pair(itype, jtype).modulus; }
+  double shear_modulus(int itype, int jtype) const { return pair(itype, jtype).shear_modulus; }
+  double damping(int itype, int jtype) const { return pair(itype, jtype).damping; } ///< host's beta
 
 private:
-  double **yield_pressure_ = nullptr, **relaxed_fraction_ = nullptr, **relaxation_time_ = nullptr;
-  double **modulus_ = nullptr, **shear_modulus_ = nullptr, **damping_ = nullptr;
+  struct TypePair {
+    int law = -1; ///< in ContactLaws; -1: Hertz
+    double modulus = 0.0, shear_modulus = 0.0, damping = 0.0;
+    std::array<double, std::tuple_size_v<decltype(calendem::ContactLaw::properties)>> values = {};
+  };
 
-  calendem::PlasticContact plastic(const EffectContact &c) const {
-    return {modulus_[c.itype][c.jtype], c.effective_radius, yield_pressure_[c.itype][c.jtype]};
+  int types_ = 0;
+  std::vector<TypePair> pairs_; // by both types, from 1
+
+  const TypePair &pair(int i, int j) const { return pairs_[i * (types_ + 1) + j]; }
+  void read(PropertyRegistry &registry, int i, int j, const char *caller);
+  void choose(class LAMMPS *lmp, int law, int i, int j, double cohesion);
+
+  /// f(law, memory values ...) with the law of the contact's types: a switch over ContactLaws.
+  template <int n = 0, class Value, class F>
+  double with_law(const EffectContact &c, Value *memory, F f) const {
+    using Law = std::tuple_element_t<n, calendem::ContactLaws>;
+    const TypePair &p = pair(c.itype, c.jtype);
+    if constexpr (n + 1 < std::tuple_size_v<calendem::ContactLaws>)
+      if (p.law != n)
+        return with_law<n + 1>(c, memory, f);
+    return with_values(Law({p.modulus, c.effective_radius, c.radius}, p.values.data()), memory, f,
+                       std::make_index_sequence<Law::kMemory>());
   }
-  calendem::ViscousContact viscous(const EffectContact &c) const {
-    return {modulus_[c.itype][c.jtype], c.effective_radius, relaxed_fraction_[c.itype][c.jtype],
-            relaxation_time_[c.itype][c.jtype]};
+  template <class Law, class Value, class F, std::size_t... k>
+  static double with_values(const Law &law, Value *memory, F f, std::index_sequence<k...>) {
+    return f(law, memory[k]...);
   }
-  void check(PropertyRegistry &registry) const;
-  void check_yield(class LAMMPS *lmp, int i, int j, double cohesion) const;
-  void check_relaxation(class LAMMPS *lmp, int i, int j, double cohesion) const;
 };
 
 } // namespace LAMMPS_NS

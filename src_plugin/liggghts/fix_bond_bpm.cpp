@@ -10,6 +10,7 @@
 #include "modify.h"
 #include "mpi_liggghts.h"
 #include "neighbor.h"
+#include "physics/fixed_point.h"
 #include "update.h"
 #include <algorithm>
 #include <cmath>
@@ -21,12 +22,13 @@ using calendem::BreakMode;
 
 namespace {
 const int kEventSize = sizeof(BreakEvent) / sizeof(double);
+const int kGatherEvery = 100; // steps
 } // namespace
 
 FixBondBpm::FixBondBpm(LAMMPS *lmp, int narg, char **arg)
     : Fix(lmp, narg, arg), energy_(NULL), body_(NULL), broken_(NULL), history_offset_(-1),
       created_(false), creating_(false), log_ready_(false), initial_(0), by_mode_(),
-      energy_lost_(0.0), overstretched_(), acting_(0) {
+      energy_lost_(0.0), overstretched_(0.0), acting_(0), expected_(-1), missing_(0), spacing_() {
   if (!atom->sphere_flag || !atom->tag_enable)
     error->fix_error(FLERR, this, "needs atom_style granular (or sphere) with atom tags");
   if (domain->triclinic)
@@ -53,7 +55,8 @@ FixBondBpm::~FixBondBpm() {
 }
 
 int FixBondBpm::setmask() {
-  return PRE_FORCE | POST_FORCE | END_OF_STEP; // PRE_FORCE for its set-up call
+  // PRE_EXCHANGE and PRE_FORCE for their set-up calls
+  return POST_INTEGRATE | PRE_EXCHANGE | PRE_FORCE | POST_FORCE | END_OF_STEP;
 }
 
 FixBondBpm *FixBondBpm::find(LAMMPS *lmp, const char *caller) {
@@ -84,6 +87,7 @@ int FixBondBpm::friction_history_offset(int bond_offset) {
 }
 
 void FixBondBpm::init() {
+  choose_grid();
   energy_ = FixEnergyBpm::find(lmp);
   check_materials();
   if (!created_)
@@ -105,7 +109,35 @@ void FixBondBpm::check_box() {
     }
 }
 
+// Ghosts lie beyond the box by no more than its half: check_box().
+void FixBondBpm::choose_grid() {
+  for (int k = 0; k < 3; ++k) {
+    spacing_[k] = 0.0;
+    if (!domain->periodicity[k])
+      continue;
+    const double largest = std::max(std::fabs(domain->boxlo[k]), std::fabs(domain->boxhi[k]));
+    spacing_[k] = calendem::exact_spacing(largest + 0.5 * domain->prd[k]);
+    domain->boxlo[k] = calendem::nearest_multiple(domain->boxlo[k], spacing_[k]);
+    domain->boxhi[k] = calendem::nearest_multiple(domain->boxhi[k], spacing_[k]);
+  }
+  domain->set_global_box();
+  domain->set_local_box();
+}
+
+void FixBondBpm::put_on_grid() {
+  for (int k = 0; k < 3; ++k) {
+    const double spacing = spacing_[k], per_spacing = 1.0 / spacing; // powers of two
+    for (int i = 0; spacing > 0.0 && i < atom->nlocal; ++i)
+      atom->x[i][k] = std::rint(atom->x[i][k] * per_spacing) * spacing;
+  }
+}
+
+void FixBondBpm::setup_pre_exchange() { put_on_grid(); }
+
+void FixBondBpm::post_integrate() { put_on_grid(); }
+
 void FixBondBpm::setup_pre_force(int) {
+  expected_ = -1;
   check_box();
   creating_ = !created_;
   if (creating_)
@@ -124,6 +156,17 @@ void FixBondBpm::setup(int) {
     fprintf(logfile, "fix %s: " BIGINT_FORMAT " bonds made\n", id, initial_);
 }
 
+// Of every pair on two ranks, or across a periodic side, both copies are intact or none.
+bool FixBondBpm::copies_agree() {
+  bigint mine = 0, all = 0;
+  for_each_copy([&](int i, int j, const BondHistory &) {
+    if (j >= atom->nlocal)
+      mine += decides(i, j) ? 1 : -1;
+  });
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  return all == 0;
+}
+
 bigint FixBondBpm::count_intact() {
   bigint mine = 0, all = 0;
   for_each_intact([&mine](int, int, const BondHistory &) { ++mine; });
@@ -131,11 +174,9 @@ bigint FixBondBpm::count_intact() {
   return all;
 }
 
-void FixBondBpm::record_break(int i, int j, const calendem::BondLoads &loads, double tension,
-                              const calendem::BondSection &section,
+void FixBondBpm::record_break(int i, int j, BondHistory bond, const calendem::BondLoads &loads,
+                              double tension, const calendem::BondSection &section,
                               const calendem::BondStiffness &k, double factor) {
-  if (!decides(i, j))
-    return;
   const calendem::BondStress s = bond_stress(loads, tension, section, settings_.criterion);
   const bool i_is_low = atom->tag[i] < atom->tag[j];
   const int low = i_is_low ? i : j, high = i_is_low ? j : i;
@@ -152,63 +193,80 @@ void FixBondBpm::record_break(int i, int j, const calendem::BondLoads &loads, do
                         0.5 * (a[2] + b[2]),
                         0.0,
                         strain_energy(loads, tension, k)};
-  pending_.push_back(e);
+  failing_.push_back({i, j, bond, e});
 }
 
-void FixBondBpm::remember_stretch(int i, int j, double stretch) {
-  overstretched_[0] = atom->tag[i];
-  overstretched_[1] = atom->tag[j];
-  overstretched_[2] = stretch;
-}
-
-void FixBondBpm::stop_if_overstretched() {
-  double worst = 0.0;
-  MPI_Allreduce(&overstretched_[2], &worst, 1, MPI_DOUBLE, MPI_MAX, world);
-  if (worst <= 0.0)
-    return;
+void FixBondBpm::stop_overstretched(double stretch) {
   char message[300];
   snprintf(
       message, sizeof message,
       "an intact bond is stretched to %.4f times the sum of radii; beyond %.2f its history would "
       "be lost. The time step is too large or the bonds are unbreakable or too strong",
-      worst, kContactDistanceFactor);
+      stretch, kContactDistanceFactor);
   error->fix_error(FLERR, this, message);
 }
 
-void FixBondBpm::gather_breaks(std::vector<BreakEvent> &all) {
+// What one rank has found wrong stops all of them, where they meet.
+void FixBondBpm::stop_if_wrong() {
+  double stretch = 0.0;
+  MPI_Allreduce(&overstretched_, &stretch, 1, MPI_DOUBLE, MPI_MAX, world);
+  if (stretch > 0.0)
+    stop_overstretched(stretch);
+  const bigint mine[3] = {missing_, expected_, static_cast<bigint>(mine_.size())};
+  bigint all[3];
+  MPI_Allreduce(mine, all, 3, MPI_LMP_BIGINT, MPI_SUM, world);
+  const bigint intact = initial_ - broken() - all[2];
+  if (all[0] != 0)
+    stop_lost(intact - all[0], intact);
+  if (all[1] != intact)
+    stop_lost(all[1], intact);
+}
+
+void FixBondBpm::gather_breaks() {
   const int nprocs = comm->nprocs;
   std::vector<int> counts(nprocs), starts(nprocs, 0);
-  const int mine = kEventSize * static_cast<int>(pending_.size());
+  const int mine = kEventSize * static_cast<int>(mine_.size());
   MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
   for (int p = 1; p < nprocs; ++p)
     starts[p] = starts[p - 1] + counts[p - 1];
-  all.resize((starts[nprocs - 1] + counts[nprocs - 1]) / kEventSize);
-  MPI_Allgatherv(pending_.data(), mine, MPI_DOUBLE, all.data(), counts.data(), starts.data(),
+  std::vector<BreakEvent> all((starts[nprocs - 1] + counts[nprocs - 1]) / kEventSize);
+  if (all.empty())
+    return;
+  MPI_Allgatherv(mine_.data(), mine, MPI_DOUBLE, all.data(), counts.data(), starts.data(),
                  MPI_DOUBLE, world);
-  pending_.clear();
-  std::sort(all.begin(), all.end(), [](const BreakEvent &a, const BreakEvent &b) {
-    return a.tag_low != b.tag_low ? a.tag_low < b.tag_low : a.tag_high < b.tag_high;
-  });
+  mine_.clear();
+  std::sort(all.begin(), all.end());
+  for (const BreakEvent &e : all) {
+    ++by_mode_[static_cast<int>(e.mode)];
+    energy_lost_ += e.energy;
+  }
+  log_breaks(all);
 }
 
 void FixBondBpm::post_force(int) {
-  double mine[3] = {static_cast<double>(pending_.size()), overstretched_[2],
-                    static_cast<double>(acting_)};
-  double all[3];
-  MPI_Allreduce(mine, all, 3, MPI_DOUBLE, MPI_SUM, world);
-  acting_ = 0;
-  const bigint acting = static_cast<bigint>(all[2]), intact = initial_ - broken();
-  if (all[0] > 0.0) {
-    std::vector<BreakEvent> events;
-    gather_breaks(events);
-    apply_breaks(events);
-    set_pressure(events);
-    log_breaks(events);
+  const bool new_lists = neighbor->ago == 0 || expected_ < 0;
+  check_acting(new_lists);
+  const bool wrong = overstretched_ > 0.0 || missing_ != 0;
+  const bool due = new_lists || update->ntimestep % kGatherEvery == 0;
+  if (due || (wrong && comm->nprocs == 1))
+    stop_if_wrong();
+  apply_breaks();
+  if (update->ntimestep % kGatherEvery == 0)
+    gather_breaks();
+}
+
+void FixBondBpm::post_run() { gather_breaks(); }
+
+// Every intact bond must act in every step. A rank counts its own; where the lists are new, or the
+// run is, all see that together they have all.
+void FixBondBpm::check_acting(bool new_lists) {
+  if (new_lists) {
+    expected_ = 0;
+    for_each_intact([this](int, int, const BondHistory &) { ++expected_; });
   }
-  if (all[1] > 0.0)
-    stop_if_overstretched();
-  if (acting != intact)
-    stop_lost(acting, intact);
+  if (missing_ == 0)
+    missing_ = expected_ - acting_;
+  acting_ = 0;
 }
 
 // Beyond the range of histories the host calls no contact model: a bond stretched from within that
@@ -218,7 +276,7 @@ void FixBondBpm::stop_lost(bigint acting, bigint intact) {
   snprintf(message, sizeof message,
            BIGINT_FORMAT
            " of " BIGINT_FORMAT
-           " intact bonds acted in this step. Either a bond was stretched within one step to more "
+           " intact bonds acted in a step. Either a bond was stretched within one step to more "
            "than %.2f times the sum of radii, where its history is lost: the time step is too "
            "large. Or the host lost histories: leave 'one' and 'page' of neigh_modify as they are",
            acting, intact, kContactDistanceFactor);
@@ -227,58 +285,41 @@ void FixBondBpm::stop_lost(bigint acting, bigint intact) {
 
 bigint FixBondBpm::broken() const { return by_mode_[1] + by_mode_[2] + by_mode_[3] + by_mode_[4]; }
 
-// Every copy of a broken pair's history, on whichever rank, changes state in the step of the break,
-// after its last force: both sides agree whatever their last bits say.
-void FixBondBpm::apply_breaks(const std::vector<BreakEvent> &all) {
-  std::vector<int> tags;
-  for (const BreakEvent &e : all) {
-    tags.push_back(static_cast<int>(e.tag_low));
-    tags.push_back(static_cast<int>(e.tag_high));
-    ++by_mode_[static_cast<int>(e.mode)];
-    energy_lost_ += e.energy;
-  }
-  std::sort(tags.begin(), tags.end());
-  PairGran *pair = static_cast<PairGran *>(force->pair_match("gran", 1));
-  const NeighList *list = pair->list;
-  const int dnum = pair->dnum();
-  const int *tag = atom->tag;
-  const auto less = [](const BreakEvent &a, const std::pair<int, int> &b) {
-    return a.tag_low != b.first ? a.tag_low < b.first : a.tag_high < b.second;
-  };
-  for (int ii = 0; ii < list->inum; ++ii) {
-    const int i = list->ilist[ii];
-    if (!std::binary_search(tags.begin(), tags.end(), tag[i]))
+// After the step's last force. A copy of a pair whose other one is on another rank fails there as
+// well.
+void FixBondBpm::apply_breaks() {
+  if (failing_.empty())
+    return;
+  const double pressure = platen_pressure();
+  for (Break &b : failing_) {
+    if (energy_)
+      energy_->bond_breaks(b.i, b.j, b.bond);
+    b.bond.set_state(kBrokenTouching);
+    b.bond.set_loads({});
+    ++broken_[b.i];
+    if (b.j < atom->nlocal)
+      ++broken_[b.j];
+    if (!decides(b.i, b.j))
       continue;
-    for (int jj = 0; jj < list->numneigh[i]; ++jj) {
-      const int j = list->firstneigh[i][jj] & NEIGHMASK;
-      BondHistory bond(list->listgranhistory->firstdouble[i] + dnum * jj + history_offset_);
-      if (bond.state() != kIntact)
-        continue;
-      const std::pair<int, int> key(std::min(tag[i], tag[j]), std::max(tag[i], tag[j]));
-      const auto hit = std::lower_bound(all.begin(), all.end(), key, less);
-      if (hit == all.end() || hit->tag_low != key.first || hit->tag_high != key.second)
-        continue;
-      if (energy_)
-        energy_->bond_breaks(i, j, bond);
-      bond.set_state(kBrokenTouching);
-      bond.set_loads({});
-      ++broken_[i];
-      if (j < atom->nlocal)
-        ++broken_[j];
-    }
+    b.event.pressure = pressure;
+    mine_.push_back(b.event);
+    --expected_;
   }
+  failing_.clear();
 }
 
 double FixBondBpm::compute_vector(int n) {
   if (n == 0)
     return initial_;
+  gather_breaks();
   if (n == 1) {
     const bigint intact = count_intact();
-    if (intact + broken() != initial_) {
+    if (intact + broken() != initial_ || !copies_agree()) {
       char message[256];
       snprintf(message, sizeof message,
                "bonds do not add up: " BIGINT_FORMAT " made, " BIGINT_FORMAT
-               " intact, " BIGINT_FORMAT " logged as broken. A bond vanished without a break",
+               " intact, " BIGINT_FORMAT
+               " logged as broken. A bond vanished without a break, or broke on one rank only",
                initial_, intact, broken());
       error->fix_error(FLERR, this, message);
     }

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // fix ID all bond/bpm bodies FILE youngs_modulus E nu NU radius_ratio L tensile S shear T
-//     criterion signed|unsigned|as_printed damping D weibull M SEED pre_cracks F
-//     breakable yes|no log FILE pressure PLATEN_FIX
+//     criterion signed|unsigned|as_printed damping D weibull M SEED breakable yes|no log FILE
+//     pressure PLATEN_FIX LAW NUMBERS ...
+// fix_modify ID LAW NUMBERS ...       with a further law of strength, see bond_strengths.h
 //
-// Owns the bonds of `pair_style gran ... cohesion bpm surface bpm`: their material, their creation
-// (at the first set-up after the fix appears, between touching primaries of one body, once), the
-// decision of every break by the rank that owns the lower tag, and the event log. All stresses in
-// kPa (units micro). Global vector: see compute bond/bpm. Everything restarts, under the same fix
-// ID.
+// Keeps positions and periodic sides on a grid on which shifts by a side are exact: both copies of
+// a pair then do the same arithmetic, and find the same breaks, whichever ranks hold them. Owns the
+// bonds of `pair_style gran ... cohesion bpm surface bpm`: their material, their creation (at the
+// first set-up after the fix appears, between touching primaries of one body, once), the breaks,
+// and the event log. Every copy of a pair breaks in the same step without a word between ranks; the
+// rank that owns the lower tag writes the event down, and events are gathered when they are asked
+// for, at the latest after 100 steps. All stresses in kPa (units micro). Global vector: see compute
+// bond/bpm. Everything restarts, under the same fix ID.
 #ifdef FIX_CLASS
 
 FixStyle(bond/bpm, FixBondBpm)
@@ -17,9 +21,11 @@ FixStyle(bond/bpm, FixBondBpm)
 #define LMP_FIX_BOND_BPM_H
 
 #include "bond_bpm_history.h"
+#include "bond_strengths.h"
 #include "fix.h"
 #include "physics/bond_failure.h"
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -30,9 +36,7 @@ struct BondSettings {
   calendem::BondMaterial material;
   calendem::BondStrength strength = {0.0, 0.0};
   calendem::FailureCriterion criterion = calendem::FailureCriterion::Signed;
-  double weibull_modulus = 0.0; ///< <= 0: no scatter
-  double pre_cracks = 0.0;      ///< fraction of the bonds that have no strength
-  std::uint64_t seed = 0;       ///< of both
+  BondStrengths strengths; ///< from bond to bond
   bool breakable = true;
 
   calendem::BondStrength strength_of(double factor) const {
@@ -44,6 +48,12 @@ struct BondSettings {
 /// it travels through MPI and restart files as it is.
 struct BreakEvent {
   double time, tag_low, tag_high, body, mode, sigma, tau, x, y, z, pressure, energy;
+
+  bool operator<(const BreakEvent &o) const {
+    return time != o.time         ? time < o.time
+           : tag_low != o.tag_low ? tag_low < o.tag_low
+                                  : tag_high < o.tag_high;
+  }
 };
 
 class FixBondBpm : public Fix {
@@ -51,9 +61,13 @@ public:
   FixBondBpm(class LAMMPS *, int, char **);
   ~FixBondBpm();
   int setmask();
+  int modify_param(int narg, char **arg) { return parse_strength(narg, arg); }
   void init();
+  void setup_pre_exchange();
   void setup_pre_force(int);
   void setup(int);
+  void post_integrate();
+  void post_run();
   void post_force(int);
   void end_of_step();
   double compute_vector(int);
@@ -80,11 +94,11 @@ public:
   const BondSettings &settings() const { return settings_; }
   bool creating() const { return creating_; }
   void create(int i, int j, double r, BondHistory &bond) const;
-  void record_break(int i, int j, const calendem::BondLoads &, double tension,
+  void record_break(int i, int j, BondHistory bond, const calendem::BondLoads &, double tension,
                     const calendem::BondSection &, const calendem::BondStiffness &, double factor);
-  void check_stretch(int i, int j, double stretch) {
-    if (stretch > kStretchLimit && stretch > overstretched_[2])
-      remember_stretch(i, j, stretch);
+  void check_stretch(double stretch) {
+    if (stretch > kStretchLimit && overstretched_ == 0.0)
+      overstretched_ = stretch;
   }
   void acts(int i, int j) { acting_ += decides(i, j); }
   void count_acting(bigint bonds) { acting_ += bonds; }
@@ -93,10 +107,12 @@ public:
   // for computes and dumps
   int body(int i) const { return body_[i]; }
   int broken_of(int i) const { return broken_[i]; }
-  const std::vector<BreakEvent> &breaks() const { return breaks_; }
+  /// All so far; all ranks must call.
+  const std::vector<BreakEvent> &breaks() {
+    gather_breaks();
+    return breaks_;
+  }
   bigint initial() const { return initial_; }
-  bigint broken(calendem::BreakMode mode) const { return by_mode_[static_cast<int>(mode)]; }
-  double energy_lost() const { return energy_lost_; }
   /// Calls visit(i, j, history) for every intact bond, each once over all ranks.
   template <class Visit> void for_each_intact(Visit visit);
   /// The same for every copy on this rank: each local atom meets all its bonds.
@@ -117,19 +133,32 @@ private:
   BondSettings settings_;
   class FixEnergyBpm *energy_; // NULL when no ledger is kept
   std::string bodies_file_, log_file_, platen_id_;
-  std::vector<int> body_of_tag_; // from the body map; empty after a restart
+  std::vector<int> body_of_tag_;        // from the body map; empty after a restart
+  std::map<int, double> body_diameter_; // of the sphere of the primaries' volume; likewise
   int *body_, *broken_;
   int history_offset_;
   bool created_, creating_, log_ready_;
   bigint initial_;
   bigint by_mode_[5];
   double energy_lost_;
-  std::vector<BreakEvent> pending_, breaks_;
-  double overstretched_[3]; // tags and stretch of the worst pair found, 0 if none
-  bigint acting_;           // bonds that acted in this step, those this rank decides
+  /// A copy of a bond that fails in this step.
+  struct Break {
+    int i, j;
+    BondHistory bond;
+    BreakEvent event;
+  };
+  std::vector<Break> failing_;     // of this step
+  std::vector<BreakEvent> mine_;   // decided here since the last gathering
+  std::vector<BreakEvent> breaks_; // gathered
+  double overstretched_;           // the first stretch beyond the limit, 0 if none
+  // intact bonds that this rank decides: acted in this step; are there; did not act when they had
+  // to
+  bigint acting_, expected_, missing_;
+  double spacing_[3]; // of the grid of positions, 0 along sides that are not periodic
 
   void parse(int narg, char **arg);
   int parse_keyword(int iarg, int narg, char **arg);
+  int parse_strength(int narg, char **arg);
   double positive(const char *keyword, const char *text, bool zero_allowed);
   std::uint64_t seed(const char *text);
   void check_settings();
@@ -139,17 +168,22 @@ private:
   void check_materials();
   void check_collapse(int i, int j, double ced, double effective_modulus);
   void read_bodies();
+  void measure_bodies();
   void check_box();
   bigint count_intact();
+  bool copies_agree();
   bigint broken() const;
   template <class Visit> void for_each_neighbor(Visit visit);
-  void gather_breaks(std::vector<BreakEvent> &all);
-  void apply_breaks(const std::vector<BreakEvent> &all);
+  void choose_grid();
+  void put_on_grid();
+  void check_acting(bool new_lists);
+  void stop_if_wrong();
+  void apply_breaks();
+  void gather_breaks();
   void open_log();
-  void set_pressure(std::vector<BreakEvent> &events) const;
+  double platen_pressure() const;
   void log_breaks(const std::vector<BreakEvent> &all);
-  void remember_stretch(int i, int j, double stretch);
-  void stop_if_overstretched();
+  void stop_overstretched(double stretch);
   void stop_lost(bigint acting, bigint intact);
 };
 

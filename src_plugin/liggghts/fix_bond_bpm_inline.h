@@ -7,7 +7,6 @@
 #include "force.h"
 #include "neigh_list.h"
 #include "pair_gran.h"
-#include "physics/pre_cracks.h"
 
 namespace LAMMPS_NS {
 
@@ -21,9 +20,9 @@ inline bool FixBondBpm::decides(int i, int j) const {
 inline void FixBondBpm::create(int i, int j, double r, BondHistory &bond) const {
   if (bond.state() != kNeverBonded || body_[i] <= 0 || body_[i] != body_[j])
     return;
-  const BondSettings &s = settings_;
-  bond.create(r, calendem::weibull_factor(s.weibull_modulus, s.seed, atom->tag[i], atom->tag[j]) *
-                     calendem::pre_crack_factor(s.pre_cracks, s.seed, atom->tag[i], atom->tag[j]));
+  const int body = body_[i];
+  bond.create(
+      r, settings_.strengths.factor({atom->tag[i], atom->tag[j], body, body_diameter_.at(body)}));
 }
 
 template <class Visit> void FixBondBpm::for_each_neighbor(Visit visit) {

@@ -36,7 +36,33 @@ std::uint64_t FixBondBpm::seed(const char *text) {
   return static_cast<std::uint64_t>(value);
 }
 
+// How many words are a law of strength and its numbers; 0: the first is the name of none.
+int FixBondBpm::parse_strength(int narg, char **arg) {
+  for (const BondStrengths::Keyword &law : BondStrengths::keywords()) {
+    if (strcmp(arg[0], law.name) != 0)
+      continue;
+    const int numbers = static_cast<int>(law.numbers.size());
+    char message[256];
+    snprintf(message, sizeof message, "'%s' needs %d number(s)", law.name, numbers);
+    if (narg <= numbers)
+      error->fix_error(FLERR, this, message);
+    for (int k = 0; k < numbers; ++k) {
+      const BondStrengths::Number &n = law.numbers[k];
+      const double value = positive(law.name, arg[k + 1], true);
+      snprintf(message, sizeof message, "number %d of '%s' is %g; it must be between %g and %g",
+               k + 1, law.name, value, n.least, n.most);
+      if (value < n.least || value > n.most)
+        error->fix_error(FLERR, this, message);
+      settings_.strengths.*n.value = value;
+    }
+    return 1 + numbers;
+  }
+  return 0;
+}
+
 int FixBondBpm::parse_keyword(int iarg, int narg, char **arg) {
+  if (const int words = parse_strength(narg - iarg, arg + iarg))
+    return iarg + words;
   const std::string key = arg[iarg];
   const int values = key == "weibull" ? 2 : 1;
   if (iarg + values >= narg) {
@@ -59,11 +85,9 @@ int FixBondBpm::parse_keyword(int iarg, int narg, char **arg) {
   else if (key == "shear")
     settings_.strength.shear = positive("shear", value, false);
   else if (key == "weibull") {
-    settings_.weibull_modulus = positive("weibull", value, true);
-    settings_.seed = seed(arg[iarg + 2]);
-  } else if (key == "pre_cracks")
-    settings_.pre_cracks = positive("pre_cracks", value, true);
-  else if (key == "log")
+    settings_.strengths.weibull_modulus = positive("weibull", value, true);
+    settings_.strengths.seed = seed(arg[iarg + 2]);
+  } else if (key == "log")
     log_file_ = value;
   else if (key == "pressure")
     platen_id_ = value;
@@ -76,11 +100,13 @@ int FixBondBpm::parse_keyword(int iarg, int narg, char **arg) {
   else if (key == "criterion" && !strcmp(value, "as_printed"))
     settings_.criterion = FailureCriterion::AsPrinted;
   else {
-    const std::string message =
+    std::string message =
         "unknown setting '" + key + " " + value +
         "'; known: bodies FILE, youngs_modulus, nu, radius_ratio, tensile, shear, criterion "
-        "signed|unsigned|as_printed, damping, weibull MODULUS SEED, pre_cracks FRACTION, breakable "
-        "yes|no, log FILE, pressure FIX";
+        "signed|unsigned|as_printed, damping, weibull MODULUS SEED, breakable yes|no, log FILE, "
+        "pressure FIX";
+    for (const BondStrengths::Keyword &law : BondStrengths::keywords())
+      message += std::string(", ") + law.name;
     error->fix_error(FLERR, this, message.c_str());
   }
   return iarg + 1 + values;
@@ -98,8 +124,6 @@ void FixBondBpm::check_settings() {
   const double nu = m.shear_modulus;
   if (m.youngs_modulus <= 0.0 || nu < 0.0 || bodies_file_.empty())
     error->fix_error(FLERR, this, "needs at least 'bodies FILE youngs_modulus E nu NU'");
-  if (settings_.pre_cracks >= 1.0)
-    error->fix_error(FLERR, this, "'pre_cracks' is a fraction of the bonds and must be below 1");
   if (nu > 0.5)
     error->fix_error(FLERR, this, "'nu' must be between 0 and 0.5");
   check_modulus("'youngs_modulus'", m.youngs_modulus);
@@ -222,6 +246,22 @@ void FixBondBpm::read_bodies() {
   MPI_Bcast(body_of.data(), highest + 1, MPI_INT, 0, world);
   for (int i = 0; i < atom->nlocal; ++i)
     body_[i] = body_of[atom->tag[i]];
+  measure_bodies();
+}
+
+// Added in the order of tags, so that no bit depends on the number of ranks: of each term all ranks
+// but one have 0.
+void FixBondBpm::measure_bodies() {
+  const int n = static_cast<int>(body_of_tag_.size());
+  std::vector<double> mine(n, 0.0), cube(n);
+  for (int i = 0; i < atom->nlocal; ++i)
+    mine[atom->tag[i]] = std::pow(2.0 * atom->radius[i], 3);
+  MPI_Allreduce(mine.data(), cube.data(), n, MPI_DOUBLE, MPI_SUM, world);
+  body_diameter_.clear();
+  for (int tag = 1; tag < n; ++tag)
+    body_diameter_[body_of_tag_[tag]] += cube[tag];
+  for (auto &body : body_diameter_)
+    body.second = std::cbrt(body.second);
 }
 
 // The log is rewritten from memory when it is opened, so that after a restart it holds exactly the
@@ -249,13 +289,10 @@ void FixBondBpm::open_log() {
   log_breaks(known);
 }
 
-// A break happens at the platen's pressure of its step.
-void FixBondBpm::set_pressure(std::vector<BreakEvent> &events) const {
+// Averaged, of the step; 0 without a platen.
+double FixBondBpm::platen_pressure() const {
   const int platen = platen_id_.empty() ? -1 : modify->find_fix(platen_id_.c_str());
-  if (platen < 0)
-    return;
-  for (BreakEvent &e : events)
-    e.pressure = modify->fix[platen]->compute_vector(4);
+  return platen < 0 ? 0.0 : modify->fix[platen]->compute_vector(4);
 }
 
 void FixBondBpm::log_breaks(const std::vector<BreakEvent> &all) {

@@ -86,6 +86,7 @@ void FixBondBpm::end_of_step() {
 }
 
 void FixBondBpm::write_restart(FILE *fp) {
+  gather_breaks();
   if (comm->me != 0)
     return;
   std::vector<double> record(kHeader);

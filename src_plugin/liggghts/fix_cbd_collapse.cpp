@@ -134,7 +134,7 @@ void FixCbdCollapse::add_pair_forces(std::vector<double> &sum) const {
     const int ti = atom->type[i], tj = atom->type[j];
     const double *memory = pairs_have_effects_ ? bond.effect_memory() : NULL;
     const double net =
-        effects_.force({ti, tj, calendem::effective_radius(R[i], R[j]), R[i] + R[j] - r}, memory) -
+        effects_.force(EffectContact::of_spheres(ti, tj, R[i], R[j], R[i] + R[j] - r), memory) -
         calendem::sjkr_force(cohesion_energy_density_[ti][tj], r, R[i], R[j]);
     for (int a : {i, j})
       if (is_mine(a))
@@ -149,8 +149,9 @@ void FixCbdCollapse::add_wall_forces(std::vector<double> &sum) const {
     for (int i = 0; i < atom->nlocal; ++i) {
       const double R = atom->radius[i], r = std::fabs(atom->x[i][2] - wall->position());
       if (is_mine(i))
-        sum[i] += effects_.force({type_, tw, R, R - r}, wall->effect_memory(i)) -
-                  calendem::sjkr_wall_force(ced, r, R);
+        sum[i] +=
+            effects_.force(EffectContact::at_wall(type_, tw, R, R - r), wall->effect_memory(i)) -
+            calendem::sjkr_wall_force(ced, r, R);
     }
   }
 }

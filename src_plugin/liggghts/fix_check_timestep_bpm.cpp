@@ -85,11 +85,9 @@ void FixCheckTimestepBpm::add_contacts(Rows &rows) const {
   bonds->for_each_touching_copy([&](int i, int j, double r, const BondHistory &bond) {
     const int ti = atom->type[i], tj = atom->type[j];
     const double overlap = R[i] + R[j] - r - bond.reference_overlap(R[i] + R[j]);
-    const double *memory =
-        pairs_have_effects_ && effects_.act(ti, tj) ? bond.effect_memory() : NULL;
-    const double a = effects_.largest_radius(
-        {ti, tj, calendem::effective_radius(R[i], R[j]), std::max(overlap, 0.0)},
-        memory ? *memory : 0.0);
+    const double a = effects_.stiffness_radius(
+        EffectContact::of_spheres(ti, tj, R[i], R[j], std::max(overlap, 0.0)),
+        pairs_have_effects_ ? bond.effect_memory() : NULL);
     const calendem::BondCoefficients k = stiffness_of(ti, tj, a);
     const calendem::BondCoefficients c =
         calendem::contact_damping(k, effects_.damping(ti, tj), m[i] * m[j] / (m[i] + m[j]));
@@ -111,8 +109,8 @@ double FixCheckTimestepBpm::contact_bound(int i, int other, const Row &bonds) co
   const int type = atom->type[i];
   const double R = atom->radius[i], m = atom->rmass[i];
   const double force = calendem::mean_contact_force(pressure_, R);
-  const calendem::BondCoefficients k =
-      stiffness_of(type, other, effects_.radius_under(force, type, other, 0.5 * R));
+  const calendem::BondCoefficients k = stiffness_of(
+      type, other, effects_.radius_under(force, EffectContact::of_spheres(type, other, R, R, 0.0)));
   const calendem::BondCoefficients c =
       calendem::contact_damping(k, effects_.damping(type, other), 0.5 * m);
   const calendem::BondSection section(material.radius_ratio * R);

@@ -50,9 +50,9 @@ void FixEnergyBpm::init() {
   effects_.connect(force->registry, "fix energy/bpm");
 }
 
-void FixEnergyBpm::add_taken(int i, int j, double work, bool plastic) {
+void FixEnergyBpm::add_taken(int i, int j, double work, calendem::WorkTaken term) {
   if (bonds_->decides(i, j))
-    add_taken(work, plastic);
+    add_taken(work, term);
 }
 
 void FixEnergyBpm::find_walls() {
@@ -75,7 +75,7 @@ void FixEnergyBpm::find_walls() {
 void FixEnergyBpm::grow_arrays(int nmax) { loads_.resize(nmax); }
 
 void FixEnergyBpm::pre_force(int) {
-  std::fill(loads_.begin(), loads_.begin() + atom->nlocal, AtomLoads());
+  std::fill(loads_.begin(), loads_.begin() + atom->nlocal + atom->nghost, AtomLoads());
 }
 
 // Atoms may have moved in memory, and the forces that follow no longer know the broken bonds.
@@ -135,8 +135,8 @@ void FixEnergyBpm::collect(Wall &wall, int i, const double *force) {
   const double height = atom->x[i][2] - wall.fix->position();
   const double overlap = atom->radius[i] - std::fabs(height);
   const double side = height > 0.0 ? 1.0 : -1.0;
-  const EffectContact contact = {atom->type[i], wall.fix->atom_type_wall(), atom->radius[i],
-                                 overlap};
+  const EffectContact contact =
+      EffectContact::at_wall(atom->type[i], wall.fix->atom_type_wall(), atom->radius[i], overlap);
   const double held =
       effects_.force(contact, wall.fix->effect_memory(i)) -
       calendem::sjkr_wall_force(wall_cohesion(wall, i), std::fabs(height), atom->radius[i]);
@@ -182,9 +182,9 @@ double FixEnergyBpm::pair_energy(bool of_cohesion) const {
     const double *radius = atom->radius;
     const double beyond = r + bond.reference_overlap(radius[i] + radius[j]);
     if (!of_cohesion)
-      sum += effects_.elastic_energy({atom->type[i], atom->type[j],
-                                      calendem::effective_radius(radius[i], radius[j]),
-                                      radius[i] + radius[j] - beyond},
+      sum += effects_.elastic_energy(EffectContact::of_spheres(atom->type[i], atom->type[j],
+                                                               radius[i], radius[j],
+                                                               radius[i] + radius[j] - beyond),
                                      pairs_have_effects_ ? bond.effect_memory() : NULL);
     else if (bond.state() != kIntact)
       sum += cohesion(i, j, beyond);
@@ -205,7 +205,8 @@ double FixEnergyBpm::wall_energy(bool of_cohesion) const {
       const double r = std::fabs(atom->x[i][2] - wall.fix->position());
       sum += of_cohesion ? calendem::sjkr_wall_potential(wall_cohesion(wall, i), r, radius)
                          : effects_.elastic_energy(
-                               {atom->type[i], wall.fix->atom_type_wall(), radius, radius - r},
+                               EffectContact::at_wall(atom->type[i], wall.fix->atom_type_wall(),
+                                                      radius, radius - r),
                                wall.fix->effect_memory(i));
     }
   return sum;

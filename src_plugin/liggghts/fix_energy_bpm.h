@@ -65,27 +65,23 @@ public:
   /// The fix of the run, NULL if there is none.
   static FixEnergyBpm *find(class LAMMPS *lmp);
 
-  // for the contact models, per pair; ghosts are their owner's business
-  void add_damping(int i, const ForceAndTorque &a) {
-    if (i < atom->nlocal)
-      loads_[i].damping = loads_[i].damping + a;
-  }
+  // for the contact models, per pair; what is added to ghosts is their owner's business
+  void add_damping(int i, const ForceAndTorque &a) { loads_[i].damping = loads_[i].damping + a; }
   void add_damping(int i, const calendem::Vec3 &force) {
-    if (i < atom->nlocal)
-      loads_[i].damping.force = loads_[i].damping.force + force;
+    loads_[i].damping.force = loads_[i].damping.force + force;
   }
   void add_damping(int i, int j, const calendem::BondAction &a) {
     add_damping(i, {a.force, a.torque_i});
     add_damping(j, {-a.force, a.torque_j});
   }
-  void add_friction(int i, const ForceAndTorque &a) {
-    if (i < atom->nlocal)
-      loads_[i].friction = loads_[i].friction + a;
+  void add_friction(int i, const ForceAndTorque &a) { loads_[i].friction = loads_[i].friction + a; }
+
+  /// What the law of a contact has taken.
+  void add_taken(double work, calendem::WorkTaken term) {
+    sums_[term == calendem::WorkTaken::PlasticFlow ? kPlastic : kViscous] += work;
   }
-  /// What an effect of a contact has taken: plastic flow, or viscous.
-  void add_taken(double work, bool plastic) { sums_[plastic ? kPlastic : kViscous] += work; }
   /// Of a pair: each of its copies calls, one counts.
-  void add_taken(int i, int j, double work, bool plastic);
+  void add_taken(int i, int j, double work, calendem::WorkTaken term);
   /// Energy [fJ] in this rank's contacts, elastic and cohesive: before and after radii change.
   double stored_in_contacts() const;
   void add_collapse(double work) { sums_[kCollapse] += work; }

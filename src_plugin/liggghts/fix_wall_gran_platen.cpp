@@ -6,6 +6,7 @@
 #include "error.h"
 #include "fix_property_atom.h"
 #include "granular_sliding_wall.h"
+#include "physics/fixed_point.h"
 #include "primitive_wall.h"
 #include "update.h"
 #include <cmath>
@@ -18,6 +19,7 @@ using calendem::PlatenControl;
 using calendem::PlatenStage;
 
 namespace {
+const calendem::FixedPoint kLoads(8e9); // nN
 char store_force_word[] = "store_force";
 char yes_word[] = "yes";
 } // namespace
@@ -228,7 +230,7 @@ void FixWallGranPlaten::initial_integrate(int) {
   advance(programme_, record_.state, record_.average.value(), window_, update->ntimestep * dt, dt,
           may_release_);
   // half of the step's work with the load at its beginning, the other half in measure()
-  record_.work += 0.5 * record_.load * (z - record_.state.position);
+  record_.work += 0.5 * kLoads.value(record_.load) * (z - record_.state.position);
   place_wall();
   record_.work += 0.5 * record_.drag * sliding_ * dt;
 }
@@ -254,24 +256,40 @@ void FixWallGranPlaten::post_force(int vflag) {
     measure_drag();
 }
 
+// Ranks wait for each other only at the end of an average's block.
 void FixWallGranPlaten::measure() {
-  double mine = 0.0, all = 0.0;
+  long long load = 0;
   for (int i = 0; i < atom->nlocal; ++i)
-    mine += fix_wallforce_->array_atom[i][2];
-  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
-  record_.load = sign_ * all;
-  record_.work += 0.5 * record_.load * record_.state.speed * update->dt;
-  record_.height.add(record_.state.position);
-  if (record_.average.add(record_.load / area()))
-    update_slope(programme_, record_.state, record_.average.value(),
-                 record_.average.block_length * update->dt);
+    load += kLoads.of(sign_ * fix_wallforce_->array_atom[i][2]);
+  record_.load = load;
+  record_.block += load;
+  record_.work += 0.5 * kLoads.value(load) * record_.state.speed * update->dt;
+  if (!record_.height.add(record_.state.position))
+    return;
+  long long all = 0;
+  MPI_Allreduce(&record_.block, &all, 1, MPI_LONG_LONG, MPI_SUM, world);
+  record_.block = 0;
+  const double steps = record_.height.block_length;
+  record_.average.add_block(kLoads.value(all) / (steps * area()));
+  update_slope(programme_, record_.state, record_.average.value(), steps * update->dt);
+}
+
+void FixWallGranPlaten::add_up(Record &record) const {
+  long long mine[2] = {record.load, record.block}, all[2];
+  MPI_Allreduce(mine, all, 2, MPI_LONG_LONG, MPI_SUM, world);
+  const double my_work[2] = {record.work, record.drag};
+  double work[2];
+  MPI_Allreduce(my_work, work, 2, MPI_DOUBLE, MPI_SUM, world);
+  record.load = all[0];
+  record.block = all[1];
+  record.work = work[0];
+  record.drag = work[1];
 }
 
 void FixWallGranPlaten::measure_drag() {
-  double mine = 0.0;
+  record_.drag = 0.0;
   for (int i = 0; i < atom->nlocal; ++i)
-    mine += fix_wallforce_->array_atom[i][0];
-  MPI_Allreduce(&mine, &record_.drag, 1, MPI_DOUBLE, MPI_SUM, world);
+    record_.drag += fix_wallforce_->array_atom[i][0];
   record_.work += 0.5 * record_.drag * sliding_ * update->dt;
 }
 
@@ -280,13 +298,17 @@ double FixWallGranPlaten::compute_vector(int n) {
   const double time = update->ntimestep * update->dt;
   const bool waits = stage_of(s) == PlatenStage::Dwell && !may_release_ &&
                      last_pass(programme_, s) && time - s.stage_start >= programme_.dwell;
+  Record whole = record_;
+  if (n == 3 || n == 5 || n == 6)
+    add_up(whole);
+  const double load = kLoads.value(whole.load);
   const double values[] = {s.stage,
                            s.position,
                            programme_.start - s.position,
-                           record_.load,
+                           load,
                            record_.average.value(),
-                           record_.load / area(),
-                           record_.work,
+                           load / area(),
+                           whole.work,
                            s.speed,
                            s.max_pressure,
                            s.reached,
@@ -298,17 +320,28 @@ double FixWallGranPlaten::compute_vector(int n) {
   return values[n];
 }
 
+// The first rank goes on from the sums, as after a restart: both give the same bits.
 void FixWallGranPlaten::write_restart(FILE *fp) {
-  if (comm->me != 0)
-    return;
-  const double start = programme_.start;
-  const int bytes = static_cast<int>(sizeof(Record) + sizeof start);
-  fwrite(&bytes, sizeof(int), 1, fp);
-  fwrite(&record_, sizeof(Record), 1, fp);
-  fwrite(&start, sizeof start, 1, fp);
+  add_up(record_);
+  if (comm->me == 0) {
+    const double start = programme_.start;
+    const int bytes = static_cast<int>(sizeof(Record) + sizeof start);
+    fwrite(&bytes, sizeof(int), 1, fp);
+    fwrite(&record_, sizeof(Record), 1, fp);
+    fwrite(&start, sizeof start, 1, fp);
+  }
+  keep_share();
 }
 
 void FixWallGranPlaten::restart(char *buf) {
   memcpy(&record_, buf, sizeof(Record));
   memcpy(&programme_.start, buf + sizeof(Record), sizeof programme_.start);
+  keep_share();
+}
+
+void FixWallGranPlaten::keep_share() {
+  if (comm->me != 0) {
+    record_.load = record_.block = 0;
+    record_.work = record_.drag = 0.0;
+  }
 }

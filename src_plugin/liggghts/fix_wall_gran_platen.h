@@ -73,14 +73,16 @@ public:
   const double *effect_memory(int i) const;
 
 private:
-  /// All that restarts, doubles only.
+  /// All that restarts. `load`, `block` and `work` are this rank's share; the sum over ranks
+  /// restarts.
   struct Record {
     calendem::PlatenState state;
     calendem::MovingAverage average; ///< of the pressure
     calendem::MovingAverage height;  ///< of the position
-    double load = 0.0;
+    long long load = 0;              ///< as FixedPoint: the same on any number of ranks
+    long long block = 0;             ///< sum of the loads since the average's last block
     double work = 0.0;
-    double drag = 0.0; ///< force on the particles along x
+    double drag = 0.0; ///< force along x on this rank's particles
   };
 
   calendem::PlatenProgramme programme_;
@@ -103,6 +105,8 @@ private:
   void measure();
   void measure_drag();
   double area() const;
+  void add_up(Record &record) const;
+  void keep_share();
 };
 
 } // namespace LAMMPS_NS

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Puts bpm_pair_loop.h in the place of the host's loop over pairs for the contact models that it
-// computes. `pair_style gran ... fused off`, or any setting of the host's own models, keeps the host's.
+// computes. `pair_style gran ... fused off`, or any setting of the host's own models, keeps the
+// host's.
 #ifndef CALENDEM_GRANULAR_BPM_H
 #define CALENDEM_GRANULAR_BPM_H
 

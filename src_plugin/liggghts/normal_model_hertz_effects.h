@@ -33,6 +33,8 @@ public:
   NormalModel(LAMMPS *lmp, IContactHistorySetup *hsetup, class ContactModelBase *cmb)
       : NormalModelBase(lmp, hsetup, cmb), energy_(NULL), tangential_damping_(true),
         memory_(hsetup->add_history_value("contact_memory", "0")), bond_(-1) {
+    for (int k = 1; k < LAMMPS_NS::ContactEffects::kMemory; ++k)
+      hsetup->add_history_value("contact_memory", "0");
     cmb->add_history_offset("contact_effects", memory_);
   }
 
@@ -54,18 +56,20 @@ public:
   void surfacesIntersect(SurfacesIntersectData &s, ForceData &i_forces, ForceData &j_forces) {
     if (s.contact_flags)
       *s.contact_flags |= CONTACT_NORMAL_MODEL;
-    const double R = s.is_wall ? s.radi : calendem::effective_radius(s.radi, s.radj);
-    const LAMMPS_NS::EffectContact contact = {s.itype, s.jtype, R, s.deltan};
-    double radius = std::sqrt(R * s.deltan);
+    using LAMMPS_NS::EffectContact;
+    const EffectContact contact =
+        s.is_wall ? EffectContact::at_wall(s.itype, s.jtype, s.radi, s.deltan)
+                  : EffectContact::of_spheres(s.itype, s.jtype, s.radi, s.radj, s.deltan);
+    double radius = std::sqrt(contact.effective_radius * s.deltan);
     double force = 4.0 / 3.0 * effects_.modulus(s.itype, s.jtype) * radius * s.deltan;
     if (effects_.act(s.itype, s.jtype) && meets(s)) {
-      double &memory = s.contact_history[memory_];
+      double *memory = s.contact_history + memory_;
       if (s.computeflag && s.shearupdate) {
         stop_if_sunk(s, contact);
         advance(s, contact, memory);
       }
       radius = effects_.contact_radius(contact, memory);
-      force = effects_.force(contact, &memory);
+      force = effects_.force(contact, memory);
     }
     set(s, radius, force);
     apply(s, i_forces, j_forces);
@@ -75,15 +79,14 @@ public:
     if (s.contact_flags)
       *s.contact_flags |= CONTACT_NORMAL_MODEL;
     if (s.contact_history)
-      s.contact_history[memory_] = 0.0;
+      for (int k = 0; k < LAMMPS_NS::ContactEffects::kMemory; ++k)
+        s.contact_history[memory_ + k] = 0.0;
   }
 
   void beginPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
   void endPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
 
 private:
-  static constexpr double kDeepest = 0.9; // plastic overlap with a wall, of the radius
-
   LAMMPS_NS::ContactEffects effects_;
   FixEnergyBpm *energy_; // NULL when no ledger is kept
   bool tangential_damping_;
@@ -95,27 +98,29 @@ private:
 
   // Before the host loses a sphere whose centre leaves the box through a wall.
   void stop_if_sunk(const SurfacesIntersectData &s, const LAMMPS_NS::EffectContact &c) {
-    if (!s.is_wall || c.overlap <= kDeepest * s.radi || !effects_.yields(s.itype, s.jtype))
+    const calendem::ContactLaw &law = effects_.law(s.itype, s.jtype);
+    if (!s.is_wall || c.overlap <= law.deepest * s.radi)
       return;
     char text[320];
     snprintf(text, sizeof text,
              "model hertz_effects: a sphere of type %d has sunk %.3g um into the wall of type %d, "
-             "more than %g of its radius, %.3g um: contactYieldPressure is too low for the load on "
-             "single spheres. Raise it, take a larger cell, or press less",
-             s.itype, c.overlap, s.jtype, kDeepest, s.radi);
+             "more than %g of its radius, %.3g um: %s is too low for the load on single spheres. "
+             "Raise it, take a larger cell, or press less",
+             s.itype, c.overlap, s.jtype, law.deepest, s.radi, law.properties[0].name);
     error->one(FLERR, text);
   }
 
   void advance(const SurfacesIntersectData &s, const LAMMPS_NS::EffectContact &contact,
-               double &memory) {
+               double *memory) {
     const double dt = update->dt;
     const double taken = effects_.advance(contact, s.deltan + s.vn * dt, dt, memory);
     if (!energy_ || taken == 0.0)
       return;
+    const calendem::WorkTaken term = effects_.law(s.itype, s.jtype).takes;
     if (s.is_wall)
-      energy_->add_taken(taken, effects_.yields(s.itype, s.jtype));
+      energy_->add_taken(taken, term);
     else
-      energy_->add_taken(s.i, s.j, taken, effects_.yields(s.itype, s.jtype));
+      energy_->add_taken(s.i, s.j, taken, term);
   }
 
   void set(SurfacesIntersectData &s, double radius, double force) const {

@@ -17,9 +17,9 @@ double effective_mass(const PairTile &t, int p) {
   return t.mass_i[p] * t.mass_j[p] / (t.mass_i[p] + t.mass_j[p]);
 }
 
-// `kCriterion` is a constant so that the loop has no branch; material and strength are copies, which
-// nothing stored can change.
-template <FailureCriterion kCriterion>
+// `kUpdate`: histories advance. `kCriterion` is a constant so that the loop has no branch; material
+// and strength are copies, which nothing stored can change.
+template <bool kUpdate, FailureCriterion kCriterion>
 __attribute__((flatten)) void run_bonds(PairTile &t, const BondMaterial material,
                                         const BondStrength strength, double dt) {
 #pragma GCC ivdep
@@ -27,13 +27,15 @@ __attribute__((flatten)) void run_bonds(PairTile &t, const BondMaterial material
     const BondPair pair(material, t, p);
     t.stretch[p] = pair.motion.r / (t.radius_i[p] + t.radius_j[p]);
     calendem::BondLoads loads = loads_of(t, p);
-    calendem::advance(loads, pair.motion, pair.stiffness, dt);
-    t.shear.set(p, loads.shear);
-    t.bending.set(p, loads.bending);
-    t.twist[p] = loads.twist;
-    const double factor = t.strength[p];
-    const BondStrength own = {factor * strength.tensile, factor * strength.shear};
-    t.failed[p] = calendem::fails(loads, pair.tension, pair.section, own, kCriterion) ? 1.0 : 0.0;
+    if (kUpdate) {
+      calendem::advance(loads, pair.motion, pair.stiffness, dt);
+      t.shear.set(p, loads.shear);
+      t.bending.set(p, loads.bending);
+      t.twist[p] = loads.twist;
+      const double factor = t.strength[p];
+      const BondStrength own = {factor * strength.tensile, factor * strength.shear};
+      t.failed[p] = calendem::fails(loads, pair.tension, pair.section, own, kCriterion) ? 1.0 : 0.0;
+    }
     const calendem::BondDamping damping(material, pair.section, pair.stiffness,
                                         effective_mass(t, p),
                                         std::min(t.radius_i[p], t.radius_j[p]));
@@ -59,9 +61,9 @@ struct ContactPair {
     const Vec3 d = t.d[p];
     const double inverse_r = 1.0 / r;
     n = inverse_r * d;
-    motion = calendem::contact_motion(d, t.v[p], t.spin_i[p], t.spin_j[p], n, inverse_r,
-                                      t.radius_i[p] + t.radius_j[p] - r, t.radius_i[p],
-                                      t.radius_j[p]);
+    motion =
+        calendem::contact_motion(d, t.v[p], t.spin_i[p], t.spin_j[p], n, inverse_r,
+                                 t.radius_i[p] + t.radius_j[p] - r, t.radius_i[p], t.radius_j[p]);
     const bool rests = acting_overlap(t, p) == 0.0, slides = t.contact_radius[p] > 0.0;
     motion.normal_velocity = rests ? 0.0 : motion.normal_velocity;
     const Vec3 v = motion.sliding_velocity, s = t.displacement[p];
@@ -70,7 +72,8 @@ struct ContactPair {
   }
 };
 
-template <bool kBonded> __attribute__((flatten)) void run_contacts(PairTile &t, double dt) {
+template <bool kUpdate, bool kBonded>
+__attribute__((flatten)) void run_contacts(PairTile &t, double dt) {
 #pragma GCC ivdep
   for (int p = 0; p < t.size; ++p) {
     const ContactPair pair(t, p);
@@ -80,9 +83,11 @@ template <bool kBonded> __attribute__((flatten)) void run_contacts(PairTile &t, 
         calendem::contact_resistance(material, t.contact_radius[p], effective_mass(t, p));
     const double damping = -resistance.normal_damping * pair.motion.normal_velocity;
     const double normal = damping + t.elastic[p];
-    Vec3 displacement = calendem::slide(pair.displacement, pair.motion, pair.n, dt);
-    const Vec3 friction = calendem::friction_force(displacement, pair.motion, resistance,
-                                                   material.friction, normal);
+    Vec3 displacement = pair.displacement;
+    if (kUpdate)
+      displacement = calendem::slide(displacement, pair.motion, pair.n, dt);
+    const Vec3 friction =
+        calendem::friction_force(displacement, pair.motion, resistance, material.friction, normal);
     t.displacement.set(p, displacement);
     const Vec3 moment = cross(pair.n, friction);
     const Vec3 on_i = -pair.motion.arm_i * moment, on_j = -pair.motion.arm_j * moment;
@@ -106,16 +111,25 @@ template <bool kBonded> __attribute__((flatten)) void run_contacts(PairTile &t, 
 
 } // namespace
 
-void LAMMPS_NS::run_bonds(PairTile &t, const BondMaterial &material, const BondStrength &strength,
-                          FailureCriterion criterion, double dt) {
+namespace {
+template <bool kUpdate>
+void run_bonds(PairTile &t, const BondMaterial &material, const BondStrength &strength,
+               FailureCriterion criterion, double dt) {
   switch (criterion) {
   case FailureCriterion::Unsigned:
-    return ::run_bonds<FailureCriterion::Unsigned>(t, material, strength, dt);
+    return run_bonds<kUpdate, FailureCriterion::Unsigned>(t, material, strength, dt);
   case FailureCriterion::AsPrinted:
-    return ::run_bonds<FailureCriterion::AsPrinted>(t, material, strength, dt);
+    return run_bonds<kUpdate, FailureCriterion::AsPrinted>(t, material, strength, dt);
   default:
-    return ::run_bonds<FailureCriterion::Signed>(t, material, strength, dt);
+    return run_bonds<kUpdate, FailureCriterion::Signed>(t, material, strength, dt);
   }
+}
+} // namespace
+
+void LAMMPS_NS::run_bonds(PairTile &t, const BondMaterial &material, const BondStrength &strength,
+                          FailureCriterion criterion, bool update, double dt) {
+  update ? ::run_bonds<true>(t, material, strength, criterion, dt)
+         : ::run_bonds<false>(t, material, strength, criterion, dt);
 }
 
 void LAMMPS_NS::run_hertz(PairTile &t) {
@@ -129,6 +143,24 @@ void LAMMPS_NS::run_hertz(PairTile &t) {
   }
 }
 
-void LAMMPS_NS::run_contacts(PairTile &t, bool bonded, double dt) {
-  bonded ? ::run_contacts<true>(t, dt) : ::run_contacts<false>(t, dt);
+void LAMMPS_NS::run_contacts(PairTile &t, bool bonded, bool update, double dt) {
+  if (update)
+    bonded ? ::run_contacts<true, true>(t, dt) : ::run_contacts<true, false>(t, dt);
+  else
+    bonded ? ::run_contacts<false, true>(t, dt) : ::run_contacts<false, false>(t, dt);
+}
+
+void LAMMPS_NS::round_off(PairTile &t, const calendem::FixedPoint &force,
+                          const calendem::FixedPoint &torque) {
+  const Row *const rows[9] = {&t.force.x,    &t.force.y,    &t.force.z,
+                              &t.torque_i.x, &t.torque_i.y, &t.torque_i.z,
+                              &t.torque_j.x, &t.torque_j.y, &t.torque_j.z};
+  for (int k = 0; k < 9; ++k) {
+    const calendem::FixedPoint unit = k < 3 ? force : torque;
+    const double *from = rows[k]->at;
+    long long *to = t.whole[k].at;
+#pragma GCC ivdep
+    for (int p = 0; p < t.size; ++p)
+      to[p] = unit.of(from[p]);
+  }
 }

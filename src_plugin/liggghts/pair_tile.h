@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Pairs side by side, a value of all pairs next to each other, and what the laws of physics/ make of
-// them: written so that the compiler turns them into vector instructions. No host in here.
+// Pairs side by side, a value of all pairs next to each other, and what the laws of physics/ make
+// of them: written so that the compiler turns them into vector instructions. No host in here.
 #ifndef CALENDEM_PAIR_TILE_H
 #define CALENDEM_PAIR_TILE_H
 
 #include "physics/bond_failure.h"
+#include "physics/fixed_point.h"
 #include "physics/parallel_bond.h"
 #include <algorithm>
 #include <cmath>
@@ -32,6 +33,12 @@ struct VectorRow {
   }
 };
 
+/// What acts on the two spheres of each pair, in units of a FixedPoint.
+struct WholeRow {
+  alignas(64) long long at[kTilePairs];
+  long long operator[](int p) const { return at[p]; }
+};
+
 /// Pairs of one kind and what acts between them: on i, the opposite force and torque_j on j.
 struct PairTile {
   int size = 0;
@@ -40,6 +47,7 @@ struct PairTile {
   Row r_squared, radius_i, radius_j, mass_i, mass_j;
   // results
   VectorRow force, torque_i, torque_j;
+  WholeRow whole[9]; // force, torque_i, torque_j as whole numbers
   // of these, for the energy ledger: by damping of the bond, of the contact, by its friction
   VectorRow bond_damping, bond_damping_torque_i, bond_damping_torque_j;
   VectorRow contact_damping, friction_force, friction_torque_i, friction_torque_j;
@@ -56,8 +64,7 @@ struct PairTile {
 
 /// Overlap beyond the reference [um], 0 where the contact rests.
 inline double acting_overlap(const PairTile &t, int p) {
-  const double beyond =
-      t.radius_i[p] + t.radius_j[p] - std::sqrt(t.r_squared[p]) - t.reference[p];
+  const double beyond = t.radius_i[p] + t.radius_j[p] - std::sqrt(t.r_squared[p]) - t.reference[p];
   return beyond > 0.0 ? beyond : 0.0;
 }
 
@@ -82,14 +89,17 @@ struct BondPair {
   }
 };
 
-/// Loads after a step of length dt [us], which bonds fail, and what they exert.
+/// Loads after a step of length dt [us], which bonds fail, and what they exert; without `update`,
+/// as during set-up, loads stay and nothing fails.
 void run_bonds(PairTile &, const calendem::BondMaterial &, const calendem::BondStrength &,
-               calendem::FailureCriterion, double dt);
+               calendem::FailureCriterion, bool update, double dt);
 /// Contact radius and elastic force by Hertz' law.
 void run_hertz(PairTile &);
 /// Damping, friction and cohesion over a step. `bonded`: the results hold the bonds' actions, the
 /// contacts' are added and cohesion does not act.
-void run_contacts(PairTile &, bool bonded, double dt);
+void run_contacts(PairTile &, bool bonded, bool update, double dt);
+/// Force and torques as whole numbers.
+void round_off(PairTile &, const calendem::FixedPoint &force, const calendem::FixedPoint &torque);
 
 } // namespace LAMMPS_NS
 

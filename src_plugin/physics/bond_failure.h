@@ -70,8 +70,8 @@ inline BondStress bond_stress(const BondLoads &loads, double tension, const Bond
           norm(loads.shear) / s.area, std::fabs(loads.twist) * s.radius / (2.0 * s.I)};
 }
 
-/// sigma >= sigma_c or tau >= tau_c, without a square root or a branch: this runs for every bond and
-/// step, for several bonds at once.
+/// sigma >= sigma_c or tau >= tau_c, without a square root or a branch: this runs for every bond
+/// and step, for several bonds at once.
 inline bool fails(const BondLoads &loads, double tension, const BondSection &s,
                   const BondStrength &strength, FailureCriterion criterion) {
   const double spare_force = strength.tensile * s.area - effective_tension(tension, criterion);

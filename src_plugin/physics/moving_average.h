@@ -30,11 +30,16 @@ struct MovingAverage {
     count += 1.0;
     if (count < block_length)
       return false;
-    blocks[static_cast<int>(next)] = partial / count;
-    next = next + 1.0 < kBlocks ? next + 1.0 : 0.0;
-    filled = filled < kBlocks ? filled + 1.0 : filled;
+    add_block(partial / count);
     partial = count = 0.0;
     return true;
+  }
+
+  /// A whole block at once, whose samples had this mean.
+  void add_block(double mean) {
+    blocks[static_cast<int>(next)] = mean;
+    next = next + 1.0 < kBlocks ? next + 1.0 : 0.0;
+    filled = filled < kBlocks ? filled + 1.0 : filled;
   }
 
   bool empty() const { return filled <= 0.0 && count <= 0.0; }

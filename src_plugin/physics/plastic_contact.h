@@ -1,24 +1,30 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Elastic-plastic normal contact with a limiting contact pressure p_y. With d the overlap, d* the
-// largest one so far, a* = sqrt(R d*) the contact radius there and d_y = R (pi p_y / (2 E))^2:
+// Elastic-plastic normal contact with a limiting contact pressure p_y, and linear hardening h. With
+// d the overlap, d* the largest one so far, a* = sqrt(R d*) the contact radius there, u = d - d_y
+// and d_y = R (pi p_y / (2 E))^2:
 //   loading, d = d* <= d_y:  F = 4/3 E sqrt(R) d^(3/2)                             (Hertz)
-//   loading, d = d* > d_y:   F = F_y + pi p_y R (d - d_y),  F_y = 2/3 pi p_y R d_y
-//   below d*:                F = F* x^(3/2),  x = 1 - (d* - d)/e*,  e* = 3 F*/(4 E a*);  0 for x <
-//   0
+//   loading, d = d* > d_y:   F = F_y + pi R u (p_y + h u/R),  F_y = 2/3 pi p_y R d_y
+//   below d*:                F = F* x^(3/2),  x = 1 - (d* - d)/e*,  e* = 3 F*/(4 E a*); 0 for x < 0
 // The last is Hertz with the larger radius R_p = a*^2/e* from the residual overlap d_p = d* - e*
-// on. E, R: effective modulus [kPa] and radius [um]; p_y > 0 [kPa]; overlaps in um, forces in nN, >
-// 0 repulsive. p_y -> infinity is Hertz. Force and slope are continuous in loading; the slope at
-// the start of unloading is 2 E a*, that of Hertz at the same overlap: unloading is stiffer than
+// on. E, R: effective modulus [kPa] and radius [um]; p_y > 0, h >= 0 [kPa]; overlaps in um, forces
+// in nN, > 0 repulsive. p_y -> infinity is Hertz; h = 0 is perfectly plastic. The area pi R u that
+// has yielded carries p_y + h u/R. Force and slope are continuous in loading; the slope at the
+// start of unloading is 2 E a*, that of Hertz at the same overlap: unloading is stiffer than
 // plastic loading, and since overlaps grow larger, stiffer than Hertz at the same force. Range:
-// small strains, d*/R below about 0.2; beyond, the neighbours' plastic zones would meet. Energy:
-// elastic_energy is given back, plastic_work (of d* alone) is not. Below SJKR's 2 CED such a
-// contact cannot carry its own cohesion: F ~ pi p_y R d, F_C ~ 2 pi CED R d. Source: Thornton, J.
-// Appl. Mech. 64 (1997) 383, eqs 8-21. Deviations: none; written in d* alone (a*^2 = R d* follows
-// from his R_p F* = R F_e), so that one number is the contact's memory. Verified by
-// tests/unit/physics/plastic_contact_test.cpp, tests/verification/plastic_contact.
+// small strains, d*/R below about 0.2; beyond, the neighbours' plastic zones would meet, which h
+// can stand for; h <= E/(2 pi), for which loading stays below Hertz up to d = R (F' is straight,
+// Hertz' concave, and at R it is pi (p_y R + 2 h (R - d_y)) <= 2 E R). Energy: elastic_energy is
+// given back, plastic_work (of d* alone) is not. Below SJKR's 2 CED such a contact cannot carry its
+// own cohesion: F ~ pi p_y R d, F_C ~ 2 pi CED R d. Source: Thornton, J. Appl. Mech. 64 (1997) 383,
+// eqs 8-21; hardening in proportion to the area, a^2/R^2, as of Meyer's law p ~ a^(n-2) with n = 4
+// beyond yield (Tabor, The Hardness of Metals, ch. 1: n = 2 to 2.5 for single indents). Deviations:
+// hardening; otherwise none; written in d* alone (a*^2 = R d* follows from his R_p F* = R F_e), so
+// that one number is the contact's memory. Verified by tests/unit/physics/plastic_contact_test.cpp,
+// tests/verification/plastic_contact.
 #ifndef CALENDEM_PHYSICS_PLASTIC_CONTACT_H
 #define CALENDEM_PHYSICS_PLASTIC_CONTACT_H
 
+#include "contact_interface.h"
 #include "contact_limits.h"
 #include "hertz_contact.h"
 
@@ -26,23 +32,34 @@ namespace calendem {
 
 class PlasticContact {
 public:
-  /// Effective modulus [kPa], effective radius [um], limiting pressure [kPa]; all > 0.
-  PlasticContact(double E_eff, double R_eff, double yield_pressure)
-      : E_(E_eff), R_(R_eff), slope_(kPi_ * yield_pressure * R_eff),
+  static constexpr int kMemory = 1;               ///< largest overlap so far [um]
+  static constexpr double kMostHardening = 0.159; ///< 1/(2 pi), of the effective modulus
+
+  /// Effective modulus [kPa], effective radius [um], limiting pressure [kPa]; all > 0. Hardening
+  /// [kPa] >= 0.
+  PlasticContact(double E_eff, double R_eff, double yield_pressure, double hardening = 0.0)
+      : E_(E_eff), R_(R_eff), slope_(kPi_ * yield_pressure * R_eff), growth_(kPi_ * hardening),
         yield_overlap_(slope_ * slope_ / (4.0 * E_eff * E_eff * R_eff)) {}
+  PlasticContact(const ContactSurfaces &s, const double *values)
+      : PlasticContact(s.E_eff, s.R_eff, values[0], values[1]) {}
 
   double yield_overlap() const { return yield_overlap_; }
 
   /// Force [nN] while the overlap is the largest so far.
   double loading_force(double overlap) const {
-    return overlap <= yield_overlap_ ? hertz_force(E_, R_, overlap)
-                                     : slope_ * (overlap - yield_overlap_ / 3.0);
+    const double u = overlap - yield_overlap_;
+    return u <= 0.0 ? hertz_force(E_, R_, overlap)
+                    : slope_ * (overlap - yield_overlap_ / 3.0) + growth_ * u * u;
   }
 
   /// Overlap [um] at which loading reaches a force [nN]: the inverse of loading_force.
   double overlap_under(double force) const {
     const double at_yield = 2.0 / 3.0 * slope_ * yield_overlap_;
-    return force <= at_yield ? hertz_overlap(E_, R_, force) : force / slope_ + yield_overlap_ / 3.0;
+    if (force <= at_yield)
+      return hertz_overlap(E_, R_, force);
+    const double perfect = force / slope_ + yield_overlap_ / 3.0, u = perfect - yield_overlap_;
+    const double root = std::sqrt(1.0 + 4.0 * growth_ * u / slope_);
+    return perfect - u * (root - 1.0) / (root + 1.0);
   }
 
   /// Overlap [um] that comes back between the largest one and loss of contact: e*.
@@ -67,6 +84,12 @@ public:
     return std::sqrt(R_ * largest * still_elastic(overlap, largest));
   }
 
+  /// Unloading begins with the largest stiffness, that of Hertz at the largest overlap.
+  double stiffness_radius(double overlap, double largest) const {
+    return std::sqrt(R_ * (largest > overlap ? largest : overlap));
+  }
+  double radius_under(double force) const { return std::sqrt(R_ * overlap_under(force)); }
+
   /// Energy [fJ] that unloading gives back.
   double elastic_energy(double overlap, double largest) const {
     const double from = std::fmax(std::fmax(overlap, largest), 0.0);
@@ -79,14 +102,23 @@ public:
     const double d = largest - yield_overlap_;
     if (d <= 0.0)
       return 0.0;
-    const double done = hertz_energy(E_, R_, yield_overlap_) +
-                        d * (loading_force(yield_overlap_) + 0.5 * slope_ * d);
+    const double done =
+        hertz_energy(E_, R_, yield_overlap_) +
+        d * (loading_force(yield_overlap_) + 0.5 * slope_ * d + growth_ * d * d / 3.0);
     return done - elastic_energy(largest, largest);
+  }
+
+  double advance(double, double now, double, double &largest) const {
+    if (now <= largest)
+      return 0.0;
+    const double taken = plastic_work(now) - plastic_work(largest);
+    largest = now;
+    return taken;
   }
 
 private:
   static constexpr double kPi_ = 3.14159265358979323846;
-  double E_, R_, slope_, yield_overlap_;
+  double E_, R_, slope_, growth_, yield_overlap_;
 
   double still_elastic(double overlap, double largest) const { // x of the head comment
     return std::fmax(0.0, 1.0 - (largest - overlap) / elastic_overlap(largest));

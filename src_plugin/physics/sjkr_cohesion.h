@@ -22,7 +22,8 @@ inline double lens_area(double r, double radius_i, double radius_j) {
   if (r >= sum || r * r <= difference * difference)
     return 0.0;
   constexpr double kQuarterPi = 0.78539816339744830962;
-  return kQuarterPi * (sum - r) * (sum + r) * (r - difference) * (r + difference) / (r * r);
+  // grouped so that exchanging the spheres changes no bit
+  return kQuarterPi * (sum - r) * (sum + r) * ((r - difference) * (r + difference)) / (r * r);
 }
 
 /// Attractive force [nN], >= 0.

@@ -19,6 +19,7 @@
 #ifndef CALENDEM_PHYSICS_VISCOUS_CONTACT_H
 #define CALENDEM_PHYSICS_VISCOUS_CONTACT_H
 
+#include "contact_interface.h"
 #include "contact_limits.h"
 #include "hertz_contact.h"
 
@@ -26,9 +27,13 @@ namespace calendem {
 
 class ViscousContact {
 public:
+  static constexpr int kMemory = 1; ///< dashpot's part of the overlap [um]
+
   /// Effective modulus [kPa], effective radius [um], relaxed fraction, relaxation time [us].
   ViscousContact(double E_eff, double R_eff, double relaxed_fraction, double time)
       : E_(E_eff), R_(R_eff), g_(relaxed_fraction), rate_(2.0 / (3.0 * time)) {}
+  ViscousContact(const ContactSurfaces &s, const double *values)
+      : ViscousContact(s.E_eff, s.R_eff, values[0], values[1]) {}
 
   /// Force [nN] at an overlap with the dashpot's part of it.
   double force(double overlap, double dashpot) const {
@@ -50,6 +55,9 @@ public:
     const bool open = force(overlap, dashpot) <= 0.0;
     return open ? 0.0 : std::sqrt(R_ * overlap);
   }
+
+  double stiffness_radius(double overlap, double) const { return std::sqrt(R_ * overlap); }
+  double radius_under(double force) const { return std::sqrt(R_ * hertz_overlap(E_, R_, force)); }
 
   /// Moves the dashpot while the overlap goes from `before` to `now` in `time` [us]; returns the
   /// work [fJ] that it takes.

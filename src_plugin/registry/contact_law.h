@@ -6,9 +6,11 @@
 #ifndef CALENDEM_REGISTRY_CONTACT_LAW_H
 #define CALENDEM_REGISTRY_CONTACT_LAW_H
 
+#include "physics/confined_contact.h"
 #include "physics/plastic_contact.h"
 #include "physics/viscous_contact.h"
 #include <array>
+#include <tuple>
 
 namespace calendem {
 
@@ -17,6 +19,8 @@ struct ContactProperty {
   const char *name; ///< of the script's property; NULL: the law has no more of them
   const char *unit; ///< the script's
   double below = std::numeric_limits<double>::infinity();
+  bool may_be_zero = false;                                    ///< where the law acts
+  double of_modulus = std::numeric_limits<double>::infinity(); ///< at most, of the effective one
 };
 
 struct ContactLaw {
@@ -26,23 +30,49 @@ struct ContactLaw {
   /// Contacts get stiffer than Hertz' under the same force: the time step is checked as they do.
   bool stiffens;
   ContactLimits (*limits)(const PhasePair &phases); ///< of the first property
+  WorkTaken takes = WorkTaken::Nothing;
+  /// Largest overlap with a wall, of the radius: deeper, the host may lose a sphere through it.
+  double deepest = std::numeric_limits<double>::infinity();
 };
 
-inline constexpr ContactLaw kPlasticContact = {"elastic-plastic",
-                                               "plastic_contact.h",
-                                               {{{"contactYieldPressure", "kPa"}}},
-                                               true,
-                                               &plastic_contact_limits};
+inline constexpr ContactLaw kPlasticContact = {
+    "elastic-plastic",
+    "plastic_contact.h",
+    {{{"contactYieldPressure", "kPa"},
+      {"contactHardening", "kPa", HUGE_VAL, true, PlasticContact::kMostHardening}}},
+    true,
+    &plastic_contact_limits,
+    WorkTaken::PlasticFlow,
+    0.9};
 
 inline constexpr ContactLaw kViscousContact = {
     "viscoelastic",
     "viscous_contact.h",
     {{{"contactRelaxedFraction", "", 1.0}, {"contactRelaxationTime", "us"}}},
     false,
-    &viscous_contact_limits};
+    &viscous_contact_limits,
+    WorkTaken::Dashpots};
 
-inline constexpr std::array<const ContactLaw *, 2> kContactLaws = {&kPlasticContact,
-                                                                   &kViscousContact};
+inline constexpr ContactLaw kConfinedContact = {
+    "confined",
+    "confined_contact.h",
+    {{{"contactBulkModulus", "kPa"}, {"contactFreeSurface", "", 1.0}}},
+    true,
+    &confined_contact_limits};
+
+inline constexpr std::array<const ContactLaw *, 3> kContactLaws = {
+    &kPlasticContact, &kViscousContact, &kConfinedContact};
+/// Their classes (physics/contact_interface.h), in the same order.
+using ContactLaws = std::tuple<PlasticContact, ViscousContact, ConfinedContact>;
+static_assert(std::tuple_size_v<ContactLaws> == kContactLaws.size(), "a law has a row and a class");
+
+/// Most history values that one of these laws has.
+template <class... Law> constexpr int most_memory(const std::tuple<Law...> *) {
+  int most = 0;
+  for (const int n : {Law::kMemory...})
+    most = n > most ? n : most;
+  return most;
+}
 
 } // namespace calendem
 

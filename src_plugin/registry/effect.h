@@ -74,6 +74,7 @@ struct Effect {
   std::vector<Key> settings;
   EffectParameter parameter;
   ContactAction contact;                     ///< if it is a law of contacts
+  std::string bond_law;                      ///< of fix bond/bpm, which takes the settings in order
   double PressInstruments::*shown = nullptr; ///< what of the press's instruments it sets
   /// Only what the press shows changes: no run of its own is needed to know what it does.
   bool instrument = false;

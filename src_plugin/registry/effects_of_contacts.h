@@ -8,6 +8,24 @@
 
 namespace calendem {
 
+inline Key hardening(const std::string &key, const std::string &variable) {
+  return {key,
+          variable,
+          "0",
+          0,
+          1000,
+          "GPa",
+          "growth of that limit with the yielded overlap over the effective radius"};
+}
+
+/// The contacts of the carbon-binder domain.
+inline std::vector<std::pair<Phase, Phase>> all_of_cbd() {
+  return {{Phase::Am, Phase::Cbd},
+          {Phase::Cbd, Phase::Cbd},
+          {Phase::Cbd, Phase::Collector},
+          {Phase::Cbd, Phase::Platen}};
+}
+
 inline Effect friction() {
   Effect e;
   e.name = "friction";
@@ -33,7 +51,8 @@ inline Effect nmc_plasticity() {
   e.layer = "contact";
   e.what = "contacts of primaries yield at a limiting pressure: elastic-plastic, stiff unloading";
   e.settings = {{"effects.nmc_plasticity.yield_pressure_GPa", "nmc_yield_GPa", "0", 0, 1000, "GPa",
-                 "limit of the contact pressure between bodies and at the platen; 0: elastic"}};
+                 "limit of the contact pressure between bodies and at the platen; 0: elastic"},
+                hardening("effects.nmc_plasticity.hardening_GPa", "nmc_yield_hardening_GPa")};
   e.parameter = strength(e.settings[0], 1.5, 12, Spread::LogUniform, AmplitudeScale::Reciprocal, 0);
   e.contact = {&kPlasticContact, {{Phase::Am, Phase::Am}, {Phase::Am, Phase::Platen}}};
   e.moves = "lower pressure above some 50 MPa, steeper unloading, no more breaks";
@@ -86,15 +105,69 @@ inline Effect cbd_viscoelasticity() {
                 {"effects.cbd_viscoelasticity.time_us", "cbd_relaxation_us", "1", 1e-3, 1e6, "us",
                  "relaxation time; the run's own time counts, see platen.speed_m_s"}};
   e.parameter = strength(e.settings[0], 0.05, 0.35, Spread::Uniform);
-  e.contact = {&kViscousContact,
-               {{Phase::Cbd, Phase::Am},
-                {Phase::Cbd, Phase::Cbd},
-                {Phase::Cbd, Phase::Collector},
-                {Phase::Cbd, Phase::Platen}}};
+  e.contact = {&kViscousContact, all_of_cbd()};
   e.moves = "pressure depends on speed and decays in a dwell; springback is delayed";
   e.source = "Christensen, Theory of Viscoelasticity, ch. 1";
   e.law = kViscousContact.header;
   e.verification = "viscous_contact";
+  return e;
+}
+
+inline Effect cbd_plasticity() {
+  Effect e;
+  e.name = "cbd_plasticity";
+  e.layer = "contact";
+  e.what = "contacts with the carbon-binder domain yield at a limiting pressure, and may harden";
+  const std::string at = "effects.cbd_plasticity.";
+  e.settings = {{at + "yield_pressure_GPa", "cbd_contact_yield_GPa", "0", 0, 1000, "GPa",
+                 "limit of the contact pressure of CBD on all phases and walls; 0: elastic"},
+                hardening(at + "hardening_GPa", "cbd_contact_hardening_GPa")};
+  e.parameter = strength(e.settings[0], 0.55, 3, Spread::LogUniform, AmplitudeScale::Reciprocal, 0);
+  e.contact = {&kPlasticContact, all_of_cbd()};
+  e.moves = "lower pressure and less springback where CBD carries; the cohesion of AM with CBD "
+            "leaves no yield below half a GPa";
+  e.source = "Thornton 1997; the range is what cohesion allows, an unsourced prior";
+  e.law = kPlasticContact.header;
+  e.verification = "plastic_contact";
+  return e;
+}
+
+/// Contacts at large overlap; `most`, `least`: of the prior [GPa].
+inline Effect confinement(const std::string &phase, const std::string &what, double least,
+                          double most) {
+  Effect e;
+  e.name = phase + "_confinement";
+  e.layer = "contact";
+  e.what = what;
+  const std::string at = "effects." + e.name + ".";
+  e.settings = {{at + "bulk_modulus_GPa", phase + "_bulk_GPa", "0", 0, 1000, "GPa",
+                 "of a sphere that its contacts enclose; 0: Hertz at any overlap"},
+                {at + "free_surface", phase + "_free_surface", "0.5", 0.01, 0.99, "fraction",
+                 "of the sphere, at which its bulk begins to answer"}};
+  e.parameter = strength(e.settings[0], least, most, Spread::LogUniform);
+  e.moves = "more pressure at high density, where overlaps are large, and more springback from it";
+  e.source = "Zunker & Kamrin 2024 (MDR, part II); from the bulk modulus of a half-porous solid to "
+             "that of the solid, an unsourced prior";
+  e.law = kConfinedContact.header;
+  e.verification = "confined_contact";
+  return e;
+}
+
+inline Effect cbd_confinement() {
+  Effect e = confinement("cbd",
+                         "carbon-binder domain that its contacts enclose answers with its bulk, "
+                         "beyond the range of Hertz",
+                         0.5, 35);
+  e.contact = {&kConfinedContact, all_of_cbd()};
+  return e;
+}
+
+inline Effect nmc_confinement() {
+  Effect e = confinement("nmc",
+                         "primaries that their contacts enclose answer with their bulk, beyond the "
+                         "range of Hertz",
+                         20, 200);
+  e.contact = {&kConfinedContact, {{Phase::Am, Phase::Am}, {Phase::Am, Phase::Platen}}};
   return e;
 }
 
@@ -117,8 +190,8 @@ inline Effect collector_indentation() {
 }
 
 inline std::vector<Effect> effects_of_contacts() {
-  return {friction(), nmc_plasticity(), cbd_collapse(), cbd_viscoelasticity(),
-          collector_indentation()};
+  return {friction(),       nmc_plasticity(),  cbd_collapse(),    cbd_viscoelasticity(),
+          cbd_plasticity(), cbd_confinement(), nmc_confinement(), collector_indentation()};
 }
 
 } // namespace calendem

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The energy ledger of one run closes: energy_test.sh friction|frictionless|plastic|collapse|viscous BIN WORK
+# The energy ledger of one run closes: energy_test.sh friction|frictionless|plastic|collapse|viscous|hardening|confined BIN WORK
 set -euo pipefail
 case=$1 bin=$2 work=$3
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -27,6 +27,12 @@ case $case in
   viscous)
     sed 's/^max_pressure_MPa = .*/max_pressure_MPa = 30/' "$here/case.toml" >"$work/$case.toml"
     printf '\n[effects.cbd_viscoelasticity]\nrelaxed_fraction = 0.5\ntime_us = 1\n' >>"$work/$case.toml" ;;
+  hardening) # what CBD takes
+    sed 's/^max_pressure_MPa = .*/max_pressure_MPa = 30/; s/^timestep_us.*//' "$here/case.toml" >"$work/$case.toml"
+    printf '\n[effects.cbd_plasticity]\nyield_pressure_GPa = 0.55\nhardening_GPa = 0.2\n' >>"$work/$case.toml" ;;
+  confined) # from 0.9 of the surface on, so that the bulk acts at this pressure
+    sed 's/^max_pressure_MPa = .*/max_pressure_MPa = 30/; s/^timestep_us.*//' "$here/case.toml" >"$work/$case.toml"
+    printf '\n[effects.cbd_confinement]\nbulk_modulus_GPa = 10\nfree_surface = 0.9\n' >>"$work/$case.toml" ;;
 esac
 rm -rf "${work:?}/$case"
 "$bin/calendem" run "$work/$case.toml" -o "$work/$case" --ranks 1

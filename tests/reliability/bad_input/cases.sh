@@ -625,9 +625,14 @@ script_modulus_in_pa() {
 }
 script_effects() {
   expect 1 script -var nmc_yield_GPa 1
-  says "ERROR: model hertz_effects: contactYieldPressure of atom types 1 and 1 is 1e+06" "at least 2.5 times it, 1.5e+06"
+  says "ERROR: model hertz_effects: contactYieldPressure of atom types 1 and 1 is 1e+06" "Give at least 1.5e+06"
   expect 1 script -var cbd_relaxed_fraction 0.5 -var cbd_relaxation_us 0
   says "ERROR: model hertz_effects: contactRelaxationTime of atom types 1 and 2 is 0" "must be a finite number > 0"
+  expect 1 script -var cbd_relaxed_fraction 0.2 -var cbd_contact_yield_GPa 1
+  says "ERROR: model hertz_effects: contactRelaxedFraction of atom types 1 and 2 is 0.2" "a contact follows one law" \
+    "contactYieldPressure to 0"
+  expect 1 script -var cbd_contact_yield_GPa 1 -var cbd_contact_hardening_GPa 0.5
+  says "ERROR: model hertz_effects: contactHardening of atom types 1 and 2 is 500000 kPa" "0.159 of the effective modulus"
   expect 1 script -var cbd_yield_MPa 5 -var cbd_floor_phi 0.6
   says "ERROR: Fix cbd/collapse" "'floor' must not lie above 'initial'"
   expect 1 script -var cbd_yield_MPa 5 -var cbd_imposed_MPa 150

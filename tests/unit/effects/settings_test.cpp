@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 namespace {
 
@@ -57,36 +58,62 @@ TEST(Settings, NamesAndVariablesAreUnique) {
   }
 }
 
-// Requirement: every property of a contact law is a setting, and no two effects that a case may
-// have have the same pair of phases.
+// Requirement: every property of a contact law is a setting, or may be 0 and is; no two effects of
+// one law have the same pair of phases.
 TEST(Settings, ContactLawsHaveTheirSettings) {
-  std::set<std::pair<int, int>> taken;
+  std::set<std::tuple<const ContactLaw *, int, int>> taken;
   for (const Effect &e : effects()) {
     if (!e.contact.law)
       continue;
-    std::size_t properties = 0;
-    while (properties < e.contact.law->properties.size() &&
-           e.contact.law->properties[properties].name)
-      ++properties;
-    EXPECT_EQ(e.settings.size(), properties) << e.name;
+    const auto &properties = e.contact.law->properties;
+    ASSERT_LE(e.settings.size(), properties.size()) << e.name;
+    for (std::size_t k = 0; k < properties.size(); ++k) {
+      const bool set = k < e.settings.size();
+      EXPECT_TRUE(set ? properties[k].name != nullptr
+                      : !properties[k].name || properties[k].may_be_zero)
+          << e.name;
+    }
     EXPECT_EQ(e.law, e.contact.law->header) << e.name;
     EXPECT_EQ(e.settings[0].name, e.parameter.keys.at(0)) << e.name;
     for (const auto &[a, b] : e.contact.between)
-      EXPECT_TRUE(taken.emplace(std::min(int(a), int(b)), std::max(int(a), int(b))).second)
+      EXPECT_TRUE(
+          taken.emplace(e.contact.law, std::min(int(a), int(b)), std::max(int(a), int(b))).second)
           << e.name;
   }
 }
 
+std::string refusal(const std::string &text) {
+  try {
+    case_of(text);
+  } catch (const Failure &e) {
+    return e.what();
+  }
+  return "";
+}
+
+// Requirement: a contact follows one law; effects whose contacts do not meet go together.
+TEST(Settings, AContactFollowsOneLaw) {
+  const std::string relaxes = "[effects.cbd_viscoelasticity]\nrelaxed_fraction = 0.2\n",
+                    yields = "[effects.cbd_plasticity]\nyield_pressure_GPa = 0.6\n",
+                    encloses = "[effects.nmc_confinement]\nbulk_modulus_GPa = 100\n";
+  EXPECT_NE(refusal(relaxes + yields).find("a contact follows one law"), std::string::npos);
+  EXPECT_EQ(refusal(relaxes + encloses), "");
+  EXPECT_EQ(refusal(yields + encloses), "");
+}
+
+// Requirement: hardening at most 0.159 E*: 17.47 GPa between AM spheres, 0.418 between AM and CBD,
+// 0.209 between CBD spheres.
+TEST(Settings, HardeningIsAPartOfTheModulus) {
+  const std::string nmc = "[effects.nmc_plasticity]\nyield_pressure_GPa = 3\nhardening_GPa = ",
+                    cbd = "[effects.cbd_plasticity]\nyield_pressure_GPa = 1\nhardening_GPa = ";
+  EXPECT_EQ(refusal(nmc + "17.4\n"), "");
+  EXPECT_NE(refusal(nmc + "17.5\n").find("Give at most 17.5"), std::string::npos);
+  EXPECT_EQ(refusal(cbd + "0.209\n"), "");
+  EXPECT_NE(refusal(cbd + "0.21\n").find("between cbd and cbd"), std::string::npos);
+}
+
 // Requirement: limits are those of the laws' heads, in the key's unit, at the key's line.
 TEST(Settings, LimitsOfContactLawsCountCohesion) {
-  const auto refusal = [](const std::string &text) -> std::string {
-    try {
-      case_of(text);
-    } catch (const Failure &e) {
-      return e.what();
-    }
-    return "";
-  };
   const std::string yields = "[effects.nmc_plasticity]\nyield_pressure_GPa = ";
   EXPECT_NE(refusal(yields + "1.49\n").find(":3: "), std::string::npos);
   EXPECT_EQ(refusal(yields + "1.51\n"), ""); // 2.5 x 0.6 GPa

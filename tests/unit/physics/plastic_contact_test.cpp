@@ -121,3 +121,55 @@ TEST(PlasticContact, PlasticWorkGrows) {
     before = work;
   }
 }
+
+// Requirement: with hardening, what has yielded beyond d_y carries p_y + h u/R on the area pi R u;
+// the overlap under a force is still that of loading. 8 ulp.
+TEST(PlasticContact, HardeningRaisesThePressureOfWhatHasYielded) {
+  constexpr double h = 1e7;
+  const PlasticContact hard(E, R, p_y, h);
+  const double y = contact.yield_overlap(), F_y = hertz_force(E, R, y);
+  EXPECT_EQ(hard.yield_overlap(), y);
+  EXPECT_EQ(hard.force(0.9 * y, 0.0), contact.force(0.9 * y, 0.0));
+  for (double times : {1.5, 10.0, 60.0}) {
+    const double d = times * y, u = d - y;
+    EXPECT_NEAR(hard.loading_force(d) / (F_y + kPi * R * u * (p_y + h * u / R)), 1.0, 2e-15);
+    EXPECT_NEAR(hard.overlap_under(hard.loading_force(d)) / d, 1.0, 4e-15);
+  }
+}
+
+// Requirement: hardening 0 is the perfectly plastic law to the bit.
+TEST(PlasticContact, NoHardeningChangesNoBit) {
+  const double values[] = {p_y, 0.0};
+  const PlasticContact none({E, R, R}, values);
+  for (double times : {0.5, 3.0, 40.0}) {
+    const double d = times * contact.yield_overlap();
+    EXPECT_EQ(none.force(0.9 * d, d), contact.force(0.9 * d, d));
+    EXPECT_EQ(none.plastic_work(d), contact.plastic_work(d));
+    EXPECT_EQ(none.overlap_under(none.loading_force(d)),
+              contact.overlap_under(none.loading_force(d)));
+  }
+}
+
+// Requirement: up to the hardening allowed, loading stays below Hertz and unloading begins with its
+// stiffness, so that less than the overlap comes back.
+TEST(PlasticContact, HardeningStaysBelowHertz) {
+  const PlasticContact hard(E, R, p_y, PlasticContact::kMostHardening * E);
+  for (double d = 1.01 * contact.yield_overlap(); d < R; d *= 1.1) {
+    EXPECT_LT(hard.loading_force(d), hertz_force(E, R, d));
+    EXPECT_LT(hard.elastic_overlap(d), d);
+  }
+}
+
+// Requirement: with hardening too the work of loading is stored or taken. As WorkIsStoredOrTaken.
+TEST(PlasticContact, WorkOfHardeningIsStoredOrTaken) {
+  const PlasticContact hard(E, R, p_y, 1e7);
+  const double y = contact.yield_overlap(), largest = 30 * y;
+  const double h = (largest - y) / 2000;
+  double in = hertz_energy(E, R, y);
+  for (int k = 0; k < 2000; k += 2) // Simpson's rule is exact for the parabola
+    in += h / 3 *
+          (hard.loading_force(y + k * h) + 4 * hard.loading_force(y + (k + 1) * h) +
+           hard.loading_force(y + (k + 2) * h));
+  EXPECT_NEAR((hard.elastic_energy(largest, largest) + hard.plastic_work(largest)) / in, 1.0,
+              1e-13);
+}

@@ -26,8 +26,8 @@ struct Errors {
 };
 
 // In, halfway out, in deeper, all with the law beside it.
-Errors pressed(double touch, double R_eff, Settings settings) {
-  const PlasticContact law(E_eff, R_eff, p_y);
+Errors pressed(double touch, double R_eff, Settings settings, double hardening = 0.0) {
+  const PlasticContact law(E_eff, R_eff, p_y, hardening);
   settings.insert({{"z0", number(touch)}, {"down", "1000"}, {"up", "200"}, {"again", "500"}});
   const CaseRun run("plastic_contact/in.press", settings);
   EXPECT_TRUE(run.finished()) << run.why();
@@ -80,6 +80,12 @@ TEST(VerificationPlasticContact, OnlyAWallStopsASphereThatSinks) {
   const CaseRun run("plastic_contact/in.press", settings);
   EXPECT_FALSE(run.finished());
   EXPECT_NEAR(run.rows("curve.csv").back().at("z"), 0.1 * R, 1e-3); // a row every 1e-4 um
+}
+
+TEST(VerificationPlasticContact, HardeningFollowsTheLaw) {
+  Settings settings = elastic_otherwise();
+  settings.insert({{"hardening", "1e7"}, {"down", "4000"}});
+  expect_small("hardening", pressed(2 * R, effective_radius(R, R), settings, 1e7));
 }
 
 // Thornton's coefficient of restitution, his eq. 31, from the ratio of yield speed and speed.

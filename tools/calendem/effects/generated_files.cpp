@@ -94,15 +94,19 @@ std::map<std::string, std::string> short_names() {
   return out;
 }
 
-/// The property by pairs of types: the setting of the effect that acts there, 0 elsewhere.
+/// The property by pairs of types: the setting of the effect that acts there, 0 elsewhere and for
+/// an effect that leaves it out.
 std::string matrix(const LawInScript &l, std::size_t property) {
   static const std::map<std::string, std::string> name = short_names();
   constexpr int kTypes = 4;
   std::string cell[kTypes][kTypes], out;
-  for (const Effect *e : l.effects)
+  for (const Effect *e : l.effects) {
+    if (property >= e->settings.size())
+      continue;
     for (const auto &[a, b] : e->contact.between)
       cell[int(a) - 1][int(b) - 1] = cell[int(b) - 1][int(a) - 1] =
-          "${" + name.at(e->settings.at(property).variable) + "}";
+          "${" + name.at(e->settings[property].variable) + "}";
+  }
   for (const auto &row : cell)
     for (const std::string &value : row)
       out += " " + (value.empty() ? std::string("0") : value);
@@ -149,6 +153,20 @@ std::string effects_in() {
   return out;
 }
 
+std::string bond_laws_in() {
+  std::string out = "# Laws of bond strength that the base model leaves out, each off at 0.\n";
+  out += kMade;
+  for (const Effect &e : effects()) {
+    if (e.bond_law.empty())
+      continue;
+    out += "fix_modify bonds " + e.bond_law;
+    for (const Key &key : e.settings)
+      out += fmt::format(" ${{{}}}", key.variable);
+    out += fmt::format(" # {} (physics/{})\n", e.name, e.law);
+  }
+  return out;
+}
+
 std::string of_unit(const Effect &e) {
   const std::string unit = key_named(e.parameter.keys.front()).unit;
   return unit.empty() ? "" : " " + unit;
@@ -190,6 +208,7 @@ std::vector<GeneratedFile> generated_files() {
   return {{"input_scripts/common/defaults.in", defaults_in()},
           {"input_scripts/common/settings.in", settings_in()},
           {"input_scripts/common/effects.in", effects_in()},
+          {"input_scripts/common/bond_laws.in", bond_laws_in()},
           {"tools/calendem/effects/README.md", effects_page()}};
 }
 

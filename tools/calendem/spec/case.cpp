@@ -83,6 +83,24 @@ void check_contact(const Settings &s, const Effect &e, Phase a, Phase b, Mistake
                            (low ? limits.least : limits.most) / factor, unit));
 }
 
+// A property that may be only some part of the effective modulus.
+void check_part_of_modulus(const Settings &s, const Effect &e, Phase a, Phase b,
+                           Mistakes &mistakes) {
+  for (std::size_t k = 0; k < e.settings.size(); ++k) {
+    const Key &key = e.settings[k];
+    const double part = e.contact.law->properties.at(k).of_modulus;
+    if (!s.sound({key.name}) || !sound(s, keys_of(a)) || !sound(s, keys_of(b)))
+      continue;
+    const double most = part * pair_of(s, a, b).modulus / script_units(key.unit);
+    if (s.number(key.name) > most)
+      mistakes.add(s.line(key.name),
+                   fmt::format("{} is {} {}: between {} and {} spheres at most {} of the effective "
+                               "modulus is allowed. Give at most {:.3g}.",
+                               key.name, s.text(key.name), key.unit, name_of(a), name_of(b), part,
+                               most));
+  }
+}
+
 void check_relation(const Settings &s, const Relation &r, Mistakes &mistakes) {
   if (!s.sound({r.key, r.other}))
     return;
@@ -96,9 +114,27 @@ void check_relation(const Settings &s, const Relation &r, Mistakes &mistakes) {
                                             r.key, s.text(r.key), r.other, s.text(r.other), r.why));
 }
 
+// A contact follows one law.
+void check_one_law(const Settings &s, const Effect &e, const Effect &f, Mistakes &mistakes) {
+  if (!e.contact.law || !f.contact.law || e.contact.law == f.contact.law)
+    return;
+  const std::string &a = e.settings.front().name, &b = f.settings.front().name;
+  const auto &others = f.contact.between;
+  const bool meet = std::any_of(
+      e.contact.between.begin(), e.contact.between.end(), [&](const std::pair<Phase, Phase> &p) {
+        return std::count(others.begin(), others.end(), p) +
+                   std::count(others.begin(), others.end(), std::pair(p.second, p.first)) >
+               0;
+      });
+  if (meet)
+    check_relation(s, {b, Relation::Is::NotBoth, a, "a contact follows one law"}, mistakes);
+}
+
 void check_effect(const Settings &s, const Effect &e, Mistakes &mistakes) {
-  for (const auto &[a, b] : e.contact.between)
+  for (const auto &[a, b] : e.contact.between) {
     check_contact(s, e, a, b, mistakes);
+    check_part_of_modulus(s, e, a, b, mistakes);
+  }
   for (const Relation &r : e.relations)
     check_relation(s, r, mistakes);
 }
@@ -170,8 +206,12 @@ void check_case(const Settings &s, Mistakes &mistakes) {
   check_collapse(s, Phase::Am, Phase::Am, 0.1, mistakes);
   check_collapse(s, Phase::Cbd, Phase::Cbd, 0.1, mistakes);
   check_collapse(s, Phase::Am, Phase::Cbd, 0.2, mistakes);
-  for (const Effect &e : effects())
+  for (const Effect &e : effects()) {
     check_effect(s, e, mistakes);
+    for (const Effect &f : effects())
+      if (&e < &f)
+        check_one_law(s, e, f, mistakes);
+  }
   check_target(s, mistakes);
   check_roll(s, mistakes);
   check_window(s, mistakes);

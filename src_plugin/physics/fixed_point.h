@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Sums that do not depend on the order of their terms: terms are cut to multiples of one power of
+// two and added as whole numbers. The same atoms give the same bits on any number of processors.
+//   sum = unit * sum of trunc(term / unit),  |term|, |sum| < 2^63 unit
+// Each term loses less than one unit, towards zero, so that force and counterforce stay opposite.
+// Verified by tests/unit/physics/fixed_point_test.cpp and tests/reliability/same_physics.
+#ifndef CALENDEM_PHYSICS_FIXED_POINT_H
+#define CALENDEM_PHYSICS_FIXED_POINT_H
+
+#include <cmath>
+
+namespace calendem {
+
+struct FixedPoint {
+  double unit = 1.0;     ///< a power of two, in the terms' unit
+  double per_unit = 1.0; ///< 1 / unit
+
+  FixedPoint() = default;
+  /// For sums whose size stays below `largest` > 0.
+  explicit FixedPoint(double largest)
+      : unit(std::exp2(std::ceil(std::log2(largest)) - 62.0)), per_unit(1.0 / unit) {}
+
+  long long of(double term) const { return static_cast<long long>(std::rint(term * per_unit)); }
+  double value(long long sum) const { return static_cast<double>(sum) * unit; }
+};
+
+/// Spacing of numbers that are all exact, up to `largest` in size: coordinates on it can be shifted
+/// by a multiple of it and back without rounding.
+inline double exact_spacing(double largest) {
+  return std::exp2(std::ceil(std::log2(largest)) - 52.0);
+}
+
+inline double nearest_multiple(double x, double spacing) {
+  return std::nearbyint(x / spacing) * spacing;
+}
+
+} // namespace calendem
+
+#endif
