@@ -68,7 +68,7 @@ void FixEnergyBpm::find_walls() {
                        "knows no cohesion of walls but 'cohesion sjkr'; a fix wall/gran/platen has "
                        "another");
     if (wall)
-      walls_.push_back({wall, wall->sticks(), 0.0});
+      walls_.push_back({wall, wall->sticks(), 0.0, 0.0});
   }
 }
 
@@ -104,22 +104,24 @@ double FixEnergyBpm::work_in_half_step(const ForceAndTorque &a, int i) const {
          (dot(a.force, calendem::load(atom->v[i])) + dot(a.torque, calendem::load(atom->omega[i])));
 }
 
-// A wall moves along its damping force, never along its friction.
+// A wall moves along its damping force, and along its friction where a roll slips.
 void FixEnergyBpm::add_half_step() {
   double damped = 0.0, friction = 0.0;
   for (int i = 0; i < atom->nlocal; ++i) {
     damped -= work_in_half_step(loads_[i].damping, i);
     friction -= work_in_half_step(loads_[i].friction, i);
   }
-  for (const Wall &wall : walls_)
+  for (const Wall &wall : walls_) {
     damped += 0.5 * update->dt * wall.damping * wall.fix->velocity();
+    friction += 0.5 * update->dt * wall.friction * wall.fix->sliding();
+  }
   sums_[kDamped] += damped;
   sums_[kFriction] += friction;
 }
 
 void FixEnergyBpm::collect_walls() {
   for (Wall &wall : walls_) {
-    wall.damping = 0.0;
+    wall.damping = wall.friction = 0.0;
     double **force = wall.fix->fix_wallforce()->array_atom;
     for (int i = 0; i < atom->nlocal; ++i)
       if (force[i][2] != 0.0)
@@ -142,6 +144,7 @@ void FixEnergyBpm::collect(Wall &wall, int i, const double *force) {
   wall.damping += damping;
   add_damping(i, {{0.0, 0.0, damping}, {}});
   const Vec3 friction = {force[0], force[1], 0.0};
+  wall.friction += friction.x;
   const Vec3 arm = {0.0, 0.0, -side * (atom->radius[i] - 0.5 * overlap)};
   add_friction(i, {friction, cross(arm, friction)});
 }

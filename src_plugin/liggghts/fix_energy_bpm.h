@@ -99,7 +99,8 @@ private:
   struct Wall {
     class FixWallGranPlaten *fix;
     bool sticks;
-    double damping; ///< sum of the damping forces along z on this rank's atoms [nN]
+    double damping;  ///< sum of the damping forces along z on this rank's atoms [nN]
+    double friction; ///< and of the friction along x
   };
   enum Sum { kDamped, kFriction, kBreaks, kPlastic, kCollapse, kViscous, kSums };
 

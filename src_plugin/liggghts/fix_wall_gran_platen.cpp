@@ -5,6 +5,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_property_atom.h"
+#include "granular_sliding_wall.h"
 #include "physics/fixed_point.h"
 #include "primitive_wall.h"
 #include "update.h"
@@ -38,7 +39,8 @@ PlatenArguments::PlatenArguments(int narg, char **arg) {
 
 FixWallGranPlaten::FixWallGranPlaten(LAMMPS *lmp, int narg, char **arg)
     : PlatenArguments(narg, arg), FixWallGran(lmp, static_cast<int>(host_.size()), host_.data()),
-      sign_(-1.0), window_(0.25), may_release_(true), moved_(false), memory_offset_(-1) {
+      sign_(-1.0), window_(0.25), may_release_(true), moved_(false), sliding_(0.0),
+      memory_offset_(-1) {
   const char *z = NULL;
   for (size_t i = 0; i + 1 < host_.size(); ++i)
     if (!strcmp(host_[i], "zplane"))
@@ -51,8 +53,10 @@ FixWallGranPlaten::FixWallGranPlaten(LAMMPS *lmp, int narg, char **arg)
   programme_.lowest = domain->boxlo[2];
   parse();
   set_window();
+  if (slides())
+    impl = new SlidingWall(impl, sliding_);
   vector_flag = 1;
-  size_vector = 13;
+  size_vector = 15;
   global_freq = 1;
   restart_global = 1;
 }
@@ -70,7 +74,28 @@ double FixWallGranPlaten::number(const std::string &key, const std::string &valu
   return x;
 }
 
+bool FixWallGranPlaten::set_roll_keyword(const std::string &key, const std::string &value) {
+  if (key == "roll") {
+    programme_.control = PlatenControl::Roll;
+    programme_.target = number(key, value, false);
+  } else if (key == "roll_radius")
+    programme_.roll.radius = number(key, value, false);
+  else if (key == "counter_radius")
+    programme_.roll.counter = number(key, value, true);
+  else if (key == "slip")
+    programme_.roll.slip = number(key, value, true);
+  else if (key == "passes")
+    programme_.passes = number(key, value, false);
+  else if (key == "first_gap")
+    programme_.first_gap = number(key, value, true);
+  else
+    return false;
+  return true;
+}
+
 void FixWallGranPlaten::set_keyword(const std::string &key, const std::string &value) {
+  if (set_roll_keyword(key, value))
+    return;
   if (key == "side" && (value == "top" || value == "bottom"))
     sign_ = value == "top" ? -1.0 : 1.0;
   else if (key == "motion" && value == "hold")
@@ -103,7 +128,8 @@ void FixWallGranPlaten::set_keyword(const std::string &key, const std::string &v
   else {
     const std::string message =
         "unknown setting '" + key + " " + value +
-        "'; known: side top|bottom, motion hold | motion pressure P | motion position Z, "
+        "'; known: side top|bottom, motion hold | motion pressure P | motion position Z | "
+        "motion roll GAP, roll_radius, counter_radius, slip, passes, first_gap, "
         "touch_speed, load_speed, release_speed, touch_pressure, dwell, ramp, lost, lowest, "
         "average, compliance, release yes|no";
     error->fix_error(FLERR, this, message.c_str());
@@ -135,11 +161,35 @@ void FixWallGranPlaten::parse() {
         FLERR, this,
         "'pressure' is more than 100 GPa (units micro: 1 is 1 kPa). Is it given in Pa? "
         "The input scripts take MPa");
-  if (programme_.control == PlatenControl::Position && programme_.target >= programme_.start)
+  if (programme_.control == PlatenControl::Roll)
+    check_roll();
+  if (programme_.control != PlatenControl::Pressure && programme_.target >= programme_.start)
     error->fix_error(FLERR, this,
                      "the target position must lie below the start ('zplane'); nothing would be "
                      "compressed");
   enter(record_.state, PlatenStage::Compression, update->ntimestep * update->dt);
+}
+
+void FixWallGranPlaten::check_roll() {
+  if (programme_.roll.radius <= 0.0)
+    error->fix_error(FLERR, this, "'motion roll' needs 'roll_radius' > 0");
+  if (programme_.passes < 1.0 || programme_.passes != std::floor(programme_.passes))
+    error->fix_error(FLERR, this, "'passes' must be a whole number, at least 1");
+  if (programme_.first_gap > 0.0 &&
+      (programme_.first_gap < programme_.target || programme_.first_gap >= programme_.start))
+    error->fix_error(FLERR, this,
+                     "'first_gap' must lie between the roll's gap and the start ('zplane'), or be "
+                     "0: the gap of the last pass");
+  if (programme_.compliance > 0.0)
+    error->fix_error(
+        FLERR, this,
+        "the gap of 'motion roll' is that of the loaded rolls: 'compliance' must be 0");
+}
+
+bool FixWallGranPlaten::slides() const {
+  const calendem::RollNip &roll = programme_.roll;
+  return programme_.control == PlatenControl::Roll &&
+         (roll.slip > 0.0 || roll.radius != roll.counter);
 }
 
 int FixWallGranPlaten::setmask() { return FixWallGran::setmask() | INITIAL_INTEGRATE; }
@@ -168,6 +218,7 @@ void FixWallGranPlaten::place_wall() {
   delete primitiveWall_;
   primitiveWall_ = new PrimitiveWall(lmp, PRIMITIVE_WALL_DEFINITIONS::ZPLANE, 1, &z);
   vshear_ = -record_.state.speed;
+  sliding_ = slip_speed(programme_, record_.state);
   moved_ = true;
 }
 
@@ -181,6 +232,7 @@ void FixWallGranPlaten::initial_integrate(int) {
   // half of the step's work with the load at its beginning, the other half in measure()
   record_.work += 0.5 * kLoads.value(record_.load) * (z - record_.state.position);
   place_wall();
+  record_.work += 0.5 * record_.drag * sliding_ * dt;
 }
 
 void FixWallGranPlaten::pre_force(int vflag) {
@@ -197,8 +249,11 @@ double FixWallGranPlaten::area() const { return domain->xprd * domain->yprd; }
 
 void FixWallGranPlaten::post_force(int vflag) {
   FixWallGran::post_force(vflag);
-  if (!update->setupflag)
-    measure();
+  if (update->setupflag)
+    return;
+  measure();
+  if (slides())
+    measure_drag();
 }
 
 // Ranks wait for each other only at the end of an average's block.
@@ -222,18 +277,27 @@ void FixWallGranPlaten::measure() {
 void FixWallGranPlaten::add_up(Record &record) const {
   long long mine[2] = {record.load, record.block}, all[2];
   MPI_Allreduce(mine, all, 2, MPI_LONG_LONG, MPI_SUM, world);
-  double work = 0.0;
-  MPI_Allreduce(&record.work, &work, 1, MPI_DOUBLE, MPI_SUM, world);
+  const double my_work[2] = {record.work, record.drag};
+  double work[2];
+  MPI_Allreduce(my_work, work, 2, MPI_DOUBLE, MPI_SUM, world);
   record.load = all[0];
   record.block = all[1];
-  record.work = work;
+  record.work = work[0];
+  record.drag = work[1];
+}
+
+void FixWallGranPlaten::measure_drag() {
+  record_.drag = 0.0;
+  for (int i = 0; i < atom->nlocal; ++i)
+    record_.drag += fix_wallforce_->array_atom[i][0];
+  record_.work += 0.5 * record_.drag * sliding_ * update->dt;
 }
 
 double FixWallGranPlaten::compute_vector(int n) {
   const calendem::PlatenState &s = record_.state;
   const double time = update->ntimestep * update->dt;
   const bool waits = stage_of(s) == PlatenStage::Dwell && !may_release_ &&
-                     time - s.stage_start >= programme_.dwell;
+                     last_pass(programme_, s) && time - s.stage_start >= programme_.dwell;
   Record whole = record_;
   if (n == 3 || n == 5 || n == 6)
     add_up(whole);
@@ -250,7 +314,9 @@ double FixWallGranPlaten::compute_vector(int n) {
                            s.reached,
                            waits ? 1.0 : 0.0,
                            window_,
-                           mean_position()};
+                           mean_position(),
+                           std::fmax(programme_.passes - s.passed - 1.0, 0.0),
+                           sliding_};
   return values[n];
 }
 
@@ -276,6 +342,6 @@ void FixWallGranPlaten::restart(char *buf) {
 void FixWallGranPlaten::keep_share() {
   if (comm->me != 0) {
     record_.load = record_.block = 0;
-    record_.work = 0.0;
+    record_.work = record_.drag = 0.0;
   }
 }

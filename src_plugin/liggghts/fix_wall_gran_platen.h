@@ -4,14 +4,20 @@
 //     side top motion pressure P | position Z2  touch_speed V load_speed V release_speed V
 //          touch_pressure P dwell T ramp T lost F lowest Z average T compliance C
 //          release yes|no
+//     side top motion roll GAP roll_radius R counter_radius R2 slip S passes N first_gap G
+//          touch_speed V load_speed V release_speed V ... as above
 //
 // A flat wall of fix wall/gran that moves along z by the programme of physics/platen_motion.h and
 // measures what it carries. All contact models of fix wall/gran can be used. Units micro.
-// Global vector: 1 stage (0 hold, 1 compression, 2 dwell, 3 relaxation, 4 done), 2 position,
+// motion roll: as a roll passes over, with GAP in the nip (physics/roll_nip.h); lengths in um, R2
+// 0: flat; S moves the surface along x; the first of N passes has the gap G, 0: GAP. load_speed is
+// the largest speed of closing and of slip. Global vector: 1 stage (0 hold, 1 compression, 2 dwell,
+// 3 relaxation, 4 done), 2 position,
 //   3 displacement (> 0 down), 4 load [nN], 5 pressure averaged over `average` [kPa], 6 pressure
 //   now, 7 work done on the particles [fJ], 8 closing speed, 9 largest averaged pressure, 10 target
 //   reached, 11 1 when the dwell is over and `release no` holds the platen, 12 averaging window
-//   [us], 13 position averaged as 5 is: what the averaged pressure is compared with.
+//   [us], 13 position averaged as 5 is: what the averaged pressure is compared with, 14 passes
+//   under the roll that are still to come, 15 speed of the surface along x.
 // A position is what the machine shows, which is `compliance` [um/kPa] times the pressure further.
 // Load is positive when the wall presses the film. State restarts under the same fix ID.
 #ifdef FIX_CLASS
@@ -57,6 +63,7 @@ public:
   double mean_position() const;
   double mean_displacement() const { return programme_.start - mean_position(); } ///< > 0 down
   double velocity() const { return -record_.state.speed; } ///< along z [um/us]
+  double sliding() const { return sliding_; }              ///< along x [um/us]
   double pressure() const { return record_.average.value(); }
   double largest_pressure() const { return record_.state.max_pressure; } ///< of the averaged ones
   bool is_top() const { return sign_ < 0.0; }
@@ -75,6 +82,7 @@ private:
     long long load = 0;              ///< as FixedPoint: the same on any number of ranks
     long long block = 0;             ///< sum of the loads since the average's last block
     double work = 0.0;
+    double drag = 0.0; ///< force along x on this rank's particles
   };
 
   calendem::PlatenProgramme programme_;
@@ -83,14 +91,19 @@ private:
   double window_;
   bool may_release_;
   bool moved_;
+  double sliding_;
   int memory_offset_; // -1: another model
 
   void parse();
   void set_keyword(const std::string &key, const std::string &value);
+  bool set_roll_keyword(const std::string &key, const std::string &value);
+  void check_roll();
   double number(const std::string &key, const std::string &value, bool zero_allowed);
   void set_window();
   void place_wall();
+  bool slides() const;
   void measure();
+  void measure_drag();
   double area() const;
   void add_up(Record &record) const;
   void keep_share();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Programme of the moving platen: down with a smooth start to a pressure, a thickness or a
-// displacement; dwell; up until contact is lost or the start is reached.
+// displacement; dwell; up until contact is lost or the start is reached. Or as a roll passes over
+// the cell, once or several times.
 //
 // Speeds. `touch` while the averaged pressure is below `touch_pressure`, `load` above, so that the
 // stress wave rho c v stays below the pressure being measured. From one to the other and from rest
@@ -15,18 +16,19 @@
 #ifndef CALENDEM_PHYSICS_PLATEN_MOTION_H
 #define CALENDEM_PHYSICS_PLATEN_MOTION_H
 
+#include "roll_nip.h"
 #include <cmath>
 
 namespace calendem {
 
 enum class PlatenStage { Hold = 0, Compression = 1, Dwell = 2, Relaxation = 3, Done = 4 };
-enum class PlatenControl { Hold, Pressure, Position };
+enum class PlatenControl { Hold, Pressure, Position, Roll };
 
 /// What the user sets. Lengths um, times us, speeds um/us = m/s, pressures kPa.
 struct PlatenProgramme {
   PlatenControl control = PlatenControl::Hold;
   double start = 0.0;          ///< position at the beginning
-  double target = 0.0;         ///< kPa or position, by `control`
+  double target = 0.0;         ///< kPa, or position: where the platen stops, or the roll's gap
   double load_speed = 0.0;     ///< > 0
   double touch_speed = 0.0;    ///< > 0
   double release_speed = 0.0;  ///< > 0
@@ -36,6 +38,9 @@ struct PlatenProgramme {
   double lost_fraction = 0.01; ///< of the maximum pressure: contact is lost below it
   double lowest = 0.0;         ///< the platen never goes below
   double compliance = 0.0;     ///< of the machine [um/kPa]; a position is what it shows
+  RollNip roll;                ///< with control = Roll
+  double passes = 1.0;         ///< under the roll, >= 1
+  double first_gap = 0.0;      ///< of the first of several passes; 0: the target
 };
 
 /// What changes; restarts store it as it is.
@@ -48,7 +53,9 @@ struct PlatenState {
   double slope = 0.0;        ///< smoothed dP/d(closing) [kPa/um]
   double rate = 0.0;         ///< smoothed rise of the averaged pressure [kPa/us]
   double last_average = 0.0;
-  double reached = 0.0; ///< 1 if the target was met
+  double reached = 0.0;   ///< 1 if the target was met
+  double passed = 0.0;    ///< passes under the roll that are over
+  double web_speed = 0.0; ///< during a pass
 };
 
 inline PlatenStage stage_of(const PlatenState &s) { return static_cast<PlatenStage>(int(s.stage)); }
@@ -125,21 +132,80 @@ inline void relax(const PlatenProgramme &p, PlatenState &s, double average, doub
   enter(s, PlatenStage::Done, time);
 }
 
+inline bool last_pass(const PlatenProgramme &p, const PlatenState &s) {
+  return s.passed + 1.0 >= p.passes;
+}
+
+/// Smallest gap of the pass that is on.
+inline double gap_of_pass(const PlatenProgramme &p, const PlatenState &s) {
+  return p.first_gap <= 0.0 || last_pass(p, s)
+             ? p.target
+             : p.first_gap + (p.target - p.first_gap) * s.passed / (p.passes - 1.0);
+}
+
+/// Where the cell is on its way under the roll: s, < 0 before the nip.
+inline double along_web(const PlatenProgramme &p, const PlatenState &s) {
+  const double way = p.roll.distance(s.position - gap_of_pass(p, s));
+  return stage_of(s) == PlatenStage::Relaxation ? way : -way;
+}
+
+/// The web moves on for one step, at most to the nip; returns where the cell is then.
+inline double pass_on(const PlatenProgramme &p, PlatenState &s, double dt) {
+  const double gap = gap_of_pass(p, s), most = p.roll.web_speed(p.load_speed, p.start - gap);
+  s.web_speed = approach_speed(s.web_speed, most, most, p.ramp_time, dt);
+  const double on = along_web(p, s) + s.web_speed * dt;
+  const double along = stage_of(s) == PlatenStage::Compression ? std::fmin(on, 0.0) : on;
+  const double position = gap + p.roll.above(along);
+  s.speed = (s.position - position) / dt;
+  s.position = position;
+  return along;
+}
+
+inline void enter_nip(const PlatenProgramme &p, PlatenState &s, double time, double dt) {
+  const bool there = pass_on(p, s, dt) >= 0.0;
+  if (!there && s.position > p.lowest)
+    return;
+  s.reached = there ? 1.0 : 0.0;
+  s.speed = 0.0;
+  enter(s, PlatenStage::Dwell, time);
+}
+
+inline void leave_nip(const PlatenProgramme &p, PlatenState &s, double average, double time,
+                      double dt) {
+  pass_on(p, s, dt);
+  const bool lost = average < p.lost_fraction * s.max_pressure;
+  if (!lost && s.position < p.start)
+    return;
+  s.speed = s.web_speed = 0.0;
+  enter(s, last_pass(p, s) ? PlatenStage::Done : PlatenStage::Compression, time);
+  s.passed += 1.0;
+}
+
+/// Speed of the roll's surface along the web; the roll stands while it is held in the nip.
+inline double slip_speed(const PlatenProgramme &p, const PlatenState &s) {
+  const bool turns =
+      stage_of(s) == PlatenStage::Compression || stage_of(s) == PlatenStage::Relaxation;
+  return p.control == PlatenControl::Roll && turns ? p.roll.slip_speed(s.web_speed, along_web(p, s))
+                                                   : 0.0;
+}
+
 /// One step. `average`: pressure [kPa] averaged over `window` [us]; `time` at the step's end.
-/// `may_release`: false holds the platen in its dwell (a script that ends after compression).
+/// `may_release`: false holds the platen in its dwell, a roll in its last nip (a script that ends
+/// after compression).
 inline void advance(const PlatenProgramme &p, PlatenState &s, double average, double window,
                     double time, double dt, bool may_release) {
   s.max_pressure = std::fmax(s.max_pressure, average);
+  const bool roll = p.control == PlatenControl::Roll;
   switch (stage_of(s)) {
   case PlatenStage::Compression:
-    compress(p, s, average, window, time, dt);
+    roll ? enter_nip(p, s, time, dt) : compress(p, s, average, window, time, dt);
     break;
   case PlatenStage::Dwell:
-    if (may_release && time - s.stage_start >= p.dwell)
+    if ((may_release || (roll && !last_pass(p, s))) && time - s.stage_start >= p.dwell)
       enter(s, PlatenStage::Relaxation, time);
     break;
   case PlatenStage::Relaxation:
-    relax(p, s, average, time, dt);
+    roll ? leave_nip(p, s, average, time, dt) : relax(p, s, average, time, dt);
     break;
   default:
     break;

@@ -30,6 +30,13 @@ TEST(GapAtLoss, BetweenRows) {
   EXPECT_FALSE(gap_at_loss({rows.begin(), rows.end() - 2}, 0.05, 100.0).has_value());
 }
 
+// Requirement: of several passes under a roll the last one counts.
+TEST(GapAtLoss, OfTheLastPass) {
+  const std::vector<RawRow> rows = {row(1, 20.0, 100.0), row(3, 21.0, 4.0), row(1, 20.5, 5.0),
+                                    row(2, 19.0, 90.0),  row(3, 19.5, 6.0), row(4, 20.0, 4.0)};
+  EXPECT_DOUBLE_EQ(*gap_at_loss(rows, 0.05, 100.0), 19.75);
+}
+
 // The rows that a film of that pressure gives on release, averaged over `window`, 0.1 um apart.
 template <class Film>
 std::vector<RawRow> released(Film film, double from, double speed, double window) {

@@ -4,6 +4,7 @@
 #include "physics/press_instruments.h"
 #include "registry/effects.h"
 #include "run/energy.h"
+#include "run/roll_passes.h"
 #include "run/validity.h"
 #include "spec/case.h"
 #include "spec/provenance.h"
@@ -143,7 +144,7 @@ std::string platen_stopped(const std::vector<RawRow> &rows, const Settings &s) {
       control == "pressure" ? "platen.max_pressure_MPa" : "platen." + control + "_um";
   const double target = s.number(key);
   const bool reached = control == "pressure" ? pressure >= (1.0 - kTargetTolerance) * target
-                       : control == "thickness"
+                       : control == "thickness" || control == "roll_gap"
                            ? gap <= (1.0 + kTargetTolerance) * target + kCutOff
                            : moved >= (1.0 - kTargetTolerance) * target - kCutOff;
   return reached
@@ -213,7 +214,10 @@ std::vector<RawRow> read_raw(const std::string &file) {
 std::optional<double> gap_at_loss(const std::vector<RawRow> &rows, double fraction,
                                   double max_pressure) {
   const double lost = fraction * max_pressure;
-  for (size_t k = 1; k < rows.size(); ++k) {
+  size_t released = rows.size(); // a roll may have let go before
+  while (released > 1 && rows[released - 1].stage > 2.5)
+    --released;
+  for (size_t k = released; k < rows.size(); ++k) {
     const RawRow &above = rows[k - 1], &below = rows[k];
     if (below.stage > 2.5 && below.p_top < lost)
       return above.p_top <= lost ? above.gap
@@ -270,6 +274,8 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   s["quasi_static"] = quasi_static(rows, averaging_window(settings));
   s["quasi_static"].update(inertia(rows, top, e.primary));
   s["contact_range"] = contact_range(rows, top);
+  if (settings.text("platen.control") == "roll_gap")
+    s["roll"] = roll_passes(rows, settings);
   s["energy_fJ"] = energy_ledger(rows, top);
   const PressInstruments press = instruments_of(settings);
   s["porosity_initial_shown"] = total_porosity(e, press.thickness_shown(e.thickness));

@@ -36,7 +36,7 @@ constexpr double kQuasiStatic = 0.05;
 /// Rows by time; after a resumption the last of equal steps counts. Cut lines are dropped.
 std::vector<RawRow> read_raw(const std::string &file);
 
-/// Gap at which the averaged pressure first falls below `fraction` of the maximum during
+/// Gap at which the averaged pressure first falls below `fraction` of the maximum during the last
 /// relaxation, linear between rows; none if the platen stopped before that.
 std::optional<double> gap_at_loss(const std::vector<RawRow> &rows, double fraction,
                                   double max_pressure);

@@ -21,7 +21,7 @@ double target_share(const Settings &s, const RawRow &row) {
     return row.p_top / s.number("platen.max_pressure_MPa");
   if (control == "displacement")
     return row.displacement / s.number("platen.displacement_um");
-  const double way = row.gap + row.displacement - s.number("platen.thickness_um");
+  const double way = row.gap + row.displacement - s.number("platen." + control + "_um");
   return way > 0.0 ? row.displacement / way : 1.0;
 }
 

@@ -42,7 +42,7 @@ void check_target(const Settings &s, const ElectrodeFacts &e, Mistakes &mistakes
   if (control == "pressure")
     return;
   const std::string key = "platen." + control + "_um";
-  const double target = control == "thickness" ? s.number(key) : e.thickness - s.number(key);
+  const double target = control == "displacement" ? e.thickness - s.number(key) : s.number(key);
   if (target < lowest)
     mistakes.add(0,
                  fmt::format("{} = {} sends the platen to {:.2f} um, but the solid alone fills "
@@ -52,6 +52,11 @@ void check_target(const Settings &s, const ElectrodeFacts &e, Mistakes &mistakes
     mistakes.add(0, fmt::format("{} = {} sends the platen to {:.2f} um and it starts at {:.2f} um: "
                                 "nothing would be compressed.",
                                 key, s.text(key), target, e.thickness));
+  const std::string first = "roll.first_gap_um";
+  if (control == "roll_gap" && s.number(first) >= e.thickness)
+    mistakes.add(0, fmt::format("{} = {} is no less than the electrode's {:.2f} um: the first pass "
+                                "would compress nothing. Give a smaller one, or 0.",
+                                first, s.text(first), e.thickness));
 }
 
 /// Where nanopores may fall, they start from what the electrode was packed with.

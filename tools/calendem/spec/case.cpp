@@ -150,6 +150,26 @@ void check_target(const Settings &s, Mistakes &mistakes) {
                              key, s.number(key)));
 }
 
+/// What a roll cannot do, or is told in another way.
+void check_roll(const Settings &s, Mistakes &mistakes) {
+  if (!s.sound({"platen.control"}) || s.text("platen.control") != "roll_gap")
+    return;
+  const std::string first = "roll.first_gap_um", gap = "platen.roll_gap_um";
+  if (s.sound({first, gap}) && s.number(first) > 0.0 && s.number(first) < s.number(gap))
+    mistakes.add(s.line(first),
+                 fmt::format("{} is {}, below {} = {}: passes go from a wider gap to a narrower "
+                             "one. Give at least that, or 0: the same gap in all passes.",
+                             first, s.text(first), gap, s.text(gap)));
+  for (const auto &[key, why] :
+       {std::pair("platen.dwell_us", "a roll does not stand still in the nip"),
+        std::pair("effects.machine_compliance.um_per_MPa",
+                  "platen.roll_gap_um is the gap of the loaded rolls, frame and all")})
+    if (s.sound({key}) && s.number(key) > 0.0)
+      mistakes.add(s.line(key), fmt::format("{} is {} and platen.control is \"roll_gap\": {}. "
+                                            "Give 0.",
+                                            key, s.text(key), why));
+}
+
 const char *const kSpeeds[] = {"platen.speed_m_s", "platen.touch_speed_m_s",
                                "platen.release_speed_m_s"};
 
@@ -193,6 +213,7 @@ void check_case(const Settings &s, Mistakes &mistakes) {
         check_one_law(s, e, f, mistakes);
   }
   check_target(s, mistakes);
+  check_roll(s, mistakes);
   check_window(s, mistakes);
 }
 

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Line loads of passes against the closed form of a linear film.
+#include "physics/roll_nip.h"
+#include "run/roll_passes.h"
+#include "spec/case.h"
+#include "spec/provenance.h"
+#include "support/test_folder.h"
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace calendem;
+
+constexpr double kRadius = 2e5, kStart = 60.0, kFilm = 58.0, kStiffness = 10.0; // um, MPa/um
+
+Settings case_with(const std::string &tables) {
+  const std::string file = (calendem_test::test_folder() / "case.toml").string();
+  write_file(file, "electrode = \"electrode\"\n" + tables);
+  return read_case(file);
+}
+
+// One pass of that gap over a film that springs back all the way, or not at all.
+void add_pass(std::vector<RawRow> &rows, double gap, bool springs) {
+  const RollNip nip = {kRadius, kRadius, 0.0};
+  const double way = nip.distance(kStart - gap);
+  for (int n = -400; n <= 400; ++n) {
+    RawRow r = {};
+    r.stage = n <= 0 ? 1 : 3;
+    r.gap = gap + nip.above(way * n / 400.0);
+    r.displacement = kStart - r.gap;
+    r.p_top = n > 0 && !springs ? 0.0 : kStiffness * std::max(kFilm - r.gap, 0.0);
+    rows.push_back(r);
+  }
+}
+
+} // namespace
+
+// Requirement: a film of pressure k (h0 - h) takes q = (2/3) k (h0 - h_min) s0 on each side of the
+// nip, s0 = sqrt(2 R (h0 - h_min)); the trapezoid of rows ds apart is off by (ds/s0)^2 at most.
+TEST(RollPasses, LineLoadOfALinearFilm) {
+  const Settings s = case_with("[platen]\ncontrol = \"roll_gap\"\nroll_gap_um = 50\n[roll]\n"
+                               "passes = 2\nfirst_gap_um = 54\n");
+  std::vector<RawRow> rows;
+  add_pass(rows, 54.0, true);
+  add_pass(rows, 50.0, false);
+  const nlohmann::json roll = roll_passes(rows, s);
+  ASSERT_EQ(roll["passes"].size(), 2u);
+  int n = 0;
+  for (const double gap : {54.0, 50.0}) {
+    const nlohmann::json &pass = roll["passes"][n++];
+    const double s0 = std::sqrt(kRadius * (kFilm - gap)); // two equal rolls: R / 2
+    const double in = 1e-3 * 2.0 / 3.0 * kStiffness * (kFilm - gap) * s0;
+    const double error = std::pow(1.5 / 400.0, 2);
+    EXPECT_NEAR(pass["line_load_before_the_nip_N_mm"].get<double>() / in, 1.0, error);
+    if (gap == 54.0)
+      EXPECT_NEAR(pass["line_load_N_mm"].get<double>() / in, 2.0, 0.01); // of the row in the nip
+    EXPECT_DOUBLE_EQ(pass["gap_um"], gap);
+    EXPECT_DOUBLE_EQ(pass["max_pressure_MPa"], kStiffness * (kFilm - gap));
+  }
+  const double web = 1.0 / std::sqrt(2.0 * (kStart - 50.0) / (0.5 * kRadius)); // v = s u / R
+  EXPECT_NEAR(roll["web_speed_of_the_run_m_s"].get<double>() / web, 1.0, 1e-12);
+  EXPECT_NEAR(roll["run_faster_by"].get<double>() / (web / (0.5 / 60.0)), 1.0, 1e-12);
+}
+
+// Requirement: what a roll cannot do is refused, all of it at once.
+TEST(RollPasses, CaseIsChecked) {
+  try {
+    case_with("[platen]\ncontrol = \"roll_gap\"\nroll_gap_um = 50\ndwell_us = 1\n[roll]\n"
+              "first_gap_um = 40\n[effects.machine_compliance]\num_per_MPa = 0.01\n");
+    FAIL() << "the case was taken";
+  } catch (const std::exception &e) {
+    for (const char *said : {"roll.first_gap_um is 40, below platen.roll_gap_um = 50",
+                             "does not stand still in the nip", "is the gap of the loaded rolls"})
+      EXPECT_NE(std::string(e.what()).find(said), std::string::npos) << e.what();
+  }
+}
