@@ -105,9 +105,10 @@ void DumpBondBpmVtk::write() {
     if (fix_->body(i) > 0)
       centres.push_back({double(atom->tag[i]), atom->x[i][0], atom->x[i][1], atom->x[i][2]});
   centres = gather(centres, kCentreSize, world);
+  const std::vector<BreakEvent> &breaks = fix_->breaks();
   if (comm->me != 0)
     return;
-  for (const BreakEvent &e : fix_->breaks())
+  for (const BreakEvent &e : breaks)
     lines.push_back(
         {e.tag_low, e.tag_high, e.body, 0.0, e.mode, 1e-3 * e.sigma, 1e-3 * e.tau, e.time});
   std::unordered_map<int, const Centre *> by_tag;

@@ -17,9 +17,10 @@ double effective_mass(const PairTile &t, int p) {
   return t.mass_i[p] * t.mass_j[p] / (t.mass_i[p] + t.mass_j[p]);
 }
 
-// `kUpdate`: histories advance. `kCriterion` is a constant so that the loop has no branch; material
-// and strength are copies, which nothing stored can change.
-template <bool kUpdate, FailureCriterion kCriterion>
+// `kUpdate`: histories advance. `kDamped`: bonds have viscous damping. `kCriterion` is a constant
+// so that the loop has no branch; material and strength are copies, which nothing stored can
+// change.
+template <bool kUpdate, bool kDamped, FailureCriterion kCriterion>
 __attribute__((flatten)) void run_bonds(PairTile &t, const BondMaterial material,
                                         const BondStrength strength, double dt) {
 #pragma GCC ivdep
@@ -36,13 +37,16 @@ __attribute__((flatten)) void run_bonds(PairTile &t, const BondMaterial material
       const BondStrength own = {factor * strength.tensile, factor * strength.shear};
       t.failed[p] = calendem::fails(loads, pair.tension, pair.section, own, kCriterion) ? 1.0 : 0.0;
     }
-    const calendem::BondDamping damping(material, pair.section, pair.stiffness,
-                                        effective_mass(t, p),
-                                        std::min(t.radius_i[p], t.radius_j[p]));
+    calendem::BondDamping damping;
+    if (kDamped)
+      damping = calendem::BondDamping(material, pair.section, pair.stiffness, effective_mass(t, p),
+                                      std::min(t.radius_i[p], t.radius_j[p]));
     const calendem::BondAction a = calendem::action(loads, pair.tension, pair.motion, damping);
     t.force.set(p, a.force);
     t.torque_i.set(p, a.torque_i);
     t.torque_j.set(p, a.torque_j);
+    if (!kDamped)
+      continue;
     const calendem::BondAction d = calendem::damping_action(pair.motion, damping);
     t.bond_damping.set(p, d.force);
     t.bond_damping_torque_i.set(p, d.torque_i);
@@ -112,17 +116,24 @@ __attribute__((flatten)) void run_contacts(PairTile &t, double dt) {
 } // namespace
 
 namespace {
-template <bool kUpdate>
+template <bool kUpdate, bool kDamped>
 void run_bonds(PairTile &t, const BondMaterial &material, const BondStrength &strength,
                FailureCriterion criterion, double dt) {
   switch (criterion) {
   case FailureCriterion::Unsigned:
-    return run_bonds<kUpdate, FailureCriterion::Unsigned>(t, material, strength, dt);
+    return run_bonds<kUpdate, kDamped, FailureCriterion::Unsigned>(t, material, strength, dt);
   case FailureCriterion::AsPrinted:
-    return run_bonds<kUpdate, FailureCriterion::AsPrinted>(t, material, strength, dt);
+    return run_bonds<kUpdate, kDamped, FailureCriterion::AsPrinted>(t, material, strength, dt);
   default:
-    return run_bonds<kUpdate, FailureCriterion::Signed>(t, material, strength, dt);
+    return run_bonds<kUpdate, kDamped, FailureCriterion::Signed>(t, material, strength, dt);
   }
+}
+
+template <bool kUpdate>
+void run_bonds(PairTile &t, const BondMaterial &material, const BondStrength &strength,
+               FailureCriterion criterion, double dt) {
+  material.damping > 0.0 ? run_bonds<kUpdate, true>(t, material, strength, criterion, dt)
+                         : run_bonds<kUpdate, false>(t, material, strength, criterion, dt);
 }
 } // namespace
 

@@ -3,7 +3,7 @@
 # lattice: cost of contact and bond over the host's contact alone.  ranks: 2 ranks over 1 on the demo
 # cell.  memory: resident size early and late in 1e5 steps.  The last two run with CALENDEM_HEAVY=1.
 set -euo pipefail
-case=$1 bin=$2 work=$3 repeats=${4:-3}
+case=$1 bin=$2 work=$3 repeats=${4:-5}
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 scripts=$(cd "$here/../../input_scripts" && pwd)
 if [ "$(id -u)" -eq 0 ]; then export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; fi
@@ -36,9 +36,11 @@ case $case in
         'BEGIN { printf "%d,%g,%g,%.3f,%.1f\n", r, a, b, b / a, (b - a) / 800 / 30492 * 1e9 }' |
         tee -a "$work/lattice.csv"
     done
-    awk -F, 'NR > 1 { if (!a || $2 < a) a = $2; if (!b || $3 < b) b = $3 }
-      END { printf "contact and bond / contact alone: %.2f, %.1f ns per bond-step (shortest of %d)\n",
-        b / a, (b - a) / 800 / 30492 * 1e9, NR - 1 }' "$work/lattice.csv" ;;
+    awk -F, 'NR > 1 { if (!a || $2 < a) a = $2; if (!b || $3 < b) b = $3; if ($4 > most) most = $4
+        if (!least || $4 < least) least = $4 }
+      END { printf "contact and bond / contact alone: %.2f (shortest of %d; single ratios %.2f to %.2f), %.1f ns per bond-step\n",
+        b / a, NR - 1, least, most, (b - a) / 800 / 30492 * 1e9 }' "$work/lattice.csv"
+    echo "load of the machine: $(cut -d' ' -f1-3 /proc/loadavg) on $(nproc) processors" ;;
   ranks)
     heavy
     electrode
