@@ -61,7 +61,7 @@ public:
   }
 
   // Of contacts that an effect acts on, the two for the time step of others too; see
-  // physics/contact_interface.h.
+  // physics/law_interface.h.
   double contact_radius(const EffectContact &c, const double *memory) const {
     return with_law(
         c, memory, [&](const auto &law, auto... m) { return law.contact_radius(c.overlap, m...); });

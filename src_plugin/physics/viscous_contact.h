@@ -19,9 +19,9 @@
 #ifndef CALENDEM_PHYSICS_VISCOUS_CONTACT_H
 #define CALENDEM_PHYSICS_VISCOUS_CONTACT_H
 
-#include "contact_interface.h"
-#include "contact_limits.h"
 #include "hertz_contact.h"
+#include "law_interface.h"
+#include "law_limits.h"
 
 namespace calendem {
 

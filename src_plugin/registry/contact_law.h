@@ -62,7 +62,7 @@ inline constexpr ContactLaw kConfinedContact = {
 
 inline constexpr std::array<const ContactLaw *, 3> kContactLaws = {
     &kPlasticContact, &kViscousContact, &kConfinedContact};
-/// Their classes (physics/contact_interface.h), in the same order.
+/// Their classes (physics/law_interface.h), in the same order.
 using ContactLaws = std::tuple<PlasticContact, ViscousContact, ConfinedContact>;
 static_assert(std::tuple_size_v<ContactLaws> == kContactLaws.size(), "a law has a row and a class");
 

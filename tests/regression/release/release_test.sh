@@ -53,9 +53,10 @@ case $1 in
     mkdir -p "$work/pressed/vtk"
     cp "$3/compressed.restart" "$3/time_step.in" "$3/settings.txt" "$3/breaks.csv" "$work/pressed/"
     awk -F, 'NR == 1 || $3 < 2.5' "$3/curve_raw.csv" >"$work/pressed/curve_raw.csv"
-    for v in 1 4 8; do
-      for w in 0.0125 0.025 0.1; do release $v $w; done
-      platen 0.05 "$work"/release_${v}_* | within "$v m/s, windows 0.0125 to 0.1 us, 5 %" 3
+    for v in "1 0.0125 0.05 0.1" "4 0.00625 0.0125 0.025" "8 0.00625 0.01 0.0125"; do # up to 0.1 um of travel
+      read -r speed short middle longest <<<"$v"
+      for w in $short $middle $longest; do release "$speed" "$w"; done
+      platen 0.05 "$work"/release_"$speed"_* | within "$speed m/s, windows $short to $longest us, 5 %" 3
     done
     both_walls 0.05 "$work"/release_{1_0.1,4_0.025,8_0.0125} | within "1, 4 and 8 m/s, windows of 0.1 um, 5 % on both walls" 3 ;;
   bank)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What the strength of a contact law may be between two phases, beside its key's own range: with
 // the cohesion and the modulus that the phases have, some values let a packing collapse.
-#ifndef CALENDEM_PHYSICS_CONTACT_LIMITS_H
-#define CALENDEM_PHYSICS_CONTACT_LIMITS_H
+#ifndef CALENDEM_PHYSICS_LAW_LIMITS_H
+#define CALENDEM_PHYSICS_LAW_LIMITS_H
 
 #include <limits>
 

@@ -14,8 +14,8 @@
 //   advance(before, now, time, m...)     brings m up to the overlap `now`, which `time` ago was
 //                                        `before`; returns the work taken for good, >= 0
 // A row of registry/contact_law.h makes it known. Stateless: all that lasts is in m.
-#ifndef CALENDEM_PHYSICS_CONTACT_INTERFACE_H
-#define CALENDEM_PHYSICS_CONTACT_INTERFACE_H
+#ifndef CALENDEM_PHYSICS_LAW_INTERFACE_H
+#define CALENDEM_PHYSICS_LAW_INTERFACE_H
 
 namespace calendem {
 
