@@ -256,32 +256,38 @@ void FixWallGranPlaten::post_force(int vflag) {
     measure_drag();
 }
 
+calendem::LongSum FixWallGranPlaten::over_ranks(const calendem::LongSum &sum) const {
+  const long long mine[2] = {sum.high, sum.low};
+  long long all[2];
+  MPI_Allreduce(mine, all, 2, MPI_LONG_LONG, MPI_SUM, world);
+  return {all[0], all[1]};
+}
+
 // Ranks wait for each other only at the end of an average's block.
 void FixWallGranPlaten::measure() {
   long long load = 0;
   for (int i = 0; i < atom->nlocal; ++i)
     load += kLoads.of(sign_ * fix_wallforce_->array_atom[i][2]);
   record_.load = load;
-  record_.block += load;
+  record_.block.add(load);
   record_.work += 0.5 * kLoads.value(load) * record_.state.speed * update->dt;
   if (!record_.height.add(record_.state.position))
     return;
-  long long all = 0;
-  MPI_Allreduce(&record_.block, &all, 1, MPI_LONG_LONG, MPI_SUM, world);
-  record_.block = 0;
+  const calendem::LongSum all = over_ranks(record_.block);
+  record_.block = {};
   const double steps = record_.height.block_length;
-  record_.average.add_block(kLoads.value(all) / (steps * area()));
+  record_.average.add_block(all.value() * kLoads.unit / (steps * area()));
   update_slope(programme_, record_.state, record_.average.value(), steps * update->dt);
 }
 
 void FixWallGranPlaten::add_up(Record &record) const {
-  long long mine[2] = {record.load, record.block}, all[2];
-  MPI_Allreduce(mine, all, 2, MPI_LONG_LONG, MPI_SUM, world);
+  long long load = 0;
+  MPI_Allreduce(&record.load, &load, 1, MPI_LONG_LONG, MPI_SUM, world);
   const double my_work[2] = {record.work, record.drag};
   double work[2];
   MPI_Allreduce(my_work, work, 2, MPI_DOUBLE, MPI_SUM, world);
-  record.load = all[0];
-  record.block = all[1];
+  record.load = load;
+  record.block = over_ranks(record.block);
   record.work = work[0];
   record.drag = work[1];
 }
@@ -341,7 +347,8 @@ void FixWallGranPlaten::restart(char *buf) {
 
 void FixWallGranPlaten::keep_share() {
   if (comm->me != 0) {
-    record_.load = record_.block = 0;
+    record_.load = 0;
+    record_.block = {};
     record_.work = record_.drag = 0.0;
   }
 }

@@ -29,6 +29,7 @@ FixStyle(wall/gran/platen, FixWallGranPlaten)
 #define LMP_FIX_WALL_GRAN_PLATEN_H
 
 #include "fix_wall_gran.h"
+#include "physics/fixed_point.h"
 #include "physics/moving_average.h"
 #include "physics/platen_motion.h"
 #include <string>
@@ -80,7 +81,7 @@ private:
     calendem::MovingAverage average; ///< of the pressure
     calendem::MovingAverage height;  ///< of the position
     long long load = 0;              ///< as FixedPoint: the same on any number of ranks
-    long long block = 0;             ///< sum of the loads since the average's last block
+    calendem::LongSum block;         ///< of the loads since the average's last block
     double work = 0.0;
     double drag = 0.0; ///< force along x on this rank's particles
   };
@@ -105,6 +106,7 @@ private:
   void measure();
   void measure_drag();
   double area() const;
+  calendem::LongSum over_ranks(const calendem::LongSum &sum) const;
   void add_up(Record &record) const;
   void keep_share();
 };

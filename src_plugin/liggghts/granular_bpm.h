@@ -6,8 +6,11 @@
 #define CALENDEM_GRANULAR_BPM_H
 
 #include "bpm_pair_loop.h"
+#include "error.h"
 #include "granular_pair_style.h"
+#include "lammps.h"
 #include <cstring>
+#include <string>
 
 namespace LIGGGHTS {
 namespace ContactModels {
@@ -37,11 +40,16 @@ class Granular<ContactModels::ContactModel<ContactModels::BpmStyle<M>>>
 
 public:
   Granular(class LAMMPS_NS::LAMMPS *lmp, LAMMPS_NS::PairGran *parent, const int64_t hash)
-      : Reference(lmp, parent, hash), loop_(lmp), fused_(true) {}
+      : Reference(lmp, parent, hash), lmp_(lmp), loop_(lmp), fused_(true) {}
 
   void settings(int nargs, char **args, IContactHistorySetup *hsetup) {
     if (nargs >= 2 && !strcmp(args[0], "fused")) {
       fused_ = !strcmp(args[1], "on");
+      if (!fused_ && strcmp(args[1], "off") != 0) {
+        const std::string message =
+            std::string("pair_style gran: 'fused' is '") + args[1] + "'; it must be on or off";
+        lmp_->error->all(FLERR, message.c_str());
+      }
       nargs -= 2;
       args += 2;
     }
@@ -63,6 +71,7 @@ public:
   }
 
 private:
+  LAMMPS_NS::LAMMPS *lmp_;
   LAMMPS_NS::BpmPairLoop loop_;
   bool fused_;
 };

@@ -24,6 +24,19 @@ struct FixedPoint {
   double value(long long sum) const { return static_cast<double>(sum) * unit; }
 };
 
+/// Sum of whole numbers that one alone cannot hold, as two of them: 2^31 terms of any size.
+struct LongSum {
+  long long high = 0, low = 0; ///< high * 2^32 + low
+
+  void add(long long term) {
+    high += term >> 32;
+    low += term & 0xffffffffLL;
+  }
+  double value() const {
+    return static_cast<double>(high) * 4294967296.0 + static_cast<double>(low);
+  }
+};
+
 /// Spacing of numbers that are all exact, up to `largest` in size: coordinates on it can be shifted
 /// by a multiple of it and back without rounding.
 inline double exact_spacing(double largest) {
