@@ -222,7 +222,7 @@ void BpmPairLoop::sort() {
     const Pair &pair = pairs_[of_kind_[kApart][p]];
     BondHistory bond(pair.history + bond_);
     if (bond.state() == kBrokenTouching && update_)
-      bond.set_state(kBrokenSeparated);
+      fix_->separate(pair.i, pair.j, bond);
     leave(pair);
   }
 }
@@ -305,7 +305,7 @@ void BpmPairLoop::act_effects() {
     double *memory = pair.history + memory_;
     if (update_) {
       const Vec3 n = (1.0 / std::sqrt(pair.r_squared)) * t.d[p];
-      const double before = overlap + dot(t.v[p], n) * update->dt;
+      const double before = overlap > 0.0 ? overlap + dot(t.v[p], n) * update->dt : 0.0;
       const double taken = effects_.advance(contact, before, update->dt, memory);
       if (energy_ && taken != 0.0)
         energy_->add_taken(pair.i, pair.j, taken, effects_.law(a, b).takes);

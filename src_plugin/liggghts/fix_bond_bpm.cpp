@@ -55,7 +55,7 @@ FixBondBpm::~FixBondBpm() {
 }
 
 int FixBondBpm::setmask() {
-  // PRE_EXCHANGE and PRE_FORCE for their set-up calls
+  // PRE_EXCHANGE for its set-up call
   return POST_INTEGRATE | PRE_EXCHANGE | PRE_FORCE | POST_FORCE | END_OF_STEP;
 }
 
@@ -142,6 +142,18 @@ void FixBondBpm::setup_pre_force(int) {
   creating_ = !created_;
   if (creating_)
     comm->forward_comm_fix(this);
+  pre_force(0);
+}
+
+// Pairs that are new in the lists, or whose history the host has dropped, know of no bond.
+void FixBondBpm::pre_force(int) {
+  if (settings_.contact_diameter == 1.0 || neighbor->ago != 0)
+    return;
+  comm->forward_comm_fix(this);
+  for_each_neighbor([this](int i, int j, BondHistory &bond) {
+    if (bond.state() == kNeverBonded)
+      bond.meet_at(meeting_distance(i, j));
+  });
 }
 
 void FixBondBpm::setup(int) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // fix ID all bond/bpm bodies FILE youngs_modulus E nu NU radius_ratio L tensile S shear T
 //     criterion signed|unsigned|as_printed damping D weibull M SEED breakable yes|no log FILE
-//     pressure PLATEN_FIX LAW NUMBERS ...
+//     pressure PLATEN_FIX contact_diameter D LAW NUMBERS ...
 // fix_modify ID LAW NUMBERS ...       with a further law of strength, see bond_strengths.h
 //
 // Keeps positions and periodic sides on a grid on which shifts by a side are exact: both copies of
@@ -10,8 +10,10 @@
 // first set-up after the fix appears, between touching primaries of one body, once), the breaks,
 // and the event log. Every copy of a pair breaks in the same step without a word between ranks; the
 // rank that owns the lower tag writes the event down, and events are gathered when they are asked
-// for, at the latest after 100 steps. All stresses in kPa (units micro). Global vector: see compute
-// bond/bpm. Everything restarts, under the same fix ID.
+// for, at the latest after 100 steps. Two primaries of one body that are not bonded, nor have
+// touched since their bond broke, meet at D times the sum of their radii, 1 by default. All
+// stresses in kPa (units micro). Global vector: see compute bond/bpm. Everything restarts, under
+// the same fix ID.
 #ifdef FIX_CLASS
 
 FixStyle(bond/bpm, FixBondBpm)
@@ -38,6 +40,7 @@ struct BondSettings {
   calendem::FailureCriterion criterion = calendem::FailureCriterion::Signed;
   BondStrengths strengths; ///< from bond to bond
   bool breakable = true;
+  double contact_diameter = 1.0; ///< of a body's primaries that meet, over the sum of radii
 
   calendem::BondStrength strength_of(double factor) const {
     return {factor * strength.tensile, factor * strength.shear};
@@ -66,6 +69,7 @@ public:
   void setup_pre_exchange();
   void setup_pre_force(int);
   void setup(int);
+  void pre_force(int);
   void post_integrate();
   void post_run();
   void post_force(int);
@@ -94,6 +98,8 @@ public:
   const BondSettings &settings() const { return settings_; }
   bool creating() const { return creating_; }
   void create(int i, int j, double r, BondHistory &bond) const;
+  /// The spheres of a broken pair have separated.
+  void separate(int i, int j, BondHistory &bond) const;
   void record_break(int i, int j, BondHistory bond, const calendem::BondLoads &, double tension,
                     const calendem::BondSection &, const calendem::BondStiffness &, double factor);
   void check_stretch(double stretch) {
@@ -170,6 +176,7 @@ private:
   void read_bodies();
   void measure_bodies();
   void check_box();
+  double meeting_distance(int i, int j) const;
   bigint count_intact();
   bool copies_agree();
   bigint broken() const;

@@ -71,7 +71,7 @@ public:
       return;
     BondHistory bond(s.contact_history + offset_);
     if (bond.state() == kBrokenTouching && s.computeflag && s.shearupdate)
-      bond.set_state(kBrokenSeparated);
+      fix_->separate(s.i, s.j, bond);
   }
 
   void endSurfacesIntersect(SurfacesIntersectData &, TriMesh *, double *const) {}

@@ -44,6 +44,10 @@ inline std::vector<Key> base_settings() {
       {"bond.criterion", "criterion", "signed", 0, 0, "", "sign of F_n in eq. 6",
        "signed|unsigned|as_printed"},
       {"bond.breakable", "breakable", "yes", 0, 0, "", "no: bonds bear any load", "yes|no"},
+      {"bond.contact_diameter", "contact_diameter", "radii", 0, 0, "",
+       "at which primaries of one body meet that are not bonded, nor have touched since their bond "
+       "broke: the sum of their radii, or the spacing of their lattice",
+       "radii|lattice"},
       {"bond.damping", "bond_damping", "0.02", 0, 1, "", "fraction of critical damping"},
       {"bond.weibull_modulus", "weibull_m", "0", 0, 100, "", "scatter of strength; 0: none"},
       {"bond.seed", "bond_seed", "1", 0, 4e9, "", "of the scatter", "", false, true},
