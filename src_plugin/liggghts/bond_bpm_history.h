@@ -9,8 +9,14 @@
 namespace LAMMPS_NS {
 
 /// State of a pair. The overlap at creation stays the contact's reference until a broken pair's
-/// spheres have separated.
-enum BondState { kNeverBonded = 0, kIntact = 1, kBrokenTouching = 2, kBrokenSeparated = 3 };
+/// spheres have separated. A binder bridge stands beside the pair's contact, which has no reference.
+enum BondState {
+  kNeverBonded = 0,
+  kIntact = 1,
+  kBrokenTouching = 2,
+  kBrokenSeparated = 3,
+  kBridge = 4
+};
 
 /// View of one pair's history values; vectors change sign in the host's mirrored copies. State and
 /// length stand last, beside the friction's values: a contact without a bond reads no more.
@@ -32,13 +38,15 @@ public:
     calendem::store(l.bending, h_ + 4);
   }
 
-  void create(double length, double strength_factor) {
-    h_[kState] = kIntact;
+  void create(double length, double strength_factor, BondState state = kIntact) {
+    h_[kState] = state;
     h_[kLength] = length;
     h_[7] = strength_factor;
     set_loads({});
   }
 
+  /// True while a bond or a bridge joins the pair.
+  bool acts() const { return state() == kIntact || state() == kBridge; }
   /// True while the contact's overlap is counted from its creation.
   bool has_reference() const { return state() == kIntact || state() == kBrokenTouching; }
   /// Memory of `model hertz_effects`, whose history value follows; NULL for a contact that the

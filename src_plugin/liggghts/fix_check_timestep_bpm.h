@@ -49,8 +49,8 @@ private:
   typedef std::vector<Row> Rows;
 
   double bond_bound() const;
-  double contact_bound(const Rows &bonds) const;
-  double contact_bound(int i, int other, const Row &bonds) const;
+  double contact_bound(const Rows &bonds, const Rows &bridges) const;
+  double contact_bound(int i, int other, const Row &bonds, const Row &bridges) const;
   void add_contacts(Rows &rows) const;
   calendem::BondCoefficients stiffness_of(int ti, int tj, double a) const;
   double rayleigh_time() const;
