@@ -157,7 +157,7 @@ void FixBondBpm::setup(int) {
   if (comm->me == 0 && logfile)
     fprintf(logfile, "fix %s: " BIGINT_FORMAT " bonds made\n", id, initial_);
   if (bridges_.on())
-    count_bridges();
+    count_bridges_made();
 }
 
 // Of every pair on two ranks, or across a periodic side, both copies are intact or none.
@@ -248,9 +248,9 @@ void FixBondBpm::gather_breaks() {
     ++(e.of_bridge() ? bridges_broken_ : by_mode_)[static_cast<int>(e.mode)];
     (e.of_bridge() ? bridge_energy_lost_ : energy_lost_) += e.energy;
   }
-  all.erase(std::remove_if(all.begin(), all.end(),
-                           [](const BreakEvent &e) { return e.of_bridge(); }),
-            all.end());
+  all.erase(
+      std::remove_if(all.begin(), all.end(), [](const BreakEvent &e) { return e.of_bridge(); }),
+      all.end());
   log_breaks(all);
 }
 
@@ -273,8 +273,7 @@ void FixBondBpm::post_run() { gather_breaks(); }
 void FixBondBpm::check_acting(bool new_lists) {
   if (new_lists) {
     expected_ = 0;
-    for_each_acting_copy(
-        [this](int i, int j, const BondHistory &) { expected_ += decides(i, j); });
+    for_each_acting_copy([this](int i, int j, const BondHistory &) { expected_ += decides(i, j); });
   }
   if (missing_ == 0)
     missing_ = expected_ - acting_;

@@ -15,8 +15,9 @@
 // the same fix ID. Bridges (physics/binder_bridge.h) of modulus E, radius ratio L and tensile
 // strengths S between CBD and AM, CBD, collector (types as in registry/effect.h) are made with the
 // bonds and damped as they are; the script gives them again after a restart. No bond of a body and
-// nothing of bodies counts them. Global vector: 1-9 as compute bond/bpm; bridges made 10 to AM 11 to
-// CBD 12 to the collector; broken 13 14 15; 16 their strain energy, 17 that released by breaks [fJ].
+// nothing of bodies counts them. Global vector: 1-9 as compute bond/bpm; bridges made 10 to AM 11
+// to CBD 12 to the collector; broken 13 14 15; 16 their strain energy, 17 that released by breaks
+// [fJ].
 #ifdef FIX_CLASS
 
 FixStyle(bond/bpm, FixBondBpm)
@@ -108,8 +109,10 @@ public:
   bool creating() const { return creating_; }
   void create(int i, int j, double r, BondHistory &bond) const;
   void bridge(int i, int j, double r, BondHistory &bond) const;
-  /// On the collector: this rank has made some, or one of them has broken.
-  void bridges_made_on_wall(bigint n) { bridges_made_[int(calendem::BridgeKind::CbdCollector)] += n; }
+  /// On the collector: all that were made; one of this rank has broken.
+  void bridges_made_on_wall(bigint n) {
+    bridges_made_[int(calendem::BridgeKind::CbdCollector)] = n;
+  }
   void bridge_breaks_on_wall(int i, double energy);
   void record_break(int i, int j, BondHistory bond, const calendem::BondLoads &, double tension,
                     const calendem::BondSection &, const calendem::BondStiffness &, double factor);
@@ -173,8 +176,8 @@ private:
   std::vector<BreakEvent> mine_;   // decided here since the last gathering
   std::vector<BreakEvent> breaks_; // gathered
   double overstretched_;           // the first stretch beyond the limit, 0 if none
-  // intact bonds and bridges that this rank decides: acted in this step; are there; did not act when
-  // they had to
+  // intact bonds and bridges that this rank decides: acted in this step; are there; did not act
+  // when they had to
   bigint acting_, expected_, missing_;
   double spacing_[3]; // of the grid of positions, 0 along sides that are not periodic
 
@@ -185,7 +188,8 @@ private:
   void check_bridges(double poisson);
   void check_radii();
   calendem::BridgeKind kind_of_bridge(int i, int j) const;
-  void count_bridges();
+  void count_bridges(bigint *of_kind);
+  void count_bridges_made();
   void check_bridges_add_up();
   bigint acting_pairs() const;
   double bridge_vector(int n);

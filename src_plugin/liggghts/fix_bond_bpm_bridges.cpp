@@ -4,9 +4,11 @@
 #include "error.h"
 #include "fix_bond_bpm.h"
 #include "modify.h"
+#include "mpi_liggghts.h"
 #include "registry/effect.h"
 #include "update.h"
 #include "wall_bridges.h"
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -81,22 +83,19 @@ void FixBondBpm::bridge(int i, int j, double r, BondHistory &bond) const {
     bond.create(r, tensile, kBridge);
 }
 
-void FixBondBpm::count_bridges() {
-  bigint mine[calendem::kBridgeKinds] = {};
-  mine[int(BridgeKind::CbdCollector)] = bridges_made_[int(BridgeKind::CbdCollector)];
+// Between the spheres of this rank.
+void FixBondBpm::count_bridges(bigint *of_kind) {
+  std::fill_n(of_kind, calendem::kBridgeKinds, 0);
   for_each_acting_copy([&](int i, int j, const BondHistory &bond) {
     if (bond.state() == kBridge && decides(i, j))
-      ++mine[int(kind_of_bridge(i, j))];
+      ++of_kind[int(kind_of_bridge(i, j))];
   });
+}
+
+void FixBondBpm::count_bridges_made() {
+  bigint mine[calendem::kBridgeKinds];
+  count_bridges(mine);
   MPI_Allreduce(mine, bridges_made_, calendem::kBridgeKinds, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (comm->me != 0)
-    return;
-  for (FILE *out : {screen, logfile})
-    if (out)
-      fprintf(out,
-              "fix %s: binder bridges made: " BIGINT_FORMAT " to AM, " BIGINT_FORMAT
-              " to CBD, " BIGINT_FORMAT " to the collector\n",
-              id, bridges_made_[0], bridges_made_[1], bridges_made_[2]);
 }
 
 void FixBondBpm::bridge_breaks_on_wall(int i, double energy) {
@@ -118,11 +117,8 @@ bigint FixBondBpm::acting_pairs() const {
 }
 
 void FixBondBpm::check_bridges_add_up() {
-  bigint mine[calendem::kBridgeKinds] = {}, intact[calendem::kBridgeKinds];
-  for_each_acting_copy([&](int i, int j, const BondHistory &bond) {
-    if (bond.state() == kBridge && decides(i, j))
-      ++mine[int(kind_of_bridge(i, j))];
-  });
+  bigint mine[calendem::kBridgeKinds], intact[calendem::kBridgeKinds];
+  count_bridges(mine);
   if (const WallBridges *wall = WallBridges::find(lmp))
     mine[int(BridgeKind::CbdCollector)] = wall->intact();
   MPI_Allreduce(mine, intact, calendem::kBridgeKinds, MPI_LMP_BIGINT, MPI_SUM, world);

@@ -45,6 +45,10 @@ private:
       stiffness.add(k, n, length);
       damping.add(c, n, length);
     }
+    void add(const Row &more) {
+      stiffness.add(more.stiffness);
+      damping.add(more.damping);
+    }
   };
   typedef std::vector<Row> Rows;
 

@@ -262,7 +262,13 @@ void FixWallGranPlaten::initial_integrate(int) {
 
 void FixWallGranPlaten::setup_pre_force(int) {
   if (bridges_)
+    bridges_->note_creation();
+}
+
+void FixWallGranPlaten::setup(int vflag) {
+  if (bridges_)
     bridges_->create(atom_type_wall());
+  FixWallGran::setup(vflag);
 }
 
 void FixWallGranPlaten::pre_force(int vflag) {

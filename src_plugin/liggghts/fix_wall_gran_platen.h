@@ -58,6 +58,7 @@ public:
   void pre_delete(bool);
   void init();
   void setup_pre_force(int);
+  void setup(int);
   void initial_integrate(int);
   void pre_force(int);
   void post_force(int);
@@ -76,7 +77,7 @@ public:
   bool is_top() const { return sign_ < 0.0; }
   bool sticks() { return contact_match("cohesion", "sjkr"); }
   bool has_effects() const { return memory_offset_ >= 0; } ///< model hertz_effects
-  WallBridges *bridges() const { return bridges_.get(); } ///< NULL: the wall has none
+  WallBridges *bridges() const { return bridges_.get(); }  ///< NULL: the wall has none
   /// Memory of atom i's contact under `model hertz_effects`, NULL under another model.
   const double *effect_memory(int i) const;
 

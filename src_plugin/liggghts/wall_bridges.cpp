@@ -8,6 +8,7 @@
 #include "fix_property_atom.h"
 #include "fix_wall_gran_platen.h"
 #include "modify.h"
+#include "mpi_liggghts.h"
 #include "registry/effect.h"
 #include "update.h"
 
@@ -37,7 +38,8 @@ struct WallBridges::Bridge {
 };
 
 WallBridges::WallBridges(LAMMPS *lmp, const std::string &wall, double z)
-    : Pointers(lmp), name_("bridges_" + wall), z_(z), bonds_(NULL), storage_(NULL) {}
+    : Pointers(lmp), name_("bridges_" + wall), z_(z), creating_(false), bonds_(NULL),
+      storage_(NULL) {}
 
 WallBridges *WallBridges::find(LAMMPS *lmp) {
   WallBridges *found = NULL;
@@ -53,7 +55,8 @@ WallBridges *WallBridges::find(LAMMPS *lmp) {
 }
 
 void WallBridges::add_storage(const char *caller) {
-  std::vector<std::string> words = {name_, "all", "property/atom", name_, "vector", "yes", "no", "no"};
+  std::vector<std::string> words = {name_, "all", "property/atom", name_, "vector", "yes",
+                                    "no",  "no"};
   words.insert(words.end(), kValues, "0.");
   std::vector<char *> arg;
   for (std::string &word : words)
@@ -89,9 +92,11 @@ calendem::PairMotion WallBridges::motion(int i) const {
                                   calendem::load(atom->omega[i]));
 }
 
+void WallBridges::note_creation() { creating_ = bonds_->creating(); }
+
 void WallBridges::create(int type) {
   const double tensile = bonds_->bridges().tensile_of(BridgeKind::CbdCollector);
-  if (!bonds_->creating() || tensile <= 0.0 || type != int(calendem::Phase::Collector))
+  if (!creating_ || tensile <= 0.0 || type != int(calendem::Phase::Collector))
     return;
   for (int i = 0; i < atom->nlocal; ++i) {
     const double height = atom->x[i][2] - z_;
@@ -102,7 +107,11 @@ void WallBridges::create(int type) {
     values(i)[kX] = atom->x[i][0];
     values(i)[kY] = atom->x[i][1];
   }
-  bonds_->bridges_made_on_wall(intact());
+  creating_ = false;
+  const bigint mine = intact();
+  bigint all = 0;
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  bonds_->bridges_made_on_wall(all);
 }
 
 void WallBridges::act(bool update) {
@@ -133,14 +142,15 @@ void WallBridges::act(bool update) {
 void WallBridges::break_if_it_fails(int i, Bridge &bridge) {
   const BondSettings &set = bonds_->bridge_settings();
   const calendem::BondLoads loads = bridge.bond.loads();
-  if (!fails(loads, bridge.tension, bridge.section,
-             set.strength_of(bridge.bond.strength_factor()), set.criterion))
+  if (!fails(loads, bridge.tension, bridge.section, set.strength_of(bridge.bond.strength_factor()),
+             set.criterion))
     return;
   const calendem::BondAction last =
       calendem::action(loads, bridge.tension, bridge.motion, calendem::BondDamping());
   if (FixEnergyBpm *ledger = FixEnergyBpm::find(lmp))
     ledger->force_ends(i, {last.force, last.torque_i});
-  bonds_->bridge_breaks_on_wall(i, calendem::strain_energy(loads, bridge.tension, bridge.stiffness));
+  bonds_->bridge_breaks_on_wall(i,
+                                calendem::strain_energy(loads, bridge.tension, bridge.stiffness));
   bridge.bond.set_state(kBrokenSeparated);
   bridge.bond.set_loads({});
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The binder bridges of a wall at rest (physics/binder_bridge.h), for fix wall/gran/platen. Settings
-// and counts are those of fix bond/bpm. What a bridge remembers is kept with its atom, in a fix
-// property/atom of the host, which migrates and restarts it.
+// The binder bridges of a wall at rest (physics/binder_bridge.h), for fix wall/gran/platen.
+// Settings and counts are those of fix bond/bpm. What a bridge remembers is kept with its atom, in
+// a fix property/atom of the host, which migrates and restarts it.
 #ifndef CALENDEM_WALL_BRIDGES_H
 #define CALENDEM_WALL_BRIDGES_H
 
@@ -26,7 +26,9 @@ public:
   void delete_storage();
   /// `wall`: place of its fix among the fixes.
   void init(int wall);
-  /// When fix bond/bpm makes its bonds; `type`: of the wall.
+  /// Before the forces of a set-up: is it the one in which fix bond/bpm makes its bonds?
+  void note_creation();
+  /// Then, behind them: the host empties storages until there. `type`: of the wall.
   void create(int type);
   /// Adds the bridges' forces; with `update` they follow the step's motion and may break.
   void act(bool update);
@@ -45,6 +47,7 @@ private:
 
   std::string name_;
   double z_;
+  bool creating_;
   class FixBondBpm *bonds_;
   class FixPropertyAtom *storage_;
   std::vector<double> force_;

@@ -39,9 +39,9 @@ struct BinderBridges {
   static constexpr double kMostStrain = 0.03; ///< sigma_c / E [-]
   static constexpr double kMostGap = 0.05;    ///< [um]
 
-  double gap = 0.0;                   ///< [um]
-  double tensile[kBridgeKinds] = {};  ///< sigma_c by kind [kPa]; 0: none are made
-  double shear_ratio = 1.0;           ///< tau_c / sigma_c [-]
+  double gap = 0.0;                  ///< [um]
+  double tensile[kBridgeKinds] = {}; ///< sigma_c by kind [kPa]; 0: none are made
+  double shear_ratio = 1.0;          ///< tau_c / sigma_c [-]
 
   bool on() const { return tensile[0] > 0.0 || tensile[1] > 0.0 || tensile[2] > 0.0; }
   double tensile_of(BridgeKind kind) const {
