@@ -21,7 +21,7 @@
 // Source: Potyondy & Cundall 2004, doi:10.1016/j.ijrmms.2004.09.011. Failure of coatings on their
 // foil under tension and shear: Luo et al. 2018, doi:10.1039/c7ra12382e (shear strength almost
 // twice the tensile one). PVDF and its composites with carbon black break below 10 % elongation:
-// Chen, Christensen & Dahn 2003, doi:10.1149/1.1586922.
+// Chen, Christensen & Dahn, J. Electrochem. Soc. 2003.
 // Deviations: none from parallel_bond.h; the collector's foil does not bend.
 // Verified by tests/verification/binder_bridges.
 #ifndef CALENDEM_PHYSICS_BINDER_BRIDGE_H
