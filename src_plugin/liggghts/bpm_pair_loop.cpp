@@ -65,7 +65,8 @@ void BpmPairLoop::choose_units() {
   for (int i = 0; i < atom->nlocal; ++i)
     radius = std::max(radius, atom->radius[i]);
   MPI_Allreduce(&radius, &largest, 1, MPI_DOUBLE, MPI_MAX, world);
-  double modulus = fix_->settings().material.youngs_modulus;
+  double modulus = std::max(fix_->settings().material.youngs_modulus,
+                            fix_->bridge_settings().material.youngs_modulus);
   for (int a = 1; a <= atom->ntypes; ++a)
     for (int b = 1; b <= atom->ntypes; ++b)
       modulus = std::max(modulus, modulus_[a][b]);
@@ -171,10 +172,10 @@ void BpmPairLoop::compute_force(PairGran *pair) {
 }
 
 void BpmPairLoop::work_off() {
-  const BondSettings &b = fix_->settings();
   const double dt = update->dt;
   sort();
-  for (const Kind kind : {kBond, kPressedBond}) {
+  for (const Kind kind : {kBond, kPressedBond, kBridged}) {
+    const BondSettings &b = settings_of(kind);
     run_bonds(tiles_[kind], b.material, b.strength, b.criterion, update_, dt);
     if (update_)
       keep_bonds(kind);
@@ -187,7 +188,7 @@ void BpmPairLoop::work_off() {
     if (update_)
       keep_contacts(kind);
   }
-  for (const Kind kind : {kBond, kPressedBond, kContact})
+  for (const Kind kind : {kBond, kPressedBond, kContact, kBridged})
     sum_forces(kind);
   if (energy_)
     book();
@@ -207,6 +208,8 @@ void BpmPairLoop::sort() {
     const bool touches = pair.r_squared < radius_sum * radius_sum;
     if (creating && touches)
       fix_->create(pair.i, pair.j, std::sqrt(pair.r_squared), bond);
+    if (creating)
+      fix_->bridge(pair.i, pair.j, std::sqrt(pair.r_squared), bond);
     const double length = bond.length();
     const bool intact = bond.state() == kIntact;
     const bool pressed = touches & (pair.r_squared < length * length);
@@ -218,6 +221,8 @@ void BpmPairLoop::sort() {
   }
   for (const Kind kind : {kBond, kPressedBond, kContact})
     fill(kind);
+  if (fix_->bridges().on())
+    sort_bridges();
   for (int p = 0; p < count_[kApart]; ++p) {
     const Pair &pair = pairs_[of_kind_[kApart][p]];
     BondHistory bond(pair.history + bond_);
@@ -225,6 +230,28 @@ void BpmPairLoop::sort() {
       fix_->separate(pair.i, pair.j, bond);
     leave(pair);
   }
+}
+
+void BpmPairLoop::sort_bridges() {
+  for (int n = 0; n < found_; ++n) {
+    const Pair &pair = pairs_[n];
+    if (BondHistory(pair.history + bond_).state() != kBridge)
+      continue;
+    of_kind_[kBridged][count_[kBridged]++] = n;
+    acting_ += fix_->decides(pair.i, pair.j);
+  }
+  PairTile &t = tiles_[kBridged];
+  t.size = count_[kBridged];
+  for (int p = 0; p < t.size; ++p) {
+    const Pair &pair = pairs_[of_kind_[kBridged][p]];
+    put_spheres(t, p, pair);
+    put_bond(t, p, pair);
+    *pair.flags |= CONTACT_COHESION_MODEL;
+  }
+}
+
+const BondSettings &BpmPairLoop::settings_of(Kind kind) const {
+  return kind == kBridged ? fix_->bridge_settings() : fix_->settings();
 }
 
 // The spheres do not touch: the contact forgets. Flags here and below are those that the host's
@@ -316,7 +343,7 @@ void BpmPairLoop::act_effects() {
 }
 
 void BpmPairLoop::keep_bonds(Kind kind) {
-  const BondSettings &b = fix_->settings();
+  const BondSettings &b = settings_of(kind);
   const PairTile &t = tiles_[kind];
   for (int p = 0; p < t.size; ++p) {
     const Pair &pair = pairs_[of_kind_[kind][p]];
@@ -364,7 +391,7 @@ void BpmPairLoop::add_forces(PairGran *pair) {
 }
 
 void BpmPairLoop::book() {
-  for (const Kind kind : {kBond, kPressedBond}) {
+  for (const Kind kind : {kBond, kPressedBond, kBridged}) {
     const PairTile &t = tiles_[kind];
     for (int p = 0; p < t.size; ++p) {
       const Pair &pair = pairs_[of_kind_[kind][p]];

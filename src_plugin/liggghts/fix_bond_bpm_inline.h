@@ -61,6 +61,13 @@ template <class Visit> void FixBondBpm::for_each_copy(Visit visit) {
   });
 }
 
+template <class Visit> void FixBondBpm::for_each_acting_copy(Visit visit) {
+  for_each_neighbor([&](int i, int j, BondHistory &bond) {
+    if (bond.acts())
+      visit(i, j, bond);
+  });
+}
+
 template <class Visit> void FixBondBpm::for_each_touching_copy(Visit visit) {
   for_each_neighbor([&](int i, int j, const BondHistory &bond) {
     const double r = norm(calendem::load(atom->x[i]) - calendem::load(atom->x[j]));

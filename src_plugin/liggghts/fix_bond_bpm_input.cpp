@@ -114,6 +114,10 @@ int FixBondBpm::parse_keyword(int iarg, int narg, char **arg) {
   return iarg + 1 + values;
 }
 
+int FixBondBpm::modify_param(int narg, char **arg) {
+  return !strcmp(arg[0], "bridges") ? parse_bridges(narg, arg) : parse_strength(narg, arg);
+}
+
 void FixBondBpm::parse(int narg, char **arg) {
   settings_.material.shear_modulus = -1.0;
   for (int iarg = 3; iarg < narg;)

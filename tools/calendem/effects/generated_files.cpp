@@ -25,7 +25,7 @@ std::string default_of(const Key &key) {
 std::string meaning_of(const Key &key) {
   return (key.unit.empty() ? "" : key.unit + ", ") + key.meaning +
          (key.choices.empty() ? "" : ": " + key.choices) +
-         (key.same_as.empty() ? "" : "; the particle's unless given");
+         (key.same_as.empty() ? "" : "; " + key.same_as + " unless given");
 }
 
 std::string defaults_in() {

@@ -3,6 +3,7 @@
 #include "physics/nanopore_collapse.h"
 #include "physics/press_instruments.h"
 #include "registry/effects.h"
+#include "run/bridges.h"
 #include "run/energy.h"
 #include "run/roll_passes.h"
 #include "run/validity.h"
@@ -276,6 +277,8 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   s["contact_range"] = contact_range(rows, top);
   if (settings.text("platen.control") == "roll_gap")
     s["roll"] = roll_passes(rows, settings);
+  if (const nlohmann::json held = write_bridges(folder, rows, top); !held.is_null())
+    s["bridges"] = held;
   s["energy_fJ"] = energy_ledger(rows, top);
   const PressInstruments press = instruments_of(settings);
   s["porosity_initial_shown"] = total_porosity(e, press.thickness_shown(e.thickness));

@@ -101,14 +101,22 @@ void check_part_of_modulus(const Settings &s, const Effect &e, Phase a, Phase b,
   }
 }
 
+double units_of(const std::string &name) {
+  const auto &keys = case_keys();
+  return script_units(
+      std::find_if(keys.begin(), keys.end(), [&](const Key &k) { return k.name == name; })->unit);
+}
+
 void check_relation(const Settings &s, const Relation &r, Mistakes &mistakes) {
   if (!s.sound({r.key, r.other}))
     return;
   const double value = s.number(r.key), other = s.number(r.other);
-  if (r.is == Relation::Is::AtMost && value > other)
+  const double most = r.part * other * units_of(r.other) / units_of(r.key);
+  if (r.is == Relation::Is::AtMost && value > most)
     mistakes.add(s.line(r.key),
-                 fmt::format("{} is {}, above {} = {}: {}. Give a value at or below it.", r.key,
-                             s.text(r.key), r.other, s.text(r.other), r.why));
+                 fmt::format("{} is {}, above {}{} = {}: {}. Give at most {:g}.", r.key,
+                             s.text(r.key), r.part == 1.0 ? "" : fmt::format("{:g} of ", r.part),
+                             r.other, s.text(r.other), r.why, most));
   if (r.is == Relation::Is::NotBoth && value > 0.0 && other > 0.0)
     mistakes.add(s.line(r.key), fmt::format("{} is {} and {} is {}: {}. Set one of them to 0.",
                                             r.key, s.text(r.key), r.other, s.text(r.other), r.why));
