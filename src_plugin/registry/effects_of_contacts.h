@@ -190,14 +190,14 @@ inline Effect collector_indentation() {
   return e;
 }
 
-inline Key bridge_strength(const std::string &key, const std::string &to) {
-  return {"effects.binder_bridges." + key,
-          "bridge_" + to + "_MPa",
+inline Key bridge_strength(const std::string &phase, const std::string &meaning) {
+  return {"effects.binder_bridges." + phase + "_strength_MPa",
+          "bridge_" + phase + "_MPa",
           "",
           0,
           1000,
           "MPa",
-          "tensile strength of bridges of CBD to " + to + "; 0: none",
+          meaning,
           "",
           false,
           false,
@@ -212,8 +212,8 @@ inline Effect binder_bridges() {
   const std::string at = "effects.binder_bridges.";
   e.settings = {{at + "strength_MPa", "bridge_MPa", "0", 0, 1000, "MPa",
                  "tensile strength of bridges from CBD to CBD; 0: none"},
-                bridge_strength("am_strength_MPa", "am"),
-                bridge_strength("collector_strength_MPa", "collector"),
+                bridge_strength("am", "the same to active material"),
+                bridge_strength("collector", "the same to the collector"),
                 {at + "shear_ratio", "bridge_shear_ratio", "2", 0.1, 10, "",
                  "shear over tensile strength of a bridge"},
                 {at + "modulus_GPa", "bridge_GPa", "1", 0.01, 100, "GPa", "of a bridge"},
