@@ -241,3 +241,15 @@ TEST(VerificationFaults, MomentumOfADampedUnequalPair) {
   std::printf("damped unequal pair: momentum changes by %.1e of mass x 1 um/us\n", worst);
   EXPECT_LT(worst, kSteps * 2.2e-16 * 4.0);
 }
+
+// Two spheres that meet so fast that damping alone passes E R^2 many times.
+TEST(VerificationFaults, ForceBeyondTheUnitsOfItsSumStops) {
+  const double speed = 1e5, R = 0.795;
+  const CaseRun run("in.body",
+                    {{"bonded", "0"}, {"ced", "0"}, {"dt", "1e-8"}, {"steps", "10"}}, 1,
+                    files_of({{{5.0, 5.0, 5.0}, R, 1, {speed, 0.0, 0.0}},
+                              {{5.0 + 1.9 * R, 5.0, 5.0}, R, 2, {-speed, 0.0, 0.0}}},
+                             {0, 0, 0}, {10, 10, 10}));
+  EXPECT_FALSE(run.finished());
+  EXPECT_NE(run.why().find("more than the units of its sum hold"), std::string::npos) << run.why();
+}

@@ -4,6 +4,7 @@
 #include "physics/press_instruments.h"
 #include "registry/effects.h"
 #include "run/energy.h"
+#include "run/line_load.h"
 #include "run/roll_passes.h"
 #include "run/validity.h"
 #include "spec/case.h"
@@ -159,6 +160,8 @@ std::vector<std::string> failed_checks(const std::vector<RawRow> &rows, const Se
                                        const ElectrodeFacts &e, long logged) {
   std::vector<std::string> failed;
   const RawRow &last = rows.back();
+  if (const std::string missed = line_load_missed(rows, settings); !missed.empty())
+    failed.push_back(missed);
   if (const std::string short_of = platen_stopped(rows, settings); !short_of.empty())
     failed.push_back(short_of);
   if (last.made != e.bonds)
@@ -276,6 +279,8 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   s["contact_range"] = contact_range(rows, top);
   if (settings.text("platen.control") == "roll_gap")
     s["roll"] = roll_passes(rows, settings);
+  if (settings.number("roll.line_load_N_mm") > 0.0)
+    s["roll"]["rehearsals"] = rehearsals_in(folder);
   s["energy_fJ"] = energy_ledger(rows, top);
   const PressInstruments press = instruments_of(settings);
   s["porosity_initial_shown"] = total_porosity(e, press.thickness_shown(e.thickness));
