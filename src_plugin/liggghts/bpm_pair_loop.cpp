@@ -359,7 +359,8 @@ void BpmPairLoop::add_forces(PairGran *pair) {
   for (int i = 0; i < atom->nlocal; ++i) {
     const double relax = pair->relax(i);
     const unsigned long long *sum = forces_[i].sum;
-    unsigned long long large = 0; // top bit: a sum of 2^62 units or more; a term beyond 2^63 makes one
+    unsigned long long large =
+        0; // top bit: a sum of 2^62 units or more; a term beyond 2^63 makes one
     for (int k = 0; k < 6; ++k)
       large |= sum[k] + kMostUnits;
     if (large >> 63)
@@ -373,11 +374,12 @@ void BpmPairLoop::add_forces(PairGran *pair) {
 
 void BpmPairLoop::stop_force(int i) const {
   char message[400];
-  snprintf(message, sizeof message,
-           "particle %d is under a force or torque of more than the units of its sum hold: %.3g nN, "
-           "%.3g nN um, which would press one sphere into another by its radius. The time step is "
-           "too large, or something moves too fast: lower the timestep or the speed",
-           atom->tag[i], force_unit_.value(kMostUnits), torque_unit_.value(kMostUnits));
+  snprintf(
+      message, sizeof message,
+      "particle %d is under a force or torque of more than the units of its sum hold: %.3g nN, "
+      "%.3g nN um, which would press one sphere into another by its radius. The time step is "
+      "too large, or something moves too fast: lower the timestep or the speed",
+      atom->tag[i], force_unit_.value(kMostUnits), torque_unit_.value(kMostUnits));
   error->one(FLERR, message);
 }
 

@@ -258,8 +258,8 @@ TEST(VerificationFaults, ForceBeyondTheUnitsOfItsSumStops) {
   for (const double share : {0.9, 1.1}) {
     const double speed =
         0.5 * (share * most - hertz_force(modulus, 0.5 * R, overlap)) / damping; // of each
-    const CaseRun run("in.body",
-                      {{"bonded", "0"}, {"ced", "0"}, {"dt", "1e-8"}, {"steps", "10"}}, 1,
+    const CaseRun run("in.body", {{"bonded", "0"}, {"ced", "0"}, {"dt", "1e-8"}, {"steps", "10"}},
+                      1,
                       files_of({{{5.0, 5.0, 5.0}, R, 1, {speed, 0.0, 0.0}},
                                 {{5.0 + 2.0 * R - overlap, 5.0, 5.0}, R, 2, {-speed, 0.0, 0.0}}},
                                {0, 0, 0}, {10, 10, 10}));

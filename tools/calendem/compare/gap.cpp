@@ -167,11 +167,13 @@ Gap find_gap(const Experiment &experiment, const std::vector<SimulatedRun> &runs
       continue;
     }
     if (c.control == "roll_gap")
-      gap.not_said.push_back(fmt::format(
-          "{}: it was pressed under a roll, the runs under a platen to the pressure that the roll's "
-          "gap was converted into. What a nip does besides is taken for a gap of the model; calendem "
-          "run with platen.control = \"roll_gap\" shows how much that is.",
-          c.id));
+      gap.not_said.push_back(
+          fmt::format("{}: it was pressed under a roll, the runs under a platen to the pressure "
+                      "that the roll's "
+                      "gap was converted into. What a nip does besides is taken for a gap of the "
+                      "model; calendem "
+                      "run with platen.control = \"roll_gap\" shows how much that is.",
+                      c.id));
     std::vector<Observable> observables = observables_of(experiment, c, gap.not_said);
     const auto on_images = image_observables_of(experiment, c, gap.not_said);
     observables.insert(observables.end(), on_images.begin(), on_images.end());

@@ -157,10 +157,11 @@ void check_roll(const Settings &s, Mistakes &mistakes) {
     return;
   if (s.text("platen.control") != "roll_gap") {
     if (s.sound({load}) && s.number(load) > 0.0)
-      mistakes.add(s.line(load),
-                   fmt::format("{} is {} and platen.control is \"{}\": only a roll has a line load. "
-                               "Give control = \"roll_gap\", or a line load of 0.",
-                               load, s.text(load), s.text("platen.control")));
+      mistakes.add(
+          s.line(load),
+          fmt::format("{} is {} and platen.control is \"{}\": only a roll has a line load. "
+                      "Give control = \"roll_gap\", or a line load of 0.",
+                      load, s.text(load), s.text("platen.control")));
     return;
   }
   const std::string first = "roll.first_gap_um", gap = "platen.roll_gap_um";
