@@ -2,6 +2,7 @@
 #include "bpm_pair_loop.h"
 #include "atom.h"
 #include "contact_model_constants.h"
+#include "error.h"
 #include "fix_bond_bpm.h"
 #include "fix_energy_bpm.h"
 #include "force.h"
@@ -21,6 +22,8 @@ using namespace LIGGGHTS::ContactModels;
 using calendem::Vec3;
 
 namespace {
+
+constexpr long long kMostUnits = 1LL << 62; // of the sum of forces on an atom
 
 Vec3 difference(const double *a, const double *b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
@@ -383,11 +386,28 @@ void BpmPairLoop::add_forces(PairGran *pair) {
   for (int i = 0; i < atom->nlocal; ++i) {
     const double relax = pair->relax(i);
     const unsigned long long *sum = forces_[i].sum;
+    unsigned long long large =
+        0; // top bit: a sum of 2^62 units or more; a term beyond 2^63 makes one
+    for (int k = 0; k < 6; ++k)
+      large |= sum[k] + kMostUnits;
+    if (large >> 63)
+      stop_force(i);
     for (int k = 0; k < 3; ++k) {
       atom->f[i][k] += relax * force_unit_.value(static_cast<long long>(sum[k]));
       atom->torque[i][k] += relax * torque_unit_.value(static_cast<long long>(sum[3 + k]));
     }
   }
+}
+
+void BpmPairLoop::stop_force(int i) const {
+  char message[400];
+  snprintf(
+      message, sizeof message,
+      "particle %d is under a force or torque of more than the units of its sum hold: %.3g nN, "
+      "%.3g nN um, which would press one sphere into another by its radius. The time step is "
+      "too large, or something moves too fast: lower the timestep or the speed",
+      atom->tag[i], force_unit_.value(kMostUnits), torque_unit_.value(kMostUnits));
+  error->one(FLERR, message);
 }
 
 void BpmPairLoop::book() {

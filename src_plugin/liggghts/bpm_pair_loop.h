@@ -94,6 +94,7 @@ private:
   void choose_units();
   void sum_forces(Kind kind);
   void add_forces(class PairGran *pair);
+  void stop_force(int i) const;
   void book();
 };
 

@@ -278,6 +278,19 @@ TEST(Belongs, ControlsThatARunCanHave) {
   std::filesystem::remove(file);
 }
 
+// A roll beside a platen is not passed over in silence.
+TEST(FindGap, SaysThatAPlatenStandsForARoll) {
+  const auto says = [](const Gap &gap) {
+    return std::any_of(gap.not_said.begin(), gap.not_said.end(), [](const std::string &text) {
+      return text.find("pressed under a roll, the runs under a platen") != std::string::npos;
+    });
+  };
+  Experiment e = paper();
+  EXPECT_FALSE(says(find_gap(e, {pressed_to(150, 0.3, "a")})));
+  e.conditions[1].control = "roll_gap";
+  EXPECT_TRUE(says(find_gap(e, {pressed_to(150, 0.3, "a")})));
+}
+
 TEST(DisplacementAt, IsLinearBetweenPointsAndNothingBeyond) {
   EXPECT_NEAR(displacement_at({0, 10, 20}, {0, 4, 6}, 15), 5.0, 1e-12);
   EXPECT_TRUE(std::isnan(displacement_at({0, 10, 20}, {0, 4, 6}, 21)));

@@ -161,11 +161,19 @@ Gap find_gap(const Experiment &experiment, const std::vector<SimulatedRun> &runs
           "{}: no run has its {}; nothing is said about it.", c.id,
           by_pressure(c) ? fmt::format("pressure of {:g} MPa", c.max_pressure_MPa->value)
           : c.control == "roll_gap"
-              ? "roll gap: runs are controlled by pressure, so give max_pressure_MPa as "
-                "the gap was converted into it"
+              ? "roll gap: it is set beside runs of a platen, so give max_pressure_MPa as the gap "
+                "was converted into it"
               : c.control));
       continue;
     }
+    if (c.control == "roll_gap")
+      gap.not_said.push_back(
+          fmt::format("{}: it was pressed under a roll, the runs under a platen to the pressure "
+                      "that the roll's "
+                      "gap was converted into. What a nip does besides is taken for a gap of the "
+                      "model; calendem "
+                      "run with platen.control = \"roll_gap\" shows how much that is.",
+                      c.id));
     std::vector<Observable> observables = observables_of(experiment, c, gap.not_said);
     const auto on_images = image_observables_of(experiment, c, gap.not_said);
     observables.insert(observables.end(), on_images.begin(), on_images.end());

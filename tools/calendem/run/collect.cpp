@@ -5,6 +5,7 @@
 #include "registry/effects.h"
 #include "run/bridges.h"
 #include "run/energy.h"
+#include "run/line_load.h"
 #include "run/roll_passes.h"
 #include "run/validity.h"
 #include "spec/case.h"
@@ -160,6 +161,8 @@ std::vector<std::string> failed_checks(const std::vector<RawRow> &rows, const Se
                                        const ElectrodeFacts &e, long logged) {
   std::vector<std::string> failed;
   const RawRow &last = rows.back();
+  if (const std::string missed = line_load_missed(rows, settings); !missed.empty())
+    failed.push_back(missed);
   if (const std::string short_of = platen_stopped(rows, settings); !short_of.empty())
     failed.push_back(short_of);
   if (last.made != e.bonds)
@@ -279,6 +282,8 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
     s["roll"] = roll_passes(rows, settings);
   if (const nlohmann::json held = write_bridges(folder, rows, top); !held.is_null())
     s["bridges"] = held;
+  if (settings.number("roll.line_load_N_mm") > 0.0)
+    s["roll"]["rehearsals"] = rehearsals_in(folder);
   s["energy_fJ"] = energy_ledger(rows, top);
   const PressInstruments press = instruments_of(settings);
   s["porosity_initial_shown"] = total_porosity(e, press.thickness_shown(e.thickness));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "run/roll_passes.h"
-#include "physics/roll_nip.h"
 #include <algorithm>
 
 namespace calendem {
@@ -60,9 +59,13 @@ nlohmann::json pass_of(const Rows &pass, const RollNip &nip, double lost) {
 
 } // namespace
 
+RollNip roll_nip(const Settings &s) {
+  return {1e3 * s.number("roll.radius_mm"), 1e3 * s.number("roll.counter_radius_mm"),
+          s.number("roll.slip")};
+}
+
 nlohmann::json roll_passes(const std::vector<RawRow> &rows, const Settings &s) {
-  const RollNip nip = {1e3 * s.number("roll.radius_mm"), 1e3 * s.number("roll.counter_radius_mm"),
-                       s.number("roll.slip")};
+  const RollNip nip = roll_nip(s);
   nlohmann::json passes = nlohmann::json::array();
   for (const Rows &pass : passes_of(rows))
     passes.push_back(pass_of(pass, nip, s.number("platen.contact_lost_fraction")));

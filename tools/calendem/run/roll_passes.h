@@ -4,9 +4,12 @@
 #ifndef CALENDEM_RUN_ROLL_PASSES_H
 #define CALENDEM_RUN_ROLL_PASSES_H
 
+#include "physics/roll_nip.h"
 #include "run/collect.h"
 
 namespace calendem {
+
+RollNip roll_nip(const Settings &settings);
 
 /// For each pass its smallest gap, largest pressure, and line load and contact length on both sides
 /// of the nip; the time under the roll at the web's real speed, and how much faster the run was.

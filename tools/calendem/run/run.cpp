@@ -2,6 +2,7 @@
 #include "run/run.h"
 #include "run/child.h"
 #include "run/collect.h"
+#include "run/line_load.h"
 #include "run/process.h"
 #include "run/progress.h"
 #include "run/run_folder.h"
@@ -36,8 +37,10 @@ void check_cell(const ElectrodeFacts &e, int ranks, Mistakes &mistakes) {
                              ranks, e.lx, e.ly, most, cut_off));
 }
 
+double lowest_gap(const ElectrodeFacts &e) { return 1.02 * e.solid / e.area; }
+
 void check_target(const Settings &s, const ElectrodeFacts &e, Mistakes &mistakes) {
-  const double lowest = 1.02 * e.solid / e.area;
+  const double lowest = lowest_gap(e);
   const std::string &control = s.text("platen.control");
   if (control == "pressure")
     return;
@@ -143,7 +146,7 @@ void remember_what_was_done(const std::string &folder, RunFacts &facts) {
 
 /// Writes what the run needs; true if it goes on from a restart file.
 bool prepare(const Settings &settings, const ElectrodeFacts &electrode, const RunOptions &o,
-             const std::string &hash, const std::string &electrode_hash, RunFacts &facts) {
+             const std::string &electrode_hash, RunFacts &facts) {
   const std::string &folder = o.folder;
   const bool resume =
       o.resume && fs::exists(folder + "/time_step.in") && find_restart(folder, electrode.atoms);
@@ -159,8 +162,51 @@ bool prepare(const Settings &settings, const ElectrodeFacts &electrode, const Ru
                  fmt::format("# as run by calendem {}; every default filled in\n", version())));
   fs::copy_file(settings.text("electrode") + "/electrode.json", folder + "/electrode.json",
                 fs::copy_options::overwrite_existing);
-  mark_as_running(folder, hash, electrode_hash, facts.earlier_s);
+  mark_as_running(folder, facts.case_hash, electrode_hash, facts.earlier_s);
   return resume;
+}
+
+/// A run is collected with the electrode that it began with, or not at all.
+void stop_if_packed_anew(const Settings &settings, const std::string &then) {
+  const std::string file = settings.text("electrode") + "/electrode.data";
+  const std::string now = hash_of_file(file);
+  if (now != then)
+    throw Failure(kBadInput,
+                  fmt::format("'{}' has changed while the run went on (hash then {}, now {}): the "
+                              "electrode was packed anew. What was computed is kept as LIGGGHTS "
+                              "wrote it and is of neither. Run again with --force, and pack into "
+                              "another folder while a run goes on.",
+                              file, then, now));
+}
+
+/// Runs LIGGGHTS to its end; a run that fails is collected as far as it came.
+void simulate(const Settings &settings, const ElectrodeFacts &electrode, const RunOptions &o,
+              const std::string &electrode_hash, RunFacts &facts) {
+  const std::string &folder = o.folder;
+  facts.earlier_s += facts.wall_clock_s; // of rehearsals
+  facts.first_step = 0.0;
+  const bool resume = prepare(settings, electrode, o, electrode_hash, facts);
+  std::cout << std::flush;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto stop_watch = [&] {
+    facts.wall_clock_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  Progress progress(folder + "/curve_raw.csv", settings);
+  try {
+    run_liggghts(job_of(settings, electrode, o, folder, resume), [&] { progress(); });
+  } catch (const Failure &f) {
+    const StopRequests not_now; // a second Ctrl-C would lose what is being collected
+    stop_watch();
+    stop_if_packed_anew(settings, electrode_hash);
+    facts.stopped_because = f.what();
+    throw Failure(f.exit_status(), std::string(f.what()) + "\n" +
+                                       keep_what_there_is(folder, settings, electrode, facts));
+  }
+  stop_watch();
+  if (isatty(1))
+    std::cout << "\r\033[K";
+  stop_if_packed_anew(settings, electrode_hash);
 }
 
 } // namespace
@@ -196,32 +242,17 @@ void run_case(const Settings &settings, RunOptions o) {
     return;
   }
   RunFacts facts;
-  const bool resume = prepare(settings, electrode, o, hash, electrode_hash, facts);
-  fmt::print("run: {} atoms, {} bonds, {} ranks -> {}\n", electrode.atoms, electrode.bonds, o.ranks,
-             folder);
-  std::cout << std::flush;
-  const auto begin = std::chrono::steady_clock::now();
   facts.ranks = o.ranks;
   facts.case_hash = hash;
   facts.program = hash_of_file(o.liggghts);
-  const auto stop_watch = [&] {
-    facts.wall_clock_s =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  };
-  Progress progress(folder + "/curve_raw.csv", settings);
-  try {
-    run_liggghts(job_of(settings, electrode, o, folder, resume), [&] { progress(); });
-  } catch (const Failure &f) {
-    const StopRequests not_now; // a second Ctrl-C would lose what is being collected
-    stop_watch();
-    facts.stopped_because = f.what();
-    throw Failure(f.exit_status(), std::string(f.what()) + "\n" +
-                                       keep_what_there_is(folder, settings, electrode, facts));
-  }
-  stop_watch();
-  if (isatty(1))
-    std::cout << "\r\033[K";
-  const nlohmann::json s = collect(folder, settings, electrode, facts);
+  fmt::print("run: {} atoms, {} bonds, {} ranks -> {}\n", electrode.atoms, electrode.bonds, o.ranks,
+             folder);
+  Rehearsals rehearsals(folder, settings, lowest_gap(electrode), o.resume);
+  do {
+    simulate(rehearsals.settings(), electrode, o, electrode_hash, facts);
+    o.resume = false;
+  } while (rehearsals.again());
+  const nlohmann::json s = collect(folder, rehearsals.settings(), electrode, facts);
   fmt::print("run: maximum {:.1f} MPa, {:.2f} % of bonds broken, total porosity {:.2f} % after "
              "relaxation, {:.0f} s\n",
              s["max_pressure_MPa"].get<double>(), 100 * s["broken_fraction_at_max"].get<double>(),

@@ -160,8 +160,18 @@ void check_target(const Settings &s, Mistakes &mistakes) {
 
 /// What a roll cannot do, or is told in another way.
 void check_roll(const Settings &s, Mistakes &mistakes) {
-  if (!s.sound({"platen.control"}) || s.text("platen.control") != "roll_gap")
+  const std::string load = "roll.line_load_N_mm";
+  if (!s.sound({"platen.control"}))
     return;
+  if (s.text("platen.control") != "roll_gap") {
+    if (s.sound({load}) && s.number(load) > 0.0)
+      mistakes.add(
+          s.line(load),
+          fmt::format("{} is {} and platen.control is \"{}\": only a roll has a line load. "
+                      "Give control = \"roll_gap\", or a line load of 0.",
+                      load, s.text(load), s.text("platen.control")));
+    return;
+  }
   const std::string first = "roll.first_gap_um", gap = "platen.roll_gap_um";
   if (s.sound({first, gap}) && s.number(first) > 0.0 && s.number(first) < s.number(gap))
     mistakes.add(s.line(first),
