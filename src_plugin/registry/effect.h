@@ -69,7 +69,7 @@ struct Relation {
 };
 
 struct Effect {
-  std::string name, layer; ///< contact, bond, boundary, measurement
+  std::string name, layer; ///< contact, bond, coating, boundary, measurement
   std::string what;        ///< one sentence
   /// Keys of its own, the one that `parameter` moves first; none: it moves the base model's.
   std::vector<Key> settings;
@@ -79,12 +79,19 @@ struct Effect {
   double PressInstruments::*shown = nullptr; ///< what of the press's instruments it sets
   /// Only what the press shows changes: no run of its own is needed to know what it does.
   bool instrument = false;
+  /// Its keys are the recipe's, not the case's: another electrode is packed, and pressed alike.
+  bool in_recipe = false;
   std::vector<Relation> relations;
   std::string moves; ///< the observables it should move, and how
   std::string source;
   std::string law;          ///< file in src_plugin/physics
   std::string verification; ///< folder of tests/verification, or the unit test where the host has
                             ///< no part in it
+
+  /// A key's name where recipe and case are varied together.
+  std::string column(const std::string &key) const {
+    return (in_recipe ? "recipe." : "case.") + key;
+  }
 };
 
 /// The parameter of an effect that has a key of its own.

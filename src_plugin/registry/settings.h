@@ -102,8 +102,7 @@ inline std::vector<Key> base_settings() {
 inline const std::vector<Key> &case_keys() {
   static const std::vector<Key> all = [] {
     std::vector<Key> keys = base_settings();
-    for (const Effect &e : effects())
-      keys.insert(keys.end(), e.settings.begin(), e.settings.end());
+    add_settings_of_effects(false, keys);
     return keys;
   }();
   return all;

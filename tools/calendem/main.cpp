@@ -9,6 +9,7 @@
 #include "report/verb.h"
 #include "run/collect_verb.h"
 #include "run/verb.h"
+#include "sample/verb.h"
 #include "slurry/verb.h"
 #include "spec/messages.h"
 #include "structure/measure_verb.h"
@@ -30,6 +31,7 @@ int main(int argc, char **argv) {
   calendem::add_measure_verb(app);
   calendem::add_report_verb(app);
   calendem::add_compare_verb(app);
+  calendem::add_sample_verb(app);
   calendem::add_study_verb(app);
   calendem::add_bank_verb(app);
   calendem::add_diagnose_verb(app);

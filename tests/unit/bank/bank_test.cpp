@@ -70,6 +70,16 @@ TEST(Bank, EveryPointIsRunToEveryPressureWithTheEffectOnOrOff) {
   }
 }
 
+TEST(Bank, AnEffectOfTheCoatingIsInTheRecipe) {
+  const BankSpec spec = spec_of(kBank + "effects = [\"cbd_gradient\"]\n" + kParameters);
+  const std::vector<BankPoint> points = bank_points(spec);
+  const Study study = bank_study(spec, points);
+  for (std::size_t k = 0; k < study.runs.size(); ++k) {
+    const BankPoint &p = points[k / 2];
+    EXPECT_EQ(study.runs[k].recipe.cbd_gradient.slope, p.effect.empty() ? 0.0 : p.value);
+  }
+}
+
 TEST(Bank, TheFullCellGetsTheFirstBasePointsInItsOwnRecipe) {
   const std::string loading =
       "[[parameter]]\nname = \"L\"\nkeys = [\"recipe.coating.loading_mg_cm2\"]\nlow = "

@@ -3,6 +3,7 @@
 #include "effects/effects.h"
 #include "spec/case.h"
 #include "spec/messages.h"
+#include "spec/recipe.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -16,10 +17,11 @@ namespace fs = std::filesystem;
 
 const fs::path kSource = CALENDEM_SOURCE_DIR;
 
-const Key *key_named(const std::string &name) {
-  const auto at = std::find_if(case_keys().begin(), case_keys().end(),
-                               [&](const Key &k) { return k.name == name; });
-  return at == case_keys().end() ? nullptr : &*at;
+const Key *key_named(const Effect &e, const std::string &name) {
+  const std::vector<Key> &keys = e.in_recipe ? recipe_keys() : case_keys();
+  const auto at =
+      std::find_if(keys.begin(), keys.end(), [&](const Key &k) { return k.name == name; });
+  return at == keys.end() ? nullptr : &*at;
 }
 
 TEST(Effects, NamesAreUnique) {
@@ -32,20 +34,20 @@ TEST(Effects, NamesAreUnique) {
 TEST(Effects, OffIsTheDefaultOfTheBaseModel) {
   for (const Effect &e : effects())
     for (const std::string &name : e.parameter.keys) {
-      const Key *key = key_named(name);
+      const Key *key = key_named(e, name);
       ASSERT_TRUE(key) << e.name << ": " << name;
       EXPECT_EQ(key->fallback, e.parameter.off) << name;
     }
 }
 
-TEST(Effects, RangesAreAllowedByTheCase) {
+TEST(Effects, RangesAreAllowedByTheCaseOrTheRecipe) {
   for (const Effect &e : effects()) {
     const EffectParameter &a = e.parameter;
     EXPECT_LT(a.low, a.high) << e.name;
     EXPECT_TRUE(a.spread == Spread::Uniform || a.low > 0.0) << e.name;
     for (const std::string &name : a.keys)
       for (const double v : {a.low, a.high})
-        EXPECT_FALSE(wrong_number(*key_named(name), v)) << e.name;
+        EXPECT_FALSE(wrong_number(*key_named(e, name), v)) << e.name;
   }
 }
 

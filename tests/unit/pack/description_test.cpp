@@ -55,6 +55,23 @@ TEST_F(Described, EveryTargetThatIsMissedIsExitFour) {
   EXPECT_EQ(status_with("platen_pressure_MPa", 0.05), kDone);
 }
 
+TEST_F(Described, ProfileOfCbdIsThatOfItsSpheres) {
+  double n = 0.0, sum = 0.0;
+  for (Particle &p : particles)
+    if (p.type == 2) { // half of them at 1/4 of the height, half at 3/4: the mean is in the middle
+      p.x.z() = 0.5 * p.diameter + (recipe.thickness() - p.diameter) * (int(n) % 2 ? 0.75 : 0.25);
+      sum += int(n) % 2 ? 0.75 : 0.25;
+      ++n;
+    }
+  const nlohmann::json profile =
+      describe({recipe, bodies, particles, poses, state, {76.6, 0.01, 0.001}})["cbd_over_height"];
+  const std::vector<double> fifths = profile["share_by_fifths_of_height"];
+  EXPECT_NEAR(profile["slope"].get<double>(), 3.0 * (2.0 * sum / n - 1.0), 1e-12);
+  EXPECT_NEAR(fifths[1] + fifths[3], 1.0, 1e-12);
+  EXPECT_NEAR(fifths[1], 0.5, 0.5 / n + 1e-12);
+  EXPECT_EQ(profile["slope_asked"], 0.0);
+}
+
 TEST_F(Described, HistogramCountsEveryBody) {
   int sum = 0;
   for (const int n : json["sphericity_histogram"]["count"])

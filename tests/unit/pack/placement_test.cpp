@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pack/placement.h"
 #include "support.h"
+#include <algorithm>
 
 namespace {
 using namespace calendem;
@@ -69,6 +70,56 @@ TEST(Place, SameSeedSamePlaces) {
   };
   EXPECT_EQ(positions(3), positions(3));
   EXPECT_NE(positions(3), positions(4));
+}
+
+/// Heights of the CBD spheres from the lowest place they can have, 0, to the highest, 1; rising.
+std::vector<double> heights(const Recipe &recipe, const std::vector<Body> &bodies, double slope) {
+  Recipe graded = recipe;
+  graded.cbd_gradient.slope = slope;
+  const Placement placed = place(graded, bodies);
+  std::vector<double> out;
+  for (const Particle &p : placed.particles)
+    if (p.type == 2)
+      out.push_back((p.x.z() - 0.5 * p.diameter) / (placed.height - p.diameter));
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+// Kolmogorov and Smirnov's distance is below 1.63 / sqrt(N) in 99 % of all draws; places draw back
+// from each other, which makes it less.
+TEST(Place, HeightsOfCbdFollowTheGradient) {
+  const Recipe recipe = cell(40.0);
+  for (const double slope : {-1.0, -0.4, 0.0, 0.5, 1.0}) {
+    const std::vector<double> z = heights(recipe, {}, slope);
+    ASSERT_EQ(int(z.size()), cbd_count(recipe));
+    double distance = 0.0;
+    for (size_t k = 0; k < z.size(); ++k) {
+      const double due = CbdGradient{slope}.share_below(z[k]);
+      distance = std::max({distance, std::fabs(due - double(k) / double(z.size())),
+                           std::fabs(due - double(k + 1) / double(z.size()))});
+    }
+    EXPECT_LT(distance, 1.63 / std::sqrt(double(z.size()))) << slope;
+  }
+}
+
+// Between bodies the content is the gradient's times what it is there without one.
+TEST(Place, TheGradientCountsBesideTheRoomThatBodiesLeave) {
+  const Recipe recipe = cell(20.0);
+  const std::vector<Body> bodies = make_bodies(recipe);
+  const std::vector<double> even = heights(recipe, bodies, 0.0);
+  for (const double slope : {-0.8, 0.8}) {
+    double due = 0.0, weight = 0.0, mean = 0.0;
+    for (const double z : even) {
+      due += z * CbdGradient{slope}.content(z);
+      weight += CbdGradient{slope}.content(z);
+    }
+    const std::vector<double> graded = heights(recipe, bodies, slope);
+    for (const double z : graded)
+      mean += z / double(graded.size());
+    // two draws of N heights each
+    EXPECT_NEAR(mean, due / weight,
+                3.0 * std::sqrt(2.0) * CbdGradient{slope}.scatter(double(even.size())) / 6.0);
+  }
 }
 
 TEST(Densities, MakeABodyWeighItsEnvelope) {

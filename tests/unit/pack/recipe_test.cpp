@@ -44,6 +44,13 @@ TEST(Recipe, WeightsAddUpToHundred) {
   expect_all(message_for("[composition]\nam_weight_percent = 90\n"), {"94", "100"});
 }
 
+TEST(Recipe, AGradientIsRefusedBesideAStructure) {
+  expect_all(
+      message_for("[structure]\nfile = \"recipe.toml\"\nunits = \"micro\"\nam_types = \"1\"\n"
+                  "cbd_types = \"2\"\n[effects.cbd_gradient]\nslope = 0.3\n"),
+      {":7: effects.cbd_gradient.slope is 0.3", "the structure has its carbon-binder"});
+}
+
 TEST(Recipe, FileMustExistAndBeWhole) {
   EXPECT_THROW(read_recipe("/no/such/recipe.toml"), Failure);
   expect_all(message_for("[coating]\nloading_mg_cm2 = "), {"recipe.toml:2", "not valid TOML"});

@@ -95,6 +95,8 @@ TEST(Slurry, MistakesOfTheFileAreTold) {
             std::string::npos);
   EXPECT_NE(mistakes_of(cell + "[drying]\nstop = \"porosity\"\n").find("thickness"),
             std::string::npos);
+  EXPECT_NE(mistakes_of(cell + "[effects.cbd_gradient]\nslope = 0.3\n").find("where it dries"),
+            std::string::npos);
   EXPECT_NE(mistakes_of(cell + "[structure]\nfile = \"x\"\n").find("structure"), std::string::npos);
   EXPECT_NE(mistakes_of(cell + "[composition]\nam_weight_percent = 100\ncarbon_weight_percent = "
                                "0\nbinder_weight_percent = 0\n"),

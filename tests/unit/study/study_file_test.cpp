@@ -2,6 +2,7 @@
 #include "spec/messages.h"
 #include "study/study_file.h"
 #include "support/test_folder.h"
+#include <cmath>
 #include <fstream>
 
 namespace {
@@ -35,6 +36,32 @@ std::string refusal(const std::string &text) {
 void expect_parts(const std::string &message, const std::vector<std::string> &parts) {
   for (const std::string &part : parts)
     EXPECT_NE(message.find(part), std::string::npos) << part << "\nis not in\n" << message;
+}
+
+// Requirement: cells of a normal law, at the middle of equal shares, have its mean and sd.
+TEST(StudyFile, CellsOfASampleHaveTheLawsMeanAndScatter) {
+  const Study study =
+      read_study(write_study(kHead + "[[vary]]\nkeys = [\"recipe.coating.loading_mg_cm2\"]\n"
+                                     "normal = { mean = 17.46, sd = 0.4, cells = 5 }\n"));
+  ASSERT_EQ(study.runs.size(), 5u);
+  double sum = 0.0, squares = 0.0;
+  for (const StudyRun &r : study.runs) {
+    sum += r.recipe.loading / 5;
+    squares += (r.recipe.loading - 17.46) * (r.recipe.loading - 17.46) / 5;
+  }
+  EXPECT_NEAR(sum, 17.46, 1e-4); // values have six digits
+  EXPECT_NEAR(std::sqrt(squares), 0.4, 1e-4);
+  EXPECT_LT(study.runs[0].recipe.loading, study.runs[1].recipe.loading);
+}
+
+TEST(StudyFile, CellsOfASampleMistaken) {
+  const std::string vary = kHead + "[[vary]]\nkeys = [\"recipe.coating.loading_mg_cm2\"]\n";
+  expect_parts(refusal(vary + "normal = { mean = 17, cells = 1, deviation = 2 }\n"),
+               {"'sd' is missing", "cells is 1", "normal.deviation"});
+  expect_parts(refusal(vary + "normal = { mean = 17, sd = 20, cells = 3 }\n"),
+               {"coating.loading_mg_cm2 is -"});
+  expect_parts(refusal(vary + "values = [1]\nnormal = { mean = 17, sd = 1, cells = 3 }\n"),
+               {"either a list 'values' or a table 'normal'"});
 }
 
 TEST(StudyFile, WithoutGroupsIsOneRun) {

@@ -16,7 +16,7 @@ std::vector<std::string> columns_of(const BankSpec &spec) {
   for (const std::string &name : spec.effects)
     if (const Effect &e = find_effect(name); !e.instrument)
       for (const std::string &key : e.parameter.keys)
-        columns.push_back("case." + key);
+        columns.push_back(e.column(key));
   columns.push_back("case.platen.max_pressure_MPa");
   return columns;
 }

@@ -109,13 +109,14 @@ Words named(const Json &gap) {
   for (const Json &fitted : gap["fitted_effects"]) {
     const Effect &e = find_effect(fitted["effect"]);
     w.meaning += (w.meaning.empty() ? "" : "; ") + e.name + ": " + e.what;
-    settings += (settings.empty() ? "" : "; ") + setting_of(fitted);
+    settings +=
+        (settings.empty() ? "" : "; ") + setting_of(fitted) + (e.in_recipe ? " in the recipe" : "");
     instrument = instrument && e.layer == "measurement";
   }
   w.meaning += ".";
   w.next = {instrument ? "Check the instrument: " + settings +
                              ". The model needs no change; correct the data and diagnose again."
-                       : "Switch it on in the case: " + settings + ".",
+                       : "Switch it on: " + settings + ".",
             "Recalibrate with it, run conditions that were not used here on new packings, and "
             "compare before with after."};
   return w;

@@ -28,7 +28,7 @@ Study study_of(const BankTable &table, const std::vector<RerunModel> &models,
     study.columns.insert(study.columns.end(), p.keys.begin(), p.keys.end());
   for (const std::string &name : spec.effects)
     for (const std::string &key : find_effect(name).parameter.keys)
-      study.columns.push_back("case." + key);
+      study.columns.push_back(find_effect(name).column(key));
   study.columns.push_back("case.platen.max_pressure_MPa");
   std::vector<std::vector<std::string>> rows;
   for (const RerunModel &m : models)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "effects/effects.h"
+#include "registry/settings.h"
 #include "spec/key.h"
 #include "spec/messages.h"
+#include "spec/recipe.h"
 #include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -20,6 +22,12 @@ const Effect &find_effect(const std::string &name) {
                                        name, closest(name, names), fmt::join(names, ", ")));
 }
 
+const Key &key_of(const Effect &e) {
+  const std::vector<Key> &keys = e.in_recipe ? recipe_keys() : case_keys();
+  return *std::find_if(keys.begin(), keys.end(),
+                       [&](const Key &k) { return k.name == e.parameter.keys.front(); });
+}
+
 std::string folder_of_tests(const Effect &e) {
   const bool bare = e.verification.find('/') == std::string::npos;
   return (bare ? "verification/" : "") + e.verification;
@@ -31,6 +39,7 @@ nlohmann::json to_json(const Effect &e) {
           {"layer", e.layer},
           {"what", e.what},
           {"keys", a.keys},
+          {"keys_of", e.in_recipe ? "recipe" : "case"},
           {"off", a.off},
           {"low", a.low},
           {"high", a.high},

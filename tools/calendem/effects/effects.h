@@ -11,6 +11,9 @@ namespace calendem {
 /// Throws Failure(2) with the names there are.
 const Effect &find_effect(const std::string &name);
 
+/// The first key that its parameter moves, of the case or of the recipe.
+const Key &key_of(const Effect &effect);
+
 /// Folder in tests/ that checks it.
 std::string folder_of_tests(const Effect &effect);
 

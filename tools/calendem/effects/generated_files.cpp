@@ -168,7 +168,7 @@ std::string bond_laws_in() {
 }
 
 std::string of_unit(const Effect &e) {
-  const std::string unit = key_named(e.parameter.keys.front()).unit;
+  const std::string unit = key_of(e).unit;
   return unit.empty() ? "" : " " + unit;
 }
 
@@ -180,24 +180,26 @@ std::string in_code(const std::vector<std::string> &names) {
 }
 
 std::string effects_page() {
-  std::string out = "# The effects\n\n"
-                    "What the base model leaves out, each off by default, each a law in "
-                    "`src_plugin/physics` with its source, range and "
-                    "energy.\nMade from the rows in `src_plugin/registry` by `calendem registry`; "
-                    "not to be edited.\n\n"
-                    "| effect | what it is | keys of the case | off | range, prior | law | "
-                    "verified by | source |\n"
-                    "|---|---|---|---|---|---|---|---|\n";
+  std::string out =
+      "# The effects\n\n"
+      "What the base model leaves out, each off by default, each a law in "
+      "`src_plugin/physics` with its source, range and "
+      "energy.\nMade from the rows in `src_plugin/registry` by `calendem registry`; "
+      "not to be edited.\n\n"
+      "| effect | what it is | keys of the case, or of the recipe | off | range, prior | law | "
+      "verified by | source |\n"
+      "|---|---|---|---|---|---|---|---|\n";
   for (const Effect &e : effects()) {
     std::vector<std::string> keys;
     for (const Key &key : e.settings)
       keys.push_back(key.name);
     const EffectParameter &p = e.parameter;
-    out += fmt::format("| `{}` | {} | {} | {} | {:g}–{:g}{}, {}{} | `{}` | `tests/{}` | {} |\n",
-                       e.name, e.what, in_code(keys.empty() ? p.keys : keys), p.off, p.low, p.high,
-                       of_unit(e), p.spread == Spread::Uniform ? "uniform" : "log-uniform",
-                       p.scale == AmplitudeScale::Reciprocal ? "; the smaller, the stronger" : "",
-                       e.law, folder_of_tests(e), e.source);
+    out += fmt::format(
+        "| `{}` | {} | {} | {} | {:g}–{:g}{}, {}{} | `{}` | `tests/{}` | {} |\n", e.name, e.what,
+        in_code(keys.empty() ? p.keys : keys) + (e.in_recipe ? " of the recipe" : ""), p.off, p.low,
+        p.high, of_unit(e), p.spread == Spread::Uniform ? "uniform" : "log-uniform",
+        p.scale == AmplitudeScale::Reciprocal ? "; the smaller, the stronger" : "", e.law,
+        folder_of_tests(e), e.source);
   }
   return out;
 }

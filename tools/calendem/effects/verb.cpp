@@ -2,7 +2,6 @@
 #include "effects/verb.h"
 #include "effects/effects.h"
 #include "effects/generated_files.h"
-#include "spec/case.h"
 #include "spec/messages.h"
 #include "spec/provenance.h"
 #include <CLI/CLI.hpp>
@@ -15,12 +14,6 @@
 namespace calendem {
 namespace {
 
-std::string unit_of(const EffectParameter &p) {
-  const auto key = std::find_if(case_keys().begin(), case_keys().end(),
-                                [&](const Key &k) { return k.name == p.keys.front(); });
-  return key == case_keys().end() || key->unit.empty() ? "" : " " + key->unit;
-}
-
 void print_list() {
   fmt::print("{:<22} {:<12} {}\n", "effect", "layer", "what it is");
   for (const Effect &e : effects())
@@ -31,9 +24,10 @@ void print_list() {
 
 void print_one(const Effect &e) {
   const EffectParameter &a = e.parameter;
-  const std::string unit = unit_of(a);
+  const std::string unit = key_of(e).unit.empty() ? "" : " " + key_of(e).unit;
   fmt::print("{} ({}): {}\n", e.name, e.layer, e.what);
-  fmt::print("  key in case.toml  {}\n", fmt::join(a.keys, " and "));
+  fmt::print("  key of the {:<6} {}\n", e.in_recipe ? "recipe" : "case",
+             fmt::join(a.keys, " and "));
   fmt::print("  off               {}{}\n", a.off, unit);
   fmt::print("  range, prior      {:g} to {:g}{}, {}{}\n", a.low, a.high, unit,
              a.spread == Spread::Uniform ? "uniform" : "log-uniform",

@@ -43,6 +43,31 @@ void add_composition(nlohmann::json &j, const FinishedPacking &f) {
   j["am_envelope_overlap_fraction"] = 1.0 - envelope.am * r.am_density / am_mass;
 }
 
+// Spheres by volume, from the lowest place that they can have to the highest.
+nlohmann::json cbd_profile(const FinishedPacking &f) {
+  std::vector<double> fifths(5, 0.0);
+  double sum = 0.0, moment = 0.0, n = 0.0;
+  for (const Particle &p : f.particles) {
+    if (p.type != 2)
+      continue;
+    const double volume = std::pow(p.diameter, 3);
+    const double z = (p.x.z() - 0.5 * p.diameter) / (f.recipe.thickness() - p.diameter);
+    fifths[std::clamp(int(5.0 * z), 0, 4)] += volume;
+    moment += volume * z;
+    sum += volume;
+    n += 1.0;
+  }
+  if (n == 0.0)
+    return nullptr;
+  for (double &share : fifths)
+    share /= sum;
+  const CbdGradient &asked = f.recipe.cbd_gradient;
+  return {{"slope", CbdGradient::slope_of(moment / sum)},
+          {"slope_asked", asked.slope},
+          {"slope_scatter", asked.scatter(n)},
+          {"share_by_fifths_of_height", fifths}};
+}
+
 // Counts in classes of 0.02 from 0.7; below goes into the first.
 nlohmann::json sphericity_histogram(const std::vector<Body> &bodies) {
   std::vector<int> count(15, 0);
@@ -107,6 +132,7 @@ void add_state(nlohmann::json &j, const FinishedPacking &f) {
                                  [](const Particle &p) { return p.type == 1; });
   j["cbd"] = std::count_if(f.particles.begin(), f.particles.end(),
                            [](const Particle &p) { return p.type == 2; });
+  j["cbd_over_height"] = cbd_profile(f);
   j["bonds"] = s.bonds;
   j["lattice_pairs"] = s.lattice_pairs;
   j["largest_bond_strain"] = s.bond_strain;

@@ -56,12 +56,17 @@ Placement place(const Recipe &recipe, const std::vector<Body> &bodies) {
                                recipe.primary_diameter, primary_density(recipe), at + p, number});
     }
   }
-  for (int n = cbd_count(recipe); n > 0; --n) {
+  Random choice(recipe.seed, 4);
+  for (int n = cbd_count(recipe); n > 0;) {
     Eigen::Vector3d at = anywhere(Rc);
     for (int tries = 1; bins.hits(at, Rc); ++tries, at = anywhere(Rc))
       if (tries % 20000 == 0)
         out.height *= 1.1;
-    bins.add(at, Rc);
+    bins.add(at,
+             Rc); // also if it is not kept: the next ones then find the room of all heights alike
+    if (choice.uniform() >= recipe.cbd_gradient.kept((at.z() - Rc) / (out.height - 2.0 * Rc)))
+      continue;
+    --n;
     out.particles.push_back({static_cast<int>(out.particles.size()) + 1, 2, recipe.cbd_diameter,
                              cbd_density(recipe), at, 0});
   }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "run/collect.h"
 #include "physics/nanopore_collapse.h"
-#include "physics/press_instruments.h"
-#include "registry/effects.h"
 #include "run/bridges.h"
 #include "run/energy.h"
 #include "run/line_load.h"
@@ -29,14 +27,6 @@ constexpr double kImbalanceWindow = 0.5; // us
 // Rows are up to 0.1 um apart: the highest of them lies a little below the pressure that was met.
 // Gaps are averages: where the platen turns at once, a quarter of the window's travel is cut off.
 constexpr double kTargetTolerance = 0.02, kCutOff = 0.25 * kAverageTravel; // um
-
-PressInstruments instruments_of(const Settings &s) { // MPa, um
-  PressInstruments press;
-  for (const Effect &e : effects())
-    if (e.shown)
-      press.*e.shown = s.number(e.parameter.keys.front());
-  return press;
-}
 
 double total_porosity(const ElectrodeFacts &e, double gap) {
   return 1.0 - e.solid / (e.area * gap);

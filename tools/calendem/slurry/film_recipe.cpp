@@ -83,6 +83,10 @@ FilmRecipe read_film_recipe(const std::string &file) {
   f.recipe.file = file;
   f.recipe.shapes = read_shapes(s, file, mistakes);
   check_recipe(s, f.recipe, mistakes);
+  if (f.recipe.cbd_gradient.slope != 0.0)
+    mistakes.add(0,
+                 "effects.cbd_gradient places the spheres of an electrode that is packed from its "
+                 "recipe; in a film they are where it dries. Leave it out.");
   f.solid_content = s.number("slurry.solid_content_percent") / 100.0;
   f.solvent_density = s.number("slurry.solvent_density_g_cm3");
   f.sphere_fraction = s.number("slurry.sphere_fraction");

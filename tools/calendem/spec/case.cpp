@@ -220,6 +220,14 @@ double averaging_window(const Settings &s) {
   return given > 0.0 ? given : kAverageTravel / s.number(highest_speed(s));
 }
 
+PressInstruments instruments_of(const Settings &s) {
+  PressInstruments press;
+  for (const Effect &e : effects())
+    if (e.shown)
+      press.*e.shown = s.number(e.parameter.keys.front());
+  return press;
+}
+
 void check_case(const Settings &s, Mistakes &mistakes) {
   check_collapse(s, Phase::Am, Phase::Am, 0.1, mistakes);
   check_collapse(s, Phase::Cbd, Phase::Cbd, 0.1, mistakes);

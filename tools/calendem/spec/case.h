@@ -16,6 +16,9 @@ inline constexpr double kAverageTravel = 0.1;
 /// Window over which pressure and gap are averaged [us].
 double averaging_window(const Settings &settings);
 
+/// What the press shows [MPa, um].
+PressInstruments instruments_of(const Settings &settings);
+
 /// What the settings contradict, beyond what each key may hold.
 void check_case(const Settings &settings, Mistakes &mistakes);
 

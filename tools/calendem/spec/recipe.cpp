@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "spec/recipe.h"
+#include "registry/effects.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -8,6 +9,8 @@
 namespace calendem {
 
 namespace {
+
+const char *const kGradient = "effects.cbd_gradient.slope";
 
 std::vector<Key> own_keys() {
   return {
@@ -50,6 +53,7 @@ std::vector<Key> own_keys() {
 const std::vector<Key> &recipe_keys() {
   static const std::vector<Key> keys = [] {
     std::vector<Key> all = own_keys();
+    add_settings_of_effects(true, all);
     all.insert(all.end(), structure_keys().begin(), structure_keys().end());
     return all;
   }();
@@ -168,6 +172,7 @@ Recipe recipe_of(const Settings &s) {
   r.lattice = s.number("particles.lattice_um");
   r.nanoporosity = s.number("cbd.nanoporosity_percent") / 100.0;
   r.cbd_diameter = s.number("cbd.diameter_um");
+  r.cbd_gradient.slope = s.number(kGradient);
   r.cell_x = s.number("cell.x_um");
   r.cell_y = s.number("cell.y_um");
   r.seed = static_cast<unsigned long>(s.number("seed"));
@@ -178,6 +183,11 @@ void check_recipe(const Settings &s, const Recipe &r, Mistakes &mistakes) {
   check_composition(s, mistakes);
   check_spheres(s, r, mistakes);
   check_cell(s, r, mistakes);
+  if (r.structure.given() && r.cbd_gradient.slope != 0.0)
+    mistakes.add(s.line(kGradient),
+                 fmt::format("{} is {}, but the structure has its carbon-binder where it is. Give "
+                             "0, or leave it out.",
+                             kGradient, s.text(kGradient)));
 }
 
 double neighbour_cut_off(double diameter) { return 1.1 * diameter + 0.25; }

@@ -3,6 +3,7 @@
 #ifndef CALENDEM_SPEC_RECIPE_H
 #define CALENDEM_SPEC_RECIPE_H
 
+#include "physics/cbd_gradient.h"
 #include "spec/structure_source.h"
 #include <cstdint>
 
@@ -28,6 +29,7 @@ struct Recipe {
   double median, sigma_ln, min_diameter, max_diameter, max_width_fraction, irregularity;
   double primary_diameter, lattice;
   double nanoporosity, cbd_diameter;
+  CbdGradient cbd_gradient;
   double cell_x, cell_y;
   unsigned long seed;
   ShapeSource shapes;

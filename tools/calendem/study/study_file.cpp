@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "study/study_file.h"
+#include "inference/sobol_points.h"
 #include "spec/case.h"
 #include "spec/csv_table.h"
 #include "spec/file_kind.h"
 #include "spec/table_reader.h"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
@@ -66,7 +68,7 @@ public:
       mistakes_.add(line_of(node), "write what is varied as tables: [[vary]].");
       return {};
     }
-    tell_unknown(*t, {"keys", "values", "design"});
+    tell_unknown(*t, {"keys", "values", "normal", "design"});
     if (t->contains("design") && (t->contains("keys") || t->contains("values"))) {
       mistakes_.add(line_of(node), "give either keys and values, or a design.");
       return {};
@@ -107,11 +109,35 @@ private:
     group.rows.push_back(row);
   }
 
+  /// normal = { mean, sd, cells }: the law at the middle of as many equal shares, drawn apart until
+  /// the cells' standard deviation is the law's.
+  void add_normal(Group &group, const toml::table &t, int line) {
+    tell_unknown(t, {"mean", "sd", "cells"}, "normal.");
+    const double mean = number(t, {"mean", "", "", -1e9, 1e9, "", "of the cells"}),
+                 sd = number(t, {"sd", "", "", 0, 1e9, "", "of the cells"});
+    const int cells = int(number(t, {"cells", "", "", 2, 1000, "", "how many", "", false, true}));
+    std::vector<double> score;
+    double squares = 0.0;
+    for (int k = 0; k < cells; ++k) {
+      score.push_back(inference::normal_quantile((k + 0.5) / cells));
+      squares += score.back() * score.back() / cells;
+    }
+    for (const double z : score) {
+      const std::string cell = fmt::format("{:.6g}", mean + sd * z / std::sqrt(squares));
+      std::vector<std::string> row;
+      for (const std::string &key : group.keys)
+        row.push_back(checked(key, cell, line));
+      group.rows.push_back(row);
+    }
+  }
+
   Group read_values(const toml::table &t, int line) {
     Group group;
     const toml::array *keys = t["keys"].as_array(), *values = t["values"].as_array();
-    if (!keys || !values || keys->empty() || values->empty()) {
-      mistakes_.add(line, "a group [[vary]] needs a list 'keys' and a list 'values'.");
+    const toml::table *normal = t["normal"].as_table();
+    if (!keys || keys->empty() || (values && !values->empty()) == (normal != nullptr)) {
+      mistakes_.add(line, "a group [[vary]] needs a list 'keys' and either a list 'values' or a "
+                          "table 'normal'.");
       return group;
     }
     for (const toml::node &k : *keys) {
@@ -119,8 +145,11 @@ private:
       if (!find_key(group.keys.back()))
         mistakes_.add(line_of(k), unknown_key(group.keys.back()));
     }
-    for (const toml::node &v : *values)
-      add_row(group, v);
+    if (normal)
+      add_normal(group, *normal, line);
+    else
+      for (const toml::node &v : *values)
+        add_row(group, v);
     return group;
   }
 

@@ -10,6 +10,9 @@
 //   keys = ["case.bond.tensile_strength_MPa", "case.bond.shear_strength_MPa"]
 //   values = [200, 500]                # one value for all keys, or a list with one for each
 //   [[vary]]
+//   keys = ["recipe.coating.loading_mg_cm2"]
+//   normal = { mean = 17.46, sd = 0.4, cells = 5 } # instead: cells of a sample, calendem sample
+//   [[vary]]
 //   design = "points.csv"              # instead: columns named by keys, a row for each value
 #ifndef CALENDEM_STUDY_STUDY_FILE_H
 #define CALENDEM_STUDY_STUDY_FILE_H

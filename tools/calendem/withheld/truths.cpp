@@ -57,7 +57,7 @@ std::map<std::string, std::string> changed_keys(const Round &round, const Truth 
       out[key] = fmt::format("{}", t.base[k]);
   for (const auto &[name, value] : t.effects)
     for (const std::string &key : find_effect(name).parameter.keys)
-      out["case." + key] = fmt::format("{}", value);
+      out[find_effect(name).column(key)] = fmt::format("{}", value);
   for (const std::string &name : t.hidden)
     for (const ChangedKey &c : find_hidden(name)->keys)
       out[c.key] =
@@ -80,7 +80,7 @@ std::map<std::string, std::string> usual_values(const Round &round,
   for (const Truth &t : truths) {
     for (const auto &effect : t.effects)
       for (const std::string &key : find_effect(effect.first).parameter.keys)
-        add("case." + key);
+        add(find_effect(effect.first).column(key));
     for (const std::string &name : t.hidden)
       for (const ChangedKey &c : find_hidden(name)->keys)
         add(c.key);

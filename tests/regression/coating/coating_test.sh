@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# One case of the coating as it came from the dryer, on small cells: coating_test.sh CASE BIN WORK
+set -euo pipefail
+case=$1 bin=$2 work=$3
+if [ "$(id -u)" -eq 0 ]; then export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; fi
+fail() { echo "FAILED: $*" >&2; exit 1; }
+number() { sed -n "s/^ *\"$1\": \([-+0-9.e]*\),*$/\1/p" "$2"; } # of a summary
+holds() { awk "BEGIN { exit !($1) }" || fail "$2"; }
+recipe() { # FILE LOADING SIDE [LINE...]
+  printf '%s\n' 'name = "coating"' "seed = 3" "[coating]" "loading_mg_cm2 = $2" "[cell]" "x_um = $3" "y_um = $3" "${@:4}" >"$1"
+}
+
+mkdir -p "$work"
+case $case in
+  gradient) # the film that LIGGGHTS densified has the slope that was asked for, towards either side
+    for asked in -0.8 0.8; do
+      out=$work/gradient_$asked
+      recipe "$work/gradient.toml" 8 8 "[effects.cbd_gradient]" "slope = $asked"
+      "$bin/calendem" validate "$work/gradient.toml"
+      rm -rf "$out"
+      "$bin/calendem" pack "$work/gradient.toml" -o "$out" --ranks 1
+      slope=$(number slope "$out/electrode.json") scatter=$(number slope_scatter "$out/electrode.json")
+      holds "($slope - $asked)^2 <= (3 * $scatter)^2" "slope $slope instead of $asked, scatter of the draw $scatter"
+    done ;;
+  uneven) # two cells under one plate: the sample bears the mean of what they bear at the same gap
+    recipe "$work/uneven.toml" 4 6
+    printf '%s\n' 'electrode = "any"' "[platen]" 'control = "thickness"' "thickness_um = 12.5" "speed_m_s = 2" \
+      "touch_speed_m_s = 2" "release_speed_m_s = 2" >"$work/case.toml"
+    printf '%s\n' "[study]" 'recipe = "uneven.toml"' 'case = "case.toml"' 'keep = "tables"' "[[vary]]" \
+      'keys = ["recipe.coating.loading_mg_cm2"]' "normal = { mean = 4, sd = 0.2, cells = 2 }" >"$work/study.toml"
+    rm -rf "$work/study" "$work/sample" "$work/alone"
+    "$bin/calendem" study "$work/study.toml" -o "$work/study"
+    mapfile -t runs < <(awk -F, -v at="$work/study/runs/" 'NR > 1 { print at $3 }' "$work/study/study.csv")
+    "$bin/calendem" sample "${runs[@]}" --one gap -o "$work/sample"
+    at_gap() { # RUN GAP: pressure there on the way down, linear between rows; 0 before the first
+      awk -F, -v gap="$2" 'NR == 1 { for (k = 1; k <= NF; k++) { if ($k == "thickness_um") h = k; if ($k == "pressure_MPa") p = k } next }
+        $h <= gap { printf "%.9g\n", last ? q + ($p - q) * (last - gap) / (last - $h) : 0; exit } { last = $h; q = $p }' "$1/curve.csv"
+    }
+    most=$(number thickness_at_max_um "$work/sample/summary.json")
+    for gap in "$most" 13 13.5 14 15; do
+      sample=$(at_gap "$work/sample" "$gap") mean="($(at_gap "${runs[0]}" "$gap") + $(at_gap "${runs[1]}" "$gap")) / 2"
+      echo "at $gap um $sample MPa"
+      holds "($sample - $mean)^2 < (1e-5 * $sample)^2 + 1e-12" "$sample MPa at $gap um is not the cells' mean $mean" # six digits
+    done
+    "$bin/calendem" sample "${runs[0]}" "${runs[0]}" --one gap -o "$work/alone" # alike: a cell is the sample
+    for key in max_pressure_MPa thickness_after_relaxation_um porosity_initial; do
+      holds "($(number $key "$work/alone/summary.json") / $(number $key "${runs[0]}/summary.json") - 1)^2 < 1e-6" "$key of a sample of one"
+    done
+    ! "$bin/calendem" sample "${runs[@]}" --one pressure -o "$work/none" 2>"$work/said" || fail "cells of other pressures were taken"
+    grep -q "turn within" "$work/said" || { cat "$work/said"; fail "it is not said why"; } ;;
+esac
