@@ -97,7 +97,7 @@ TEST(ShippedBank, EffectsAtTwiceTheirDetectionLimitAreNamed) {
   const BankSpec spec = read_bank_spec(folder + "bank.toml");
   const BankTable bank = read_bank_table(spec, folder + "bank.csv");
   const ExperimentData data = data_of(shown(bank, 0, spec.recipe_file), bank, {});
-  inference::Settings settings;
+  inference::DiagnosisSettings settings;
   settings.model.packings_in_sample = 1e5;
   const inference::Model model(data.bank, data.experiment, settings.model, {});
   const inference::Problem problem = model.problem(data.experiment.values);

@@ -18,7 +18,7 @@ Problem learnt() {
   bank.effects[1].parameters[0].nothing = 0.002;
   bank.effects[2].parameters[0].prior = {Prior::normal, 0.5, 0.25};
   Random packing(99, 77), rough(4, 4);
-  for (Run &r : bank.runs) // differences without scatter make ill-conditioned emulators
+  for (BankRun &r : bank.runs) // differences without scatter make ill-conditioned emulators
     for (double &v : r.values)
       v += 0.03 * rough.normal();
   ObservableVector experiment{bank.observables,

@@ -13,8 +13,8 @@ using namespace calendem_test;
 DiffusionGrid grid_of(const PhaseImage &image, float am, float cbd = 0.0F) {
   DiffusionGrid grid = pore_space(image);
   for (size_t v = 0; v < image.label.size(); ++v)
-    if (image.phase(v) != Phase::pore)
-      grid.diffusivity[v] = image.phase(v) == Phase::am ? am : cbd;
+    if (image.phase(v) != VoxelPhase::pore)
+      grid.diffusivity[v] = image.phase(v) == VoxelPhase::am ? am : cbd;
   return grid;
 }
 

@@ -159,9 +159,9 @@ ImageMeasures measures_of(const PhaseImage &image, int i0, int i1, int j0, int j
     const auto third = static_cast<size_t>(3 * k / image.n[2]);
     for (int j = j0; j < j1; ++j)
       for (int i = i0; i < i1; ++i) {
-        const Phase phase = image.phase(image.index(i, j, k));
-        am[third] += phase == Phase::am;
-        pore[third] += phase == Phase::pore;
+        const VoxelPhase phase = image.phase(image.index(i, j, k));
+        am[third] += phase == VoxelPhase::am;
+        pore[third] += phase == VoxelPhase::pore;
         all[third] += 1.0;
       }
   }

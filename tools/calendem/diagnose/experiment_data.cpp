@@ -22,9 +22,9 @@ inference::Prior prior_of(Spread spread, double low, double high) {
           low, high};
 }
 
-inference::Run bank_run(const PointRuns &runs, const Vector &values) {
+inference::BankRun bank_run(const PointRuns &runs, const Vector &values) {
   const BankPoint &p = runs.front()->point;
-  inference::Run out;
+  inference::BankRun out;
   out.effect = p.effect;
   out.packing = fmt::format("{}", p.packing);
   out.base = Eigen::Map<const Vector>(p.base.data(), Eigen::Index(p.base.size()));
@@ -46,14 +46,14 @@ void add_instrument(const Effect &effect, std::uint64_t seed, double film,
       const double value = effect.parameter.value(amplitude);
       const double on_film = value * film; // micrometres do not grow with a film
       const auto see = [&](const SimulatedRun &r) { return shown_with(effect, on_film, r); };
-      inference::Run run = bank_run(points[k], values_of(all, points[k], see));
+      inference::BankRun run = bank_run(points[k], values_of(all, points[k], see));
       run.effect = effect.name;
       run.amplitudes = Vector::Constant(1, amplitude);
       bank.runs.push_back(run);
     }
 }
 
-inference::Observable named(const Covered &c, const Observable &o) {
+inference::ObservableId named(const Covered &c, const Observable &o) {
   return {o.curve.empty() ? o.name : o.curve, o.stage, c.condition.id, o.coordinate};
 }
 
@@ -86,7 +86,7 @@ inference::ObservableVector measured_of(const std::vector<Covered> &all, const V
 std::vector<int> known_of(const inference::Bank &bank, int first, int count) {
   std::vector<int> known;
   for (int k = 0; k < count; ++k)
-    if (std::all_of(bank.runs.begin(), bank.runs.end(), [&](const inference::Run &run) {
+    if (std::all_of(bank.runs.begin(), bank.runs.end(), [&](const inference::BankRun &run) {
           return std::isfinite(run.values[first + k]);
         }))
       known.push_back(k);
@@ -106,20 +106,20 @@ inference::ObservableVector only(const inference::ObservableVector &all,
 /// What the experiment has and every run too; the bank's values of it go into `kept`.
 void set_experiment(const inference::ObservableVector &measured, const std::vector<Covered> &all,
                     ExperimentData &data, std::vector<int> &kept) {
-  std::vector<Told> told;
+  std::vector<ValueLabel> labels;
   for (const Covered &c : all)
     for (const Observable &o : c.observables)
-      told.push_back({o.name, o.unit, o.curve.empty() ? c.pressure : o.pressure});
-  for (const int k : known_of(data.bank, 0, int(told.size())))
+      labels.push_back({o.name, o.unit, o.curve.empty() ? c.pressure : o.pressure});
+  for (const int k : known_of(data.bank, 0, int(labels.size())))
     if (std::isfinite(measured.values[k]))
       kept.push_back(k);
-  for (int k = 0; k < int(told.size()); ++k)
+  for (int k = 0; k < int(labels.size()); ++k)
     if (std::find(kept.begin(), kept.end(), k) == kept.end())
       data.not_said.push_back(fmt::format("{}: {}: not every run of the bank has it; left out.",
                                           measured.of[std::size_t(k)].condition,
-                                          told[std::size_t(k)].name));
+                                          labels[std::size_t(k)].name));
     else
-      data.told.push_back(told[std::size_t(k)]);
+      data.labels.push_back(labels[std::size_t(k)]);
   if (kept.empty())
     throw Failure(kBadInput,
                   fmt::format("nothing that was measured can be compared with the bank. Conditions "
@@ -242,7 +242,7 @@ void fill_bank(double film, const BankTable &table, const std::vector<Covered> &
 
 } // namespace
 
-inference::Effect inference_effect(const Effect &effect) {
+inference::ModelledEffect inference_effect(const Effect &effect) {
   const EffectParameter &p = effect.parameter;
   double low = p.amplitude(p.low), high = p.amplitude(p.high);
   if (low > high)
@@ -276,7 +276,7 @@ ExperimentData data_of(const Experiment &experiment, const BankTable &as_given,
   fill_bank(film_ratio(experiment, full_cell), table, all, points, data.bank);
   inference::ObservableVector measured = measured_of(now, by_pressure(now, points));
   if (const Transfer t = transfer_of(experiment, full_cell, all, data.not_said); t.change.size()) {
-    for (inference::Run &run : data.bank.runs)
+    for (inference::BankRun &run : data.bank.runs)
       run.values += t.change;
     const Eigen::Index n = measured.values.size();
     measured.covariance += t.covariance.topLeftCorner(n, n);
@@ -285,7 +285,7 @@ ExperimentData data_of(const Experiment &experiment, const BankTable &as_given,
   set_experiment(measured, now, data, kept);
   data.bank.observables = data.experiment.of;
   set_next(further, points, int(measured.of.size()), data, kept);
-  for (inference::Run &run : data.bank.runs)
+  for (inference::BankRun &run : data.bank.runs)
     run.values = Vector(run.values(kept));
   return data;
 }

@@ -56,7 +56,7 @@ RerunModel calibrated(const std::string &role, const Hypothesis &h, const Part &
   for (int k = 0; k < train.problem.base_parameters; ++k)
     out.base.push_back(train.data.bank.base[std::size_t(k)].prior.value(e.mode[k]));
   for (const inference::Applied &a : applied(train.problem, h, e.mode)) {
-    const inference::Effect &effect = train.problem.effects[std::size_t(a.effect)];
+    const inference::ModelledEffect &effect = train.problem.effects[std::size_t(a.effect)];
     out.effect[effect.name] =
         find_effect(effect.name)
             .parameter.value(effect.parameters.front().prior.value(a.scores[0]));

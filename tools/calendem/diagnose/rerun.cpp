@@ -89,12 +89,12 @@ std::vector<double> pressures_of(const Experiment &e) {
 }
 
 /// What was measured and what the models gave, observable by observable.
-nlohmann::ordered_json observables(const HeldOut &h, const std::vector<inference::Observable> &of,
+nlohmann::ordered_json observables(const HeldOut &h, const std::vector<inference::ObservableId> &of,
                                    const std::vector<RerunModel> &models,
                                    const std::vector<Matrix> &simulated) {
   nlohmann::ordered_json out = nlohmann::ordered_json::array();
   for (Eigen::Index i = 0; i < h.measured.size(); ++i) {
-    const inference::Observable &o = of[std::size_t(i)];
+    const inference::ObservableId &o = of[std::size_t(i)];
     nlohmann::ordered_json row = {{"condition", o.condition},  {"name", o.name},
                                   {"stage", o.stage},          {"coordinate", o.coordinate},
                                   {"measured", h.measured[i]}, {"sd", h.sd[i]}};

@@ -9,10 +9,10 @@ using Json = nlohmann::ordered_json;
 
 void tell_units(const ExperimentData &data, Json &gap) {
   Json &rows = gap["predictions"]["observables"];
-  for (std::size_t k = 0; k < data.told.size(); ++k) {
-    rows[k]["name"] = data.told[k].name;
-    rows[k]["unit"] = data.told[k].unit;
-    rows[k]["pressure_MPa"] = data.told[k].pressure;
+  for (std::size_t k = 0; k < data.labels.size(); ++k) {
+    rows[k]["name"] = data.labels[k].name;
+    rows[k]["unit"] = data.labels[k].unit;
+    rows[k]["pressure_MPa"] = data.labels[k].pressure;
   }
   for (Json &place : gap["where"])
     for (const Json &row : rows)

@@ -8,16 +8,16 @@
 namespace calendem::inference {
 namespace {
 
-const Effect *effect_named(const Bank &bank, const std::string &name) {
-  for (const Effect &e : bank.effects)
+const ModelledEffect *effect_named(const Bank &bank, const std::string &name) {
+  for (const ModelledEffect &e : bank.effects)
     if (e.name == name)
       return &e;
   return nullptr;
 }
 
 void check_run(const Bank &bank, int number, Mistakes &mistakes) {
-  const Run &r = bank.runs[number];
-  const Effect *effect = effect_named(bank, r.effect);
+  const BankRun &r = bank.runs[number];
+  const ModelledEffect *effect = effect_named(bank, r.effect);
   const auto add = [&](const std::string &text) {
     mistakes.add(0, fmt::format("run {}: {}", number + 1, text));
   };
@@ -58,7 +58,7 @@ void check(const Bank &bank) {
   for (const Parameter &p : bank.base)
     check(p);
   Mistakes mistakes("bank of simulations", 10);
-  for (const Effect &e : bank.effects) {
+  for (const ModelledEffect &e : bank.effects) {
     bool amplitude = false;
     for (const Parameter &p : e.parameters) {
       check(p);
@@ -72,13 +72,13 @@ void check(const Bank &bank) {
   mistakes.stop_if_any();
   const auto count = [&](const std::string &effect) {
     return int(std::count_if(bank.runs.begin(), bank.runs.end(),
-                             [&](const Run &r) { return r.effect == effect; }));
+                             [&](const BankRun &r) { return r.effect == effect; }));
   };
   const int fewest = int(bank.base.size()) + kFewestRuns;
   if (count("") < fewest)
     mistakes.add(0, fmt::format("{} runs of the base model; at least {} for {} parameters",
                                 count(""), fewest, bank.base.size()));
-  for (const Effect &e : bank.effects) {
+  for (const ModelledEffect &e : bank.effects) {
     const int pairs = int(pairs_of(bank, e.name).size());
     if (pairs < count(e.name))
       mistakes.add(0, fmt::format("effect '{}': {} of its {} runs have no base run of the same "
@@ -91,7 +91,7 @@ void check(const Bank &bank) {
   mistakes.stop_if_any();
 }
 
-void add_measurement_fault(Bank &bank, const Effect &fault, const FaultAction &action) {
+void add_measurement_fault(Bank &bank, const ModelledEffect &fault, const FaultAction &action) {
   const int parameters = int(fault.parameters.size());
   std::vector<int> base_runs;
   for (int i = 0; i < int(bank.runs.size()); ++i)
@@ -99,7 +99,7 @@ void add_measurement_fault(Bank &bank, const Effect &fault, const FaultAction &a
       base_runs.push_back(i);
   const Matrix points = sobol_points(parameters, int(base_runs.size()), 0);
   for (int k = 0; k < int(base_runs.size()); ++k) {
-    Run shown = bank.runs[base_runs[k]];
+    BankRun shown = bank.runs[base_runs[k]];
     shown.effect = fault.name;
     shown.amplitudes.resize(parameters);
     for (int j = 0; j < parameters; ++j)

@@ -10,14 +10,14 @@
 
 namespace calendem::inference {
 
-struct Effect {
+struct ModelledEffect {
   std::string name;
   std::vector<Parameter> parameters; ///< at least one with `amplitude`
   /// Its runs are computed from those of the base model: they scatter with them, not on their own.
   bool computed = false;
 };
 
-struct Run {
+struct BankRun {
   std::string effect;  ///< name of the effect that is on; empty: base model
   std::string packing; ///< id; runs of one packing share its scatter
   Vector base;         ///< values of the base parameters
@@ -27,9 +27,9 @@ struct Run {
 
 struct Bank {
   std::vector<Parameter> base;
-  std::vector<Effect> effects;
-  std::vector<Observable> observables;
-  std::vector<Run> runs;
+  std::vector<ModelledEffect> effects;
+  std::vector<ObservableId> observables;
+  std::vector<BankRun> runs;
 };
 
 /// Of the base model, and of an effect beside runs of it.
@@ -44,12 +44,12 @@ std::vector<std::pair<int, int>> pairs_of(const Bank &bank, const std::string &e
 
 /// A mistake of measurement acts on numbers, no simulation is needed: what the instrument shows of
 /// true values, given the amplitudes. Amplitudes 0 must give the values back.
-using FaultAction = std::function<Vector(const std::vector<Observable> &, const Vector &values,
+using FaultAction = std::function<Vector(const std::vector<ObservableId> &, const Vector &values,
                                          const Vector &amplitudes)>;
 
 /// Adds the fault as an effect, with one run for every base run; amplitudes are spread over their
 /// priors by a Sobol sequence.
-void add_measurement_fault(Bank &bank, const Effect &fault, const FaultAction &action);
+void add_measurement_fault(Bank &bank, const ModelledEffect &fault, const FaultAction &action);
 
 /// One row per run: effect,packing,<base parameters>,<effect.parameter ...>,<keys of observables>.
 /// Numbers with 17 digits: reading gives the same bytes again.

@@ -7,7 +7,7 @@
 namespace calendem::inference {
 namespace {
 
-std::string column(const Effect &effect, const Parameter &parameter) {
+std::string column(const ModelledEffect &effect, const Parameter &parameter) {
   return effect.name + "." + parameter.name;
 }
 
@@ -15,10 +15,10 @@ std::vector<std::string> number_columns(const Bank &bank) {
   std::vector<std::string> columns;
   for (const Parameter &p : bank.base)
     columns.push_back(p.name);
-  for (const Effect &e : bank.effects)
+  for (const ModelledEffect &e : bank.effects)
     for (const Parameter &p : e.parameters)
       columns.push_back(column(e, p));
-  for (const Observable &o : bank.observables)
+  for (const ObservableId &o : bank.observables)
     columns.push_back(key_of(o));
   return columns;
 }
@@ -41,11 +41,11 @@ std::string write_table(const Bank &bank) {
   for (const std::string &name : number_columns(bank))
     text += "," + name;
   text += "\n";
-  for (const Run &r : bank.runs) {
+  for (const BankRun &r : bank.runs) {
     text += r.effect + "," + r.packing;
     for (const double v : r.base)
       text += fmt::format(",{:.17g}", v);
-    for (const Effect &e : bank.effects)
+    for (const ModelledEffect &e : bank.effects)
       for (int j = 0; j < int(e.parameters.size()); ++j)
         text += e.name == r.effect ? fmt::format(",{:.17g}", r.amplitudes[j]) : ",";
     for (const double v : r.values)
@@ -74,17 +74,17 @@ void read_table(Bank &bank, const std::string &text, const std::string &file) {
       place(bank.runs[i], numbers[i]);
   };
   for (std::size_t j = 0; j < bank.base.size(); ++j)
-    fill(bank.base[j].name, [&](Run &r, double v) { r.base[Eigen::Index(j)] = v; });
-  for (const Effect &e : bank.effects)
+    fill(bank.base[j].name, [&](BankRun &r, double v) { r.base[Eigen::Index(j)] = v; });
+  for (const ModelledEffect &e : bank.effects)
     for (std::size_t j = 0; j < e.parameters.size(); ++j)
-      fill(column(e, e.parameters[j]), [&](Run &r, double v) {
+      fill(column(e, e.parameters[j]), [&](BankRun &r, double v) {
         if (r.effect != e.name)
           return;
         r.amplitudes.conservativeResize(Eigen::Index(e.parameters.size()));
         r.amplitudes[Eigen::Index(j)] = v;
       });
   for (std::size_t j = 0; j < bank.observables.size(); ++j)
-    fill(key_of(bank.observables[j]), [&](Run &r, double v) { r.values[Eigen::Index(j)] = v; });
+    fill(key_of(bank.observables[j]), [&](BankRun &r, double v) { r.values[Eigen::Index(j)] = v; });
 }
 
 } // namespace calendem::inference

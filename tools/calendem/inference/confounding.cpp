@@ -15,7 +15,7 @@ constexpr double kFarthest = 8.0; // score of a prior's lower end
 // recalibrated: the tangents overrate a distance by up to two.
 constexpr double kLookAgain = 4.0;
 
-int first_amplitude(const Effect &effect) {
+int first_amplitude(const ModelledEffect &effect) {
   for (int j = 0; j < int(effect.parameters.size()); ++j)
     if (effect.parameters[j].amplitude)
       return j;
@@ -23,7 +23,7 @@ int first_amplitude(const Effect &effect) {
 }
 
 /// Scores of an effect at a share of its first amplitude's range, the others at quantiles.
-Vector at_share(const Effect &effect, double share, int shape) {
+Vector at_share(const ModelledEffect &effect, double share, int shape) {
   Vector scores(Eigen::Index(effect.parameters.size()));
   const int first = first_amplitude(effect);
   for (int j = 0; j < scores.size(); ++j) {
@@ -38,7 +38,7 @@ Vector at_share(const Effect &effect, double share, int shape) {
 /// Signatures of an effect over its amplitudes and shapes; the first is "off".
 std::vector<Signature> grid_of(const Signatures &signatures, const Problem &problem, int effect,
                                int steps) {
-  const Effect &e = problem.effects[effect];
+  const ModelledEffect &e = problem.effects[effect];
   const int shapes = e.parameters.size() > 1 ? kShapes : 1;
   std::vector<Signature> grid{signatures.off()};
   for (int s = 0; s < shapes; ++s)
@@ -65,7 +65,7 @@ struct Hardest {
 /// with its square; NaN: none. `odds`: at the k-th step, from 0. `rival`: of the last amplitude
 /// looked at.
 template <class Odds>
-double first_telling(const Effect &e, const ConfoundingSettings &settings, const Odds &odds,
+double first_telling(const ModelledEffect &e, const ConfoundingSettings &settings, const Odds &odds,
                      std::string &rival) {
   double before = 0.0; // log-odds at the step below
   for (int k = 1; k <= settings.amplitudes; ++k) {
@@ -84,7 +84,7 @@ double first_telling(const Effect &e, const ConfoundingSettings &settings, const
 
 /// What having an amplitude to choose costs the effect's evidence beside none's, at each step: ln
 /// of the amplitude's prior width over the width that the data leave it, by Laplace's integral.
-std::vector<double> occam_of(const Effect &e, const std::vector<Signature> &truths,
+std::vector<double> occam_of(const ModelledEffect &e, const std::vector<Signature> &truths,
                              const Signature &off) {
   const Prior &p = e.parameters[first_amplitude(e)].prior;
   const double step = p.upper() / double(truths.size());
@@ -102,7 +102,7 @@ std::vector<double> occam_of(const Effect &e, const std::vector<Signature> &trut
 DetectionLimit limit_of(const Problem &problem, int effect,
                         const std::vector<std::vector<Signature>> &grids,
                         const Signatures &signatures, const ConfoundingSettings &settings) {
-  const Effect &e = problem.effects[effect];
+  const ModelledEffect &e = problem.effects[effect];
   std::vector<Signature> truths;
   for (int k = 1; k <= settings.amplitudes; ++k)
     truths.push_back(signatures.of({{effect, at_share(e, double(k) / settings.amplitudes, 1)}}));

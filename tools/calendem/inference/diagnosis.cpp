@@ -51,12 +51,13 @@ std::vector<FittedEffect> effects_of(const Bank &bank, const Judged &best) {
 
 } // namespace
 
-Told told(const Model &model, const Problem &problem, const Settings &settings) {
+Discrimination discriminate(const Model &model, const Problem &problem,
+                            const DiagnosisSettings &settings) {
   WhichSettings rules = settings.which;
   for (const std::string &name : model.poor_effects())
     rules.poor.push_back(name);
   rules.noise_seen = !problem.point_noise.empty();
-  Told t;
+  Discrimination t;
   t.which = which(problem, rules);
   t.confounding = confounding(problem, t.which, settings.confounding);
   std::vector<double> limits;
@@ -68,12 +69,12 @@ Told told(const Model &model, const Problem &problem, const Settings &settings) 
 }
 
 Diagnosis diagnose(const Model &model, const Bank &bank, const Vector &values,
-                   const Settings &settings, const std::vector<PointNoise> &point_noise) {
+                   const DiagnosisSettings &settings, const std::vector<PointNoise> &point_noise) {
   Diagnosis d;
   Problem problem = model.problem(values);
   problem.point_noise = point_noise;
   d.blocks = problem.blocks;
-  Told t = told(model, problem, settings);
+  Discrimination t = discriminate(model, problem, settings);
   d.which = std::move(t.which);
   d.confounding = std::move(t.confounding);
   d.where = where(problem, d.which.base, settings.where);

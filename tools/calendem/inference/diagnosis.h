@@ -10,7 +10,7 @@
 
 namespace calendem::inference {
 
-struct Settings {
+struct DiagnosisSettings {
   ModelSettings model;
   WhichSettings which;
   WhereSettings where;
@@ -52,18 +52,20 @@ struct Diagnosis {
   double degrees_of_freedom = 0.0, shrinkage = 0.0; ///< of the scatter between packings
 };
 
-/// What is told from what, and from which amplitude on.
-struct Told {
+/// Which explanations the data discriminate, and from which amplitude on.
+struct Discrimination {
   Which which;
   Confounding confounding;
 };
 /// By the rules, what cannot be seen counting as none; effects with poor emulators are not claimed.
-Told told(const Model &model, const Problem &problem, const Settings &settings);
+Discrimination discriminate(const Model &model, const Problem &problem,
+                            const DiagnosisSettings &settings);
 
 /// Deterministic: the same model, values and settings give the same bytes. A quarter of a minute on
 /// one core for 20 features, 10 effects and 60 runs of each.
 Diagnosis diagnose(const Model &model, const Bank &bank, const Vector &values,
-                   const Settings &settings, const std::vector<PointNoise> &point_noise = {});
+                   const DiagnosisSettings &settings,
+                   const std::vector<PointNoise> &point_noise = {});
 
 /// The parts "where" and "which" of gap.json and what else is known, as text of a JSON object.
 std::string to_json(const Diagnosis &diagnosis);

@@ -17,7 +17,7 @@ struct Point {
   Vector input, amplitudes;
 };
 
-Point point_of(const Vector &scaled_base, const Effect &effect, const Vector &values) {
+Point point_of(const Vector &scaled_base, const ModelledEffect &effect, const Vector &values) {
   Point p;
   const auto n = scaled_base.size();
   p.input.resize(n + values.size());
@@ -36,19 +36,19 @@ Point point_of(const Vector &scaled_base, const Effect &effect, const Vector &va
   return p;
 }
 
-Point point_at(const Vector &scaled_base, const Effect &effect, const Vector &scores) {
+Point point_at(const Vector &scaled_base, const ModelledEffect &effect, const Vector &scores) {
   Vector values(scores.size());
   for (Eigen::Index j = 0; j < values.size(); ++j)
     values[j] = effect.parameters[std::size_t(j)].prior.value(scores[j]);
   return point_of(scaled_base, effect, values);
 }
 
-Training effect_training(const Bank &bank, const Effect &effect,
+Training effect_training(const Bank &bank, const ModelledEffect &effect,
                          const std::vector<std::pair<int, int>> &pairs,
                          const std::vector<int> &packing) {
   Training t;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const Run &on = bank.runs[pairs[k].second];
+    const BankRun &on = bank.runs[pairs[k].second];
     const Point p = point_of(scaled_base(bank, on), effect, on.amplitudes);
     if (k == 0) {
       t.inputs.resize(p.input.size(), Eigen::Index(pairs.size()));
@@ -71,7 +71,7 @@ std::vector<int> base_runs(const Bank &bank) {
   return places;
 }
 
-Vector scaled_base(const Bank &bank, const Run &run) {
+Vector scaled_base(const Bank &bank, const BankRun &run) {
   Vector scaled(run.base.size());
   for (Eigen::Index j = 0; j < scaled.size(); ++j)
     scaled[j] = bank.base[std::size_t(j)].prior.scaled(run.base[j]);
@@ -82,7 +82,7 @@ Emulators::Emulators(const Bank &bank, const Matrix &features)
     : parameters_(bank.base), table_(bank.effects) {
   std::map<std::string, int> number;
   std::vector<int> packing;
-  for (const Run &r : bank.runs)
+  for (const BankRun &r : bank.runs)
     packing.push_back(number.emplace(r.packing, int(number.size())).first->second);
   const auto base = base_runs(bank);
   Training t;
@@ -97,7 +97,7 @@ Emulators::Emulators(const Bank &bank, const Matrix &features)
     t.values = features.row(f)(base);
     base_.emplace_back(t);
   }
-  for (const Effect &effect : bank.effects) {
+  for (const ModelledEffect &effect : bank.effects) {
     const auto pairs = pairs_of(bank, effect.name);
     Training difference = effect_training(bank, effect, pairs, packing);
     difference.values.resize(Eigen::Index(pairs.size()));
@@ -177,7 +177,7 @@ void Emulators::slopes(const Vector &base_scores, const std::vector<Applied> &on
   }
   Eigen::Index column = n;
   for (const Applied &a : on) {
-    const Effect &effect = table_[std::size_t(a.effect)];
+    const ModelledEffect &effect = table_[std::size_t(a.effect)];
     const Point p = point_at(base, effect, a.scores);
     for (std::size_t f = 0; f < base_.size(); ++f) {
       const GaussianProcess &g = effects_[std::size_t(a.effect)][f];

@@ -33,7 +33,7 @@ public:
 
 private:
   std::vector<Parameter> parameters_;
-  std::vector<Effect> table_;
+  std::vector<ModelledEffect> table_;
   std::vector<int> packing_;
   std::vector<GaussianProcess> base_;
   std::vector<std::vector<GaussianProcess>> effects_;
@@ -45,7 +45,7 @@ private:
 std::vector<int> base_runs(const Bank &bank);
 
 /// The base parameters of a run, scaled.
-Vector scaled_base(const Bank &bank, const Run &run);
+Vector scaled_base(const Bank &bank, const BankRun &run);
 
 } // namespace calendem::inference
 

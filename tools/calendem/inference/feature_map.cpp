@@ -24,7 +24,7 @@ NormalMoments score_moments(const Vector &measured, double factor) {
           grown * grown * of_sum / spread};
 }
 
-FeatureMap::FeatureMap(const std::vector<Observable> &observables, const Matrix &simulated,
+FeatureMap::FeatureMap(const std::vector<ObservableId> &observables, const Matrix &simulated,
                        const Vector &sd, const Matrix &measurement)
     : blocks_(blocks_of(observables)), mean_(simulated.rowwise().mean()), sd_(sd) {
   const Matrix scaled = sd.cwiseInverse().asDiagonal() * (simulated.colwise() - mean_);

@@ -39,8 +39,8 @@ public:
   static constexpr int kMost = 6;
 
   /// `simulated`: observables x runs, all runs of the bank. `sd` > 0 in the observables' units.
-  FeatureMap(const std::vector<Observable> &observables, const Matrix &simulated, const Vector &sd,
-             const Matrix &measurement);
+  FeatureMap(const std::vector<ObservableId> &observables, const Matrix &simulated,
+             const Vector &sd, const Matrix &measurement);
 
   const std::vector<Block> &blocks() const { return blocks_; }
   /// The emulated ones first, by blocks; then the truncation residuals.

@@ -39,12 +39,12 @@ Matrix correlation_of_errors(const Matrix &residuals) {
 
 } // namespace
 
-Matrix unknown_covariance(const std::vector<Observable> &observables, const Vector &sd) {
+Matrix unknown_covariance(const std::vector<ObservableId> &observables, const Vector &sd) {
   const int n = int(observables.size());
   Matrix k = Matrix::Zero(n, n);
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
-      const Observable &a = observables[i], &b = observables[j];
+      const ObservableId &a = observables[i], &b = observables[j];
       if (a.name != b.name || a.stage != b.stage)
         continue;
       const double apart = (a.coordinate - b.coordinate) / kLength;

@@ -15,7 +15,7 @@ class Emulators;
 struct Candidate {
   std::string what;
   double cost = 0.0; ///< in any one unit
-  std::vector<Observable> of;
+  std::vector<ObservableId> of;
   Matrix covariance; ///< of that measurement
 };
 
@@ -54,7 +54,7 @@ public:
   std::vector<std::string> poor_effects() const;
   const FeatureMap &map() const { return *map_; }
   const Scatter &scatter() const { return scatter_; }
-  const std::vector<Observable> &observables() const { return observables_; }
+  const std::vector<ObservableId> &observables() const { return observables_; }
   const Vector &sd() const { return sd_; } ///< of the observables: measurement and packings
   const Matrix &measurement() const { return measurement_; } ///< covariance of the observables
 
@@ -65,8 +65,8 @@ private:
     std::shared_ptr<const Emulators> emulators;
     Matrix scatter, correlation; ///< of old and new emulated features
   };
-  std::vector<Observable> observables_;
-  std::vector<Effect> effects_;
+  std::vector<ObservableId> observables_;
+  std::vector<ModelledEffect> effects_;
   ModelSettings settings_;
   Matrix measurement_; ///< of the observables
   Vector sd_;          ///< of the observables: measurement and packings
@@ -85,7 +85,7 @@ private:
 /// Covariance of a discrepancy of one standard deviation (`sd` of the observables): Gaussian in the
 /// coordinate with a length of 0.3, half of it common to the conditions of an observable and a
 /// stage, none between observables and stages, a tenth rough.
-Matrix unknown_covariance(const std::vector<Observable> &observables, const Vector &sd);
+Matrix unknown_covariance(const std::vector<ObservableId> &observables, const Vector &sd);
 
 } // namespace calendem::inference
 

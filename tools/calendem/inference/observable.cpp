@@ -6,14 +6,14 @@
 
 namespace calendem::inference {
 
-std::string key_of(const Observable &o) {
+std::string key_of(const ObservableId &o) {
   return fmt::format("{}|{}|{}|{:.6g}", o.name, o.stage, o.condition, o.coordinate);
 }
 
-std::vector<Block> blocks_of(const std::vector<Observable> &all) {
+std::vector<Block> blocks_of(const std::vector<ObservableId> &all) {
   std::vector<Block> blocks;
   for (int i = 0; i < int(all.size()); ++i) {
-    const Observable &o = all[i];
+    const ObservableId &o = all[i];
     auto at = blocks.begin();
     while (at != blocks.end() &&
            !(at->name == o.name && at->stage == o.stage && at->condition == o.condition))
@@ -25,14 +25,14 @@ std::vector<Block> blocks_of(const std::vector<Observable> &all) {
   return blocks;
 }
 
-std::vector<int> places_in(const std::vector<Observable> &all,
-                           const std::vector<Observable> &wanted) {
+std::vector<int> places_in(const std::vector<ObservableId> &all,
+                           const std::vector<ObservableId> &wanted) {
   std::map<std::string, int> place;
   for (int i = 0; i < int(all.size()); ++i)
     place.emplace(key_of(all[i]), i);
   std::vector<int> places;
   std::string missing;
-  for (const Observable &o : wanted) {
+  for (const ObservableId &o : wanted) {
     const auto at = place.find(key_of(o));
     if (at == place.end())
       missing += "\n  " + key_of(o);

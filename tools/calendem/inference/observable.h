@@ -10,7 +10,7 @@
 namespace calendem::inference {
 
 /// One number. A curve is several that differ in `coordinate` only.
-struct Observable {
+struct ObservableId {
   std::string name;        ///< with its unit, as in curve.csv
   std::string stage;       ///< compression, dwell, relaxation, ...
   std::string condition;   ///< id of the experiment's condition
@@ -20,7 +20,7 @@ struct Observable {
 /// An experiment's values, in scales in which their errors are about normal (take the logarithm or
 /// the logit before, of bank and experiment alike).
 struct ObservableVector {
-  std::vector<Observable> of;
+  std::vector<ObservableId> of;
   Vector values;
   Matrix covariance; ///< of measurement, and of numerics where known; square of the values' units
 };
@@ -32,14 +32,14 @@ struct Block {
 };
 
 /// In the order of first appearance.
-std::vector<Block> blocks_of(const std::vector<Observable> &all);
+std::vector<Block> blocks_of(const std::vector<ObservableId> &all);
 
 /// "name|stage|condition|coordinate": a column of the bank's table.
-std::string key_of(const Observable &observable);
+std::string key_of(const ObservableId &observable);
 
 /// Places of `wanted` in `all`. Throws Failure(2) that names every one that is not there.
-std::vector<int> places_in(const std::vector<Observable> &all,
-                           const std::vector<Observable> &wanted);
+std::vector<int> places_in(const std::vector<ObservableId> &all,
+                           const std::vector<ObservableId> &wanted);
 
 /// Throws Failure(2): sizes that differ, values that are no numbers, a covariance that is not
 /// symmetric and positive definite.

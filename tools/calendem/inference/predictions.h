@@ -11,7 +11,7 @@ namespace calendem::inference {
 /// All vectors are of `of`, in the units of the observables.
 struct Predictions {
   std::string best; ///< the most probable hypothesis that makes a prediction
-  std::vector<Observable> of;
+  std::vector<ObservableId> of;
   Vector measured, sd_measurement;
   Vector sd;    ///< of measurement and packings
   Vector base;  ///< of the base model where it fits best: recalibrated, no effect on

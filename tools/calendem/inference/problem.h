@@ -49,7 +49,7 @@ struct Problem {
   Matrix correlation;                  ///< of the emulators' errors between features; empty: none
   double degrees_of_freedom = 1e6;     ///< of the t distribution of observed - predicted
   int base_parameters = 0;             ///< number of scores of the base model
-  std::vector<Effect> effects;         ///< measurement faults too
+  std::vector<ModelledEffect> effects; ///< measurement faults too
   Matrix discrepancy;                  ///< covariance of the unknown, of one standard deviation
   std::function<Prediction(const Vector &base, const std::vector<Applied> &)> predict;
   /// Empty: by differences.

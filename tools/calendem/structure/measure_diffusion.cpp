@@ -128,7 +128,7 @@ DiffusionGrid pore_space(const PhaseImage &image) {
   DiffusionGrid grid{image.n, image.voxel, image.periodic, {}};
   grid.diffusivity.reserve(image.label.size());
   for (size_t v = 0; v < image.label.size(); ++v)
-    grid.diffusivity.push_back(image.phase(v) == Phase::pore ? 1.0F : 0.0F);
+    grid.diffusivity.push_back(image.phase(v) == VoxelPhase::pore ? 1.0F : 0.0F);
   return grid;
 }
 

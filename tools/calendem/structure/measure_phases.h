@@ -10,17 +10,17 @@
 
 namespace calendem {
 
-enum class Phase : char { pore, am, cbd };
+enum class VoxelPhase : char { pore, am, cbd };
 constexpr std::int32_t kPoreLabel = 0, kCbdLabel = -1;
 
 /// Labels: 0 pore, -1 CBD, from 1 a body of AM each. z runs from the collector to the platen.
 struct PhaseImage : LabelImage {
   bool periodic = false; ///< in x and y; an experiment's image is not
 
-  Phase phase(size_t voxel) const {
-    return label[voxel] == kPoreLabel  ? Phase::pore
-           : label[voxel] == kCbdLabel ? Phase::cbd
-                                       : Phase::am;
+  VoxelPhase phase(size_t voxel) const {
+    return label[voxel] == kPoreLabel  ? VoxelPhase::pore
+           : label[voxel] == kCbdLabel ? VoxelPhase::cbd
+                                       : VoxelPhase::am;
   }
   double side(int axis) const { return n[axis] * voxel[axis]; } ///< [um]
 };

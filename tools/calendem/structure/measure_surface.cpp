@@ -46,12 +46,12 @@ std::array<double, kDirections> shares(const std::array<Offset, kDirections> &d,
 /// Pairs of voxels along one direction: all of them, and those of two phases.
 struct Count {
   double pairs = 0.0, pore_am = 0.0, pore_cbd = 0.0, am_cbd = 0.0;
-  void note(Phase p, Phase q) {
+  void note(VoxelPhase p, VoxelPhase q) {
     pairs += 1.0;
     if (p == q)
       return;
-    const bool pore = p == Phase::pore || q == Phase::pore;
-    const bool am = p == Phase::am || q == Phase::am;
+    const bool pore = p == VoxelPhase::pore || q == VoxelPhase::pore;
+    const bool am = p == VoxelPhase::am || q == VoxelPhase::am;
     (pore && am ? pore_am : pore ? pore_cbd : am_cbd) += 1.0;
   }
 };

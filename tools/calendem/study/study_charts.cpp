@@ -27,7 +27,7 @@ Series styled(std::size_t k, const std::string &name) {
   return s;
 }
 
-void add(Series &series, double x, const Spread &y, double factor) {
+void add(Series &series, double x, const MeanAndSd &y, double factor) {
   if (!std::isfinite(x) || y.n == 0)
     return;
   series.x.push_back(x);
@@ -70,7 +70,7 @@ Chart porosity_chart(const StudyTable &table) {
     const std::string label = StudyTable::label(line);
     Series s = styled(k++, label.empty() ? "simulation" : label);
     for (const auto &[pressure, values] : by_pressure)
-      add(s, pressure, spread_of(values), 100.0);
+      add(s, pressure, mean_and_sd(values), 100.0);
     chart.series.push_back(s);
   }
   Series measured = paper("measured (paper, Table 1)");
@@ -100,7 +100,7 @@ Chart broken_chart(const StudyTable &table) {
     const std::string label = StudyTable::label(group);
     Series s = styled(k++, label.empty() ? "simulation" : label);
     for (const double p : pressures)
-      add(s, p, table.spread(group, fmt::format("broken_fraction_at_{:g}_MPa", p)), 100.0);
+      add(s, p, table.mean_and_sd(group, fmt::format("broken_fraction_at_{:g}_MPa", p)), 100.0);
     chart.series.push_back(s);
   }
   chart.series.push_back(paper_broken());
@@ -162,7 +162,7 @@ Chart against(const StudyTable &table, const std::string &setting, const std::st
       by_value[x[i]].push_back(y[i]);
     Series s = styled(k++, StudyTable::label(line));
     for (const auto &[value, values] : by_value)
-      add(s, value, spread_of(values), factor);
+      add(s, value, mean_and_sd(values), factor);
     chart.series.push_back(s);
   }
   return chart;

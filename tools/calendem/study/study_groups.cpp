@@ -22,8 +22,8 @@ std::vector<std::size_t> pattern(const std::vector<std::string> &texts) {
 
 } // namespace
 
-Spread spread_of(const std::vector<double> &values) {
-  Spread s;
+MeanAndSd mean_and_sd(const std::vector<double> &values) {
+  MeanAndSd s;
   double sum = 0.0, squares = 0.0;
   for (const double v : values)
     if (std::isfinite(v)) {
@@ -111,8 +111,8 @@ std::vector<std::string> StudyTable::texts(const StudyGroup &group,
   return out;
 }
 
-Spread StudyTable::spread(const StudyGroup &group, const std::string &column) const {
-  return spread_of(numbers(group, column));
+MeanAndSd StudyTable::mean_and_sd(const StudyGroup &group, const std::string &column) const {
+  return calendem::mean_and_sd(numbers(group, column));
 }
 
 std::vector<double> StudyTable::pressures(const std::string &name) const {

@@ -9,12 +9,12 @@
 namespace calendem {
 
 /// Mean over packings and their standard deviation; 0 with one packing.
-struct Spread {
+struct MeanAndSd {
   double mean = 0.0, sd = 0.0;
   int n = 0; ///< 0: none has a value, the mean is NaN
 };
 
-Spread spread_of(const std::vector<double> &values);
+MeanAndSd mean_and_sd(const std::vector<double> &values);
 
 struct StudyGroup {
   std::map<std::string, std::string> settings; ///< by column
@@ -37,7 +37,7 @@ public:
 
   std::vector<double> numbers(const StudyGroup &group, const std::string &column) const;
   std::vector<std::string> texts(const StudyGroup &group, const std::string &column) const;
-  Spread spread(const StudyGroup &group, const std::string &column) const;
+  MeanAndSd mean_and_sd(const StudyGroup &group, const std::string &column) const;
   /// Pressures [MPa] of columns `name`_at_…_MPa.
   std::vector<double> pressures(const std::string &name) const;
   std::size_t finished() const { return finished_.size(); }

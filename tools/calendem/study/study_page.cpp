@@ -14,7 +14,7 @@ namespace calendem {
 extern const char *const kStudyHtml;
 namespace {
 
-std::string shown(const Spread &s, double factor, const char *format) {
+std::string shown(const MeanAndSd &s, double factor, const char *format) {
   if (s.n == 0)
     return "–";
   const std::string mean = fmt::format(fmt::runtime(format), factor * s.mean);
@@ -24,8 +24,8 @@ std::string shown(const Spread &s, double factor, const char *format) {
 
 /// Measured porosity less simulated, where the run's maximum is one of Table 1's.
 std::string porosity_distance(const StudyTable &table, const StudyGroup &group) {
-  const Spread top = table.spread(group, "max_pressure_MPa"),
-               after = table.spread(group, "porosity_after_relaxation");
+  const MeanAndSd top = table.mean_and_sd(group, "max_pressure_MPa"),
+                  after = table.mean_and_sd(group, "porosity_after_relaxation");
   for (const report::MeasuredPorosity &p : report::paper_porosity())
     if (p.pressure_MPa > 0.0 && std::fabs(top.mean - p.pressure_MPa) < 0.02 * p.pressure_MPa)
       return fmt::format("{:+.1f}", 100.0 * after.mean - p.porosity_percent);
@@ -37,17 +37,17 @@ nlohmann::json row_of(const StudyTable &table, const StudyGroup &group) {
   for (const std::string &column : table.settings())
     cells.push_back(group.settings.at(column));
   cells.push_back(fmt::format("{}", group.rows.size()));
-  cells.push_back(shown(table.spread(group, "max_pressure_MPa"), 1.0, "{:.1f}"));
+  cells.push_back(shown(table.mean_and_sd(group, "max_pressure_MPa"), 1.0, "{:.1f}"));
   for (const double p : table.pressures("broken_fraction"))
-    cells.push_back(
-        shown(table.spread(group, fmt::format("broken_fraction_at_{:g}_MPa", p)), 100.0, "{:.1f}"));
+    cells.push_back(shown(table.mean_and_sd(group, fmt::format("broken_fraction_at_{:g}_MPa", p)),
+                          100.0, "{:.1f}"));
   const double far = distance_to_paper(table, group);
   cells.push_back(std::isfinite(far) ? fmt::format("{:.1f}", far) : "–");
-  cells.push_back(shown(table.spread(group, "porosity_at_max"), 100.0, "{:.1f}"));
-  cells.push_back(shown(table.spread(group, "porosity_after_relaxation"), 100.0, "{:.1f}"));
+  cells.push_back(shown(table.mean_and_sd(group, "porosity_at_max"), 100.0, "{:.1f}"));
+  cells.push_back(shown(table.mean_and_sd(group, "porosity_after_relaxation"), 100.0, "{:.1f}"));
   cells.push_back(porosity_distance(table, group));
-  cells.push_back(shown(table.spread(group, "springback"), 100.0, "{:.1f}"));
-  const Spread difference = table.spread(group, "pressure_difference_max_above_5_MPa");
+  cells.push_back(shown(table.mean_and_sd(group, "springback"), 100.0, "{:.1f}"));
+  const MeanAndSd difference = table.mean_and_sd(group, "pressure_difference_max_above_5_MPa");
   cells.push_back(shown(difference, 100.0, "{:.1f}") +
                   (difference.mean > kQuasiStatic ? " !" : ""));
   return {{"cells", cells}};
@@ -76,7 +76,7 @@ double distance_to_paper(const StudyTable &table, const StudyGroup &group) {
   for (const double p : table.pressures("broken_fraction"))
     for (const report::PublishedBreaks &b : report::paper_breaks())
       if (std::fabs(b.pressure_MPa - p) < 0.5) {
-        const Spread s = table.spread(group, fmt::format("broken_fraction_at_{:g}_MPa", p));
+        const MeanAndSd s = table.mean_and_sd(group, fmt::format("broken_fraction_at_{:g}_MPa", p));
         sum += std::pow(100.0 * s.mean - b.broken_percent, 2);
         ++n;
       }

@@ -152,7 +152,7 @@ public:
   }
 
 private:
-  inference::Settings settings_;
+  inference::DiagnosisSettings settings_;
   std::unique_ptr<inference::Model> model_;
   inference::Problem problem_;
 
@@ -166,14 +166,14 @@ private:
   std::vector<inference::Applied> applied(int effect, Random &random, Rehearsed &r) const {
     if (effect < 0)
       return {};
-    const inference::Effect &e = problem_.effects[std::size_t(effect)];
+    const inference::ModelledEffect &e = problem_.effects[std::size_t(effect)];
     const inference::Vector at = scores(int(e.parameters.size()), random);
     r.effect = e.name;
     r.amplitude = e.parameters[0].prior.value(at[0]);
     return {{effect, at}};
   }
   Rehearsed told_of(const inference::Problem &sample, const Rehearsed &r) const {
-    const inference::Told t = told(*model_, sample, settings_);
+    const inference::Discrimination t = discriminate(*model_, sample, settings_);
     return judged(t.which, t.confounding, r);
   }
 };
