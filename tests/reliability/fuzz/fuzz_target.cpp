@@ -9,17 +9,17 @@
 #include <map>
 #include <string>
 
-#include "bank/bank_table.h"
-#include "inference/bank.h"
-#include "slurry/film_recipe.h"
-#include "spec/case.h"
-#include "spec/csv_table.h"
-#include "spec/experiment.h"
-#include "spec/messages.h"
-#include "spec/recipe.h"
-#include "structure/given_structure.h"
-#include "study/study_file.h"
-#include "tomogram/tomogram.h"
+#include "base/case.h"
+#include "base/csv_table.h"
+#include "base/experiment.h"
+#include "base/messages.h"
+#include "base/recipe.h"
+#include "diagnose/bank/bank_table.h"
+#include "diagnose/inference/bank.h"
+#include "electrode/slurry/film_recipe.h"
+#include "electrode/structure/given_structure.h"
+#include "electrode/structure/tomogram.h"
+#include "simulate/study_file.h"
 #include "withheld/round_file.h"
 
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What the bank that is shipped can tell.
 #include "diagnose/diagnose.h"
-#include "inference/hypothesis.h"
-#include "inference/which.h"
+#include "diagnose/inference/hypothesis.h"
+#include "diagnose/inference/which.h"
 #include "support/test_folder.h"
 #include <algorithm>
 #include <fstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "spec/messages.h"
+#include "base/messages.h"
 #include "synthetic_bank.h"
 #include <gtest/gtest.h>
 

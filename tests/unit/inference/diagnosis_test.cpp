@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The whole way on a bank from formulas: learn, recalibrate, weigh, say.
-#include "inference/diagnosis.h"
+#include "diagnose/inference/diagnosis.h"
 #include "synthetic_bank.h"
 #include <algorithm>
 #include <gtest/gtest.h>

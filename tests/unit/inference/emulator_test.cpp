@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "inference/emulators.h"
-#include "inference/feature_map.h"
-#include "inference/scatter.h"
+#include "diagnose/inference/emulators.h"
+#include "diagnose/inference/feature_map.h"
+#include "diagnose/inference/scatter.h"
 #include "synthetic_bank.h"
 #include <gtest/gtest.h>
 

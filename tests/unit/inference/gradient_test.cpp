@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Analytic derivatives beside differences: 1e-5 of the gradient's size.
-#include "inference/hypothesis.h"
-#include "inference/model.h"
-#include "inference/quasi_newton.h"
+#include "diagnose/inference/hypothesis.h"
+#include "diagnose/inference/model.h"
+#include "diagnose/inference/quasi_newton.h"
 #include "synthetic_bank.h"
 #include <gtest/gtest.h>
 

@@ -3,9 +3,9 @@
 #ifndef CALENDEM_TESTS_DIAGNOSE_SYNTHETIC_BANK_H
 #define CALENDEM_TESTS_DIAGNOSE_SYNTHETIC_BANK_H
 
-#include "inference/bank.h"
-#include "inference/sobol_points.h"
-#include "pack/random.h"
+#include "base/random.h"
+#include "diagnose/inference/bank.h"
+#include "diagnose/inference/sobol_points.h"
 
 namespace calendem::inference {
 

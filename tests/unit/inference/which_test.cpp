@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "inference/confounding.h"
-#include "inference/which.h"
+#include "diagnose/inference/confounding.h"
+#include "diagnose/inference/which.h"
 #include "linear_world.h"
 #include <boost/math/tools/minima.hpp>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // From an existing structure to bodies and places: nothing is lost, doubled or lighter than before.
-#include "pack/electrode_files.h"
-#include "pack/given_description.h"
-#include "pack/given_recipe.h"
-#include "pack/start.h"
+#include "electrode/pack/electrode_files.h"
+#include "electrode/pack/given_description.h"
+#include "electrode/pack/given_recipe.h"
+#include "electrode/pack/start.h"
 #include "support.h"
 #include <fmt/format.h>
 #include <set>

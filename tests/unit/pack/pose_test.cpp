@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "pack/envelope.h"
-#include "pack/pose.h"
+#include "electrode/pack/envelope.h"
+#include "electrode/pack/pose.h"
 #include "support.h"
 
 namespace {

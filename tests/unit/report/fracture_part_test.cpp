@@ -12,7 +12,7 @@
 
 namespace fs = std::filesystem;
 using namespace calendem::report;
-using ReportRun = calendem::report::Run; // a test has a Run of its own
+using ReportRun = calendem::Run; // a test has a Run of its own
 
 namespace {
 

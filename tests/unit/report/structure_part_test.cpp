@@ -6,13 +6,13 @@
 
 #include <gtest/gtest.h>
 
-#include "spec/provenance.h"
+#include "base/provenance.h"
 #include "support/make_run.h"
 
 namespace fs = std::filesystem;
 using namespace calendem::report;
 using nlohmann::json;
-using ReportRun = calendem::report::Run; // a test has a Run of its own
+using ReportRun = calendem::Run; // a test has a Run of its own
 
 namespace {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Phases, heights and clusters of an existing structure; the [structure] table of a recipe.
-#include "spec/recipe.h"
-#include "structure/given_structure.h"
+#include "base/recipe.h"
+#include "electrode/structure/given_structure.h"
 #include "support.h"
 
 namespace {

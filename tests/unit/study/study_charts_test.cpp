@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "spec/messages.h"
-#include "spec/provenance.h"
-#include "study/study_page.h"
+#include "base/messages.h"
+#include "base/provenance.h"
+#include "report/study_page.h"
 #include "support/test_folder.h"
 #include <cmath>
 

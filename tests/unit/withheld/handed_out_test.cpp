@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Draws of a round, and what of a truth is handed out.
-#include "spec/experiment.h"
-#include "spec/messages.h"
+#include "base/experiment.h"
+#include "base/messages.h"
 #include "support/test_folder.h"
 #include "withheld/handed_out.h"
 #include "withheld/hidden_changes.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "compare/heat_map.h"
+#include "diagnose/compare/heat_map.h"
 #include "diagnose/tell.h"
 #include <algorithm>
 #include <fmt/format.h>

@@ -4,8 +4,8 @@
 #ifndef CALENDEM_DIAGNOSE_COVERED_H
 #define CALENDEM_DIAGNOSE_COVERED_H
 
-#include "bank/bank_table.h"
-#include "compare/observables.h"
+#include "diagnose/bank/bank_table.h"
+#include "diagnose/compare/observables.h"
 
 namespace calendem {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/diagnose.h"
+#include "base/messages.h"
+#include "base/provenance.h"
 #include "diagnose/point_noise.h"
 #include "diagnose/tell.h"
-#include "spec/messages.h"
-#include "spec/provenance.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

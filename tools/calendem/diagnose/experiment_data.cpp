@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/experiment_data.h"
+#include "base/messages.h"
 #include "diagnose/full_cell.h"
-#include "inference/sobol_points.h"
-#include "spec/messages.h"
+#include "diagnose/inference/sobol_points.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -3,8 +3,8 @@
 #ifndef CALENDEM_DIAGNOSE_EXPERIMENT_DATA_H
 #define CALENDEM_DIAGNOSE_EXPERIMENT_DATA_H
 
-#include "bank/bank_table.h"
-#include "inference/model.h"
+#include "diagnose/bank/bank_table.h"
+#include "diagnose/inference/model.h"
 
 namespace calendem {
 

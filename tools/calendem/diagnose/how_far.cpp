@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/how_far.h"
-#include "inference/evidence.h"
+#include "diagnose/inference/evidence.h"
 #include <algorithm>
 
 namespace calendem {

@@ -6,7 +6,7 @@
 
 #include "diagnose/diagnose.h"
 #include "diagnose/held_out.h"
-#include "study/study.h"
+#include "simulate/study.h"
 
 namespace calendem {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/page.h"
-#include "compare/heat_map.h"
+#include "diagnose/compare/heat_map.h"
 #include "report/embedded.h"
 #include "report/page_template.h"
 #include "report/tables.h"

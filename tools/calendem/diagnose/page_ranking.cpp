@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "compare/heat_map.h"
+#include "diagnose/compare/heat_map.h"
+#include "diagnose/inference/which.h"
 #include "diagnose/page.h"
-#include "inference/which.h"
 #include <fmt/format.h>
 
 namespace calendem {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/point_noise.h"
+#include "base/effects.h"
 #include "diagnose/covered.h"
 #include "diagnose/point_runs.h"
-#include "effects/effects.h"
 #include <algorithm>
 
 namespace calendem {

@@ -3,8 +3,8 @@
 #ifndef CALENDEM_DIAGNOSE_POINT_NOISE_H
 #define CALENDEM_DIAGNOSE_POINT_NOISE_H
 
-#include "bank/bank_table.h"
-#include "inference/problem.h"
+#include "diagnose/bank/bank_table.h"
+#include "diagnose/inference/problem.h"
 
 namespace calendem {
 

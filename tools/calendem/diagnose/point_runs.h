@@ -4,7 +4,7 @@
 #define CALENDEM_DIAGNOSE_POINT_RUNS_H
 
 #include "diagnose/covered.h"
-#include "inference/linear.h"
+#include "diagnose/inference/linear.h"
 
 namespace calendem {
 

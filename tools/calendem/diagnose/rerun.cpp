@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The chosen models run again, and how far they are from what was held out.
-#include "compare/observables.h"
+#include "diagnose/compare/observables.h"
 #include "diagnose/how_far.h"
 #include "diagnose/images_beside.h"
 #include "diagnose/point_runs.h"

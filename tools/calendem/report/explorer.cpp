@@ -8,10 +8,10 @@
 #include <fstream>
 #include <iterator>
 
-#include "report/base64.h"
+#include "base/base64.h"
+#include "base/csv_table.h"
 #include "report/electrode_picture.h"
 #include "report/wholes.h"
-#include "spec/csv_table.h"
 
 namespace calendem::report {
 namespace {

@@ -206,4 +206,13 @@ Chart one_body(const Run &run, bool single) {
   return chart;
 }
 
+int studied_body(const Run &run) {
+  const Columns &b = run.fracture.bodies;
+  if (b.empty() || b.at("broken").empty())
+    return 0;
+  const Column &broken = b.at("broken");
+  const auto most = std::max_element(broken.begin(), broken.end());
+  return *most > 0 ? static_cast<int>(b.at("body")[most - broken.begin()]) : 0;
+}
+
 } // namespace calendem::report

@@ -4,16 +4,12 @@
 #ifndef CALENDEM_REPORT_FRACTURE_PART_H
 #define CALENDEM_REPORT_FRACTURE_PART_H
 
-#include <filesystem>
 #include <vector>
 
+#include "measure/run_directory.h"
 #include "report/chart.h"
-#include "report/run_directory.h"
 
 namespace calendem::report {
-
-/// Fills run.fracture; files that are damaged become notes.
-void read_fracture(const std::filesystem::path &directory, Run &run);
 
 // Each has no series when the run has not the table it is drawn from.
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/paper_reference.h"
 
+#include "base/csv_table.h"
 #include "report/embedded.h"
-#include "spec/csv_table.h"
 
 namespace calendem::report {
 

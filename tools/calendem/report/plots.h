@@ -6,8 +6,8 @@
 
 #include <vector>
 
+#include "measure/run_directory.h"
 #include "report/chart.h"
-#include "report/run_directory.h"
 
 namespace calendem::report {
 

@@ -10,8 +10,8 @@
 #include <vtkPNGWriter.h>
 #include <vtkUnsignedCharArray.h>
 
-#include "report/base64.h"
-#include "spec/pi.h"
+#include "base/base64.h"
+#include "base/pi.h"
 
 namespace calendem::report {
 namespace {

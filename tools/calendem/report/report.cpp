@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/report.h"
+#include "base/provenance.h"
 
+#include "base/file_hash.h"
 #include "report/explorer.h"
-#include "report/file_hash.h"
 #include "report/fracture_part.h"
 #include "report/fracture_pictures.h"
 #include "report/plots.h"
 #include "report/structure_part.h"
 #include "report/tables.h"
 #include "report/validity_part.h"
-
-#ifndef CALENDEM_VERSION
-#define CALENDEM_VERSION "unknown"
-#endif
 
 namespace calendem::report {
 namespace {
@@ -91,10 +88,8 @@ Report make_report(std::vector<Run> runs, const std::string &command) {
     report.runs.push_back(part_of(run));
     report.title += (report.title.empty() ? "" : ", ") + run.name;
   }
-  report.provenance = {{"program", "calendem report"},
-                       {"version", CALENDEM_VERSION},
-                       {"command", command},
-                       {"format", 1}};
+  report.provenance = {
+      {"program", "calendem report"}, {"version", version()}, {"command", command}, {"format", 1}};
   return report;
 }
 

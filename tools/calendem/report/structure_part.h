@@ -3,17 +3,12 @@
 #ifndef CALENDEM_REPORT_STRUCTURE_PART_H
 #define CALENDEM_REPORT_STRUCTURE_PART_H
 
-#include <filesystem>
 #include <vector>
 
+#include "measure/run_directory.h"
 #include "report/chart.h"
-#include "report/run_directory.h"
 
 namespace calendem::report {
-
-/// Reads structure.json and structure.csv into `run`. A file that is cut or was measured of another
-/// curve is a note, not a mistake.
-void read_structure(const std::filesystem::path &directory, Run &run);
 
 /// Macro porosity through the thickness; no series when no run was measured.
 Chart porosity_profiles(const std::vector<Run> &runs);

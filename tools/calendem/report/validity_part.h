@@ -5,8 +5,8 @@
 
 #include <vector>
 
+#include "measure/run_directory.h"
 #include "report/chart.h"
-#include "report/run_directory.h"
 
 namespace calendem::report {
 

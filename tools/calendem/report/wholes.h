@@ -6,7 +6,7 @@
 #include <array>
 #include <map>
 
-#include "report/run_directory.h"
+#include "measure/run_directory.h"
 
 namespace calendem::report {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/baselines.h"
-#include "inference/chances.h"
+#include "diagnose/inference/chances.h"
 #include <Eigen/Cholesky>
 #include <cmath>
 

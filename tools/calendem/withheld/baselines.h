@@ -3,7 +3,7 @@
 #ifndef CALENDEM_WITHHELD_BASELINES_H
 #define CALENDEM_WITHHELD_BASELINES_H
 
-#include "inference/diagnosis.h"
+#include "diagnose/inference/diagnosis.h"
 #include <map>
 #include <string>
 

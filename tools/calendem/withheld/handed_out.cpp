@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/handed_out.h"
-#include "pack/random.h"
-#include "spec/messages.h"
-#include "spec/pi.h"
-#include "spec/provenance.h"
+#include "base/messages.h"
+#include "base/pi.h"
+#include "base/provenance.h"
+#include "base/random.h"
 #include "withheld/hidden_changes.h"
 #include "withheld/sealing.h"
 #include <algorithm>

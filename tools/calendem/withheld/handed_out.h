@@ -4,7 +4,7 @@
 #ifndef CALENDEM_WITHHELD_HANDED_OUT_H
 #define CALENDEM_WITHHELD_HANDED_OUT_H
 
-#include "compare/gap.h"
+#include "diagnose/compare/gap.h"
 #include "withheld/truths.h"
 
 namespace calendem {

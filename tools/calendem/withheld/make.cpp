@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/make.h"
-#include "pack/random.h"
-#include "run/child.h"
-#include "spec/messages.h"
-#include "spec/output_folder.h"
-#include "spec/provenance.h"
-#include "study/job_pool.h"
-#include "study/study.h"
+#include "base/child.h"
+#include "base/job_pool.h"
+#include "base/messages.h"
+#include "base/output_folder.h"
+#include "base/provenance.h"
+#include "base/random.h"
+#include "simulate/study.h"
 #include "withheld/sealing.h"
 #include <algorithm>
 #include <filesystem>

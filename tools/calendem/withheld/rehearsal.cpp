@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/rehearsal.h"
-#include "bank/bank_design.h"
+#include "base/job_pool.h"
+#include "base/messages.h"
+#include "base/output_folder.h"
+#include "base/provenance.h"
+#include "base/random.h"
+#include "diagnose/bank/bank_design.h"
 #include "diagnose/diagnose.h"
-#include "pack/random.h"
-#include "spec/messages.h"
-#include "spec/output_folder.h"
-#include "spec/provenance.h"
-#include "study/job_pool.h"
 #include "withheld/handed_out.h"
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "inference/scores.h"
+#include "diagnose/inference/scores.h"
 #include "withheld/rehearsal.h"
 #include "withheld/round_file.h"
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/round_file.h"
-#include "spec/file_kind.h"
-#include "spec/table_reader.h"
+#include "base/file_kind.h"
+#include "base/table_reader.h"
 #include "withheld/hidden_changes.h"
 #include <algorithm>
 #include <fmt/format.h>

@@ -24,7 +24,7 @@
 #ifndef CALENDEM_WITHHELD_ROUND_FILE_H
 #define CALENDEM_WITHHELD_ROUND_FILE_H
 
-#include "bank/bank_spec.h"
+#include "diagnose/bank/bank_spec.h"
 
 namespace calendem {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/score.h"
-#include "effects/effects.h"
-#include "spec/messages.h"
-#include "spec/output_folder.h"
+#include "base/effects.h"
+#include "base/messages.h"
+#include "base/output_folder.h"
 #include "withheld/sealing.h"
 #include <cmath>
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "effects/effects.h"
+#include "base/effects.h"
+#include "base/provenance.h"
 #include "report/embedded.h"
 #include "report/page_template.h"
-#include "spec/provenance.h"
 #include "withheld/score.h"
 #include <cmath>
 #include <fmt/format.h>

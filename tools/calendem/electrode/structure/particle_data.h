@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Data files of LAMMPS and LIGGGHTS (read_data, write_data) that hold spheres.
+#ifndef CALENDEM_ELECTRODE_STRUCTURE_PARTICLE_DATA_H
+#define CALENDEM_ELECTRODE_STRUCTURE_PARTICLE_DATA_H
+
+#include "base/messages.h"
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace calendem {
+
+/// What a data file does not say of itself; the script that wrote it does.
+struct DataFormat {
+  std::string atom_style = "sphere"; ///< sphere = granular, bpm/sphere, hybrid (of those first)
+  double length_um = 1.0;            ///< one unit of length
+  double density_g_cm3 = 1.0;        ///< one unit of density
+  bool z_periodic = false;           ///< x and y always are
+};
+
+struct DataParticle {
+  long id = 0;
+  int type = 0;
+  long molecule = 0; ///< 0: of none
+  double diameter = 0.0, density = 0.0;
+  Eigen::Vector3d x; ///< from the lower corner of the box; inside it where the box is periodic
+  int line = 0;      ///< of the file
+};
+
+struct ParticleData {
+  Eigen::Vector3d box = Eigen::Vector3d::Zero(); ///< sides
+  bool molecules = false;                        ///< the rows have a column for them
+  std::vector<DataParticle> particles;           ///< in the order of the file
+};
+
+/// Columns of a row by atom_style, for messages.
+std::string columns_of(const std::string &atom_style);
+
+/// Lengths come in um, densities in g/cm3. Velocities and masses by type are counted and left out.
+/// Mistakes: rows that are no sphere, ids that are there twice, fewer or more rows than announced,
+/// spheres outside the box, a tilted box, columns or units that cannot be the stated ones.
+ParticleData read_particle_data(const std::string &file, const DataFormat &format,
+                                Mistakes &mistakes);
+
+} // namespace calendem
+
+#endif
