@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/compare/gap.h"
-#include "diagnose/compare/heat_map.h"
+#include "diagnose/compare/gap_page.h"
 #include "diagnose/compare/observables.h"
 #include "support/test_folder.h"
 #include <algorithm>

@@ -5,7 +5,7 @@
 
 #include "base/random.h"
 #include "diagnose/inference/bank.h"
-#include "diagnose/inference/sobol_points.h"
+#include "diagnose/inference/numerics.h"
 
 namespace calendem::inference {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "diagnose/inference/chances.h"
+#include "diagnose/inference/scatter.h"
 #include "diagnose/inference/where.h"
 #include "diagnose/inference/which.h"
 #include "linear_world.h"

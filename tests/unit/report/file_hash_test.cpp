@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "base/file_hash.h"
+#include "base/encoding.h"
 
 #include <gtest/gtest.h>
 

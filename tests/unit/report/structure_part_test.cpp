@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What `calendem measure` left in a run's directory, in the report.
-#include "report/structure_part.h"
+#include "report/plots.h"
 
 #include <fstream>
 

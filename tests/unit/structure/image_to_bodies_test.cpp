@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The whole way: a synthetic tomogram with known particles, its file, the shapes, the bodies.
 #include "electrode/pack/measured_bodies.h"
-#include "electrode/structure/tomogram.h"
+#include "electrode/tomogram.h"
 #include "support.h"
 #include <nlohmann/json.hpp>
 

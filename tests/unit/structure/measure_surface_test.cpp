@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Area of spheres and planes from voxels.
-#include "electrode/structure/smooth_surface.h"
-#include "measure/surface.h"
+#include "electrode/structure/particle_mask.h"
+#include "measure/phases.h"
 #include "measure_support.h"
 
 namespace {

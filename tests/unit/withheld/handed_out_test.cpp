@@ -3,8 +3,8 @@
 #include "base/experiment.h"
 #include "base/messages.h"
 #include "support/test_folder.h"
-#include "withheld/handed_out.h"
-#include "withheld/hidden_changes.h"
+#include "withheld/make.h"
+#include "withheld/round_file.h"
 #include "withheld/sealing.h"
 #include <cmath>
 #include <fstream>

@@ -4,6 +4,7 @@
 #define CALENDEM_BASE_CHILD_H
 
 #include <csignal>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,15 @@ struct ChildProgram {
 /// reaches this program only, which tells the child once (mpirun told twice leaves its ranks
 /// behind). Returns its process id. Throws Failure(2) if it cannot be started.
 pid_t start_child(const ChildProgram &child);
+
+// Programs that run beside each other, a given number at a time.
+
+/// Runs a program, its output to the end of `log`; waits. A request to stop is passed on. Returns
+/// its exit status; 128 + signal if it was killed. Throws Failure(2) if it cannot be started.
+int run_program(const std::vector<std::string> &words, const std::string &log);
+
+/// Calls `work(0)` .. `work(n - 1)`, `jobs` at a time, in order; begins no more once asked to stop.
+void in_parallel(int n, int jobs, const std::function<void(int)> &work);
 
 } // namespace calendem
 

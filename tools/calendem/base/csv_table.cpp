@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "base/csv_table.h"
 
+#include "base/csv_table.h"
 #include <cmath>
 #include <cstdlib>
 #include <limits>

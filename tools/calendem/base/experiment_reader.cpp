@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "base/experiment_checks.h"
 #include "base/experiment_keys.h"
-#include "base/file_kind.h"
 #include "base/table_reader.h"
+#include "base/toml_file.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

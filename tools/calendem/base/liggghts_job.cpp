@@ -2,7 +2,7 @@
 #include "base/liggghts_job.h"
 #include "base/child.h"
 #include "base/messages.h"
-#include "base/output_folder.h"
+#include "base/provenance.h"
 #include <chrono>
 #include <filesystem>
 #include <fmt/format.h>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Where a result comes from: version, inputs, seeds.
+// Where a result comes from (version, inputs, seeds), and the files and folders it goes into.
 #ifndef CALENDEM_BASE_PROVENANCE_H
 #define CALENDEM_BASE_PROVENANCE_H
 
+#include <cstdint>
 #include <string>
 
 namespace calendem {
@@ -30,6 +31,13 @@ std::string text_of_file(const std::string &file);
 /// Writes via a file of this process beside it that is renamed when complete, so that several may
 /// write it at once; throws Failure(2) on a full disk.
 void write_file(const std::string &name, const std::string &content);
+
+/// Bytes left on the disk of `folder`; the largest number if that cannot be found out.
+std::uintmax_t room_on_disk(const std::string &folder);
+
+/// Makes the folder of -o. Throws Failure(2) if it cannot be written or its disk has less than
+/// `room` bytes left.
+void make_output_folder(const std::string &folder, std::uintmax_t room = 0);
 
 } // namespace calendem
 

@@ -3,9 +3,9 @@
 #ifndef CALENDEM_BASE_TOML_READER_H
 #define CALENDEM_BASE_TOML_READER_H
 
-#include "base/file_kind.h"
 #include "base/key.h"
 #include "base/messages.h"
+#include "base/toml_file.h"
 #include <initializer_list>
 #include <map>
 #include <set>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "base/output_folder.h"
 #include "base/provenance.h"
 #include "commands/commands.h"
-#include "diagnose/how_far.h"
 #include "diagnose/page.h"
+#include "diagnose/rerun.h"
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/case.h"
 #include "base/experiment.h"
-#include "base/file_kind.h"
+#include "base/toml_file.h"
 #include "commands/commands.h"
 #include "diagnose/bank/bank_design.h"
-#include "electrode/pack/given_recipe.h"
+#include "electrode/pack/from_structure.h"
 #include "electrode/slurry/film_recipe.h"
-#include "electrode/structure/tomogram.h"
+#include "electrode/tomogram.h"
 #include "simulate/study_file.h"
 #include "withheld/truths.h"
 #include <CLI/CLI.hpp>

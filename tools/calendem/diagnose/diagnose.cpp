@@ -2,8 +2,8 @@
 #include "diagnose/diagnose.h"
 #include "base/messages.h"
 #include "base/provenance.h"
-#include "diagnose/point_noise.h"
-#include "diagnose/tell.h"
+#include "diagnose/bank_points.h"
+#include "diagnose/words.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -94,7 +94,7 @@ Diagnosed diagnosed(const Experiment &experiment, const BankTable &table, double
                                       settings, point_noise);
   out.gap = nlohmann::ordered_json::parse(inference::to_json(out.diagnosis));
   out.gap["experiment"] = experiment.name;
-  tell(out.data, table, out.gap);
+  put_in_words(out.data, table, out.gap);
   tell_point_noise(point_noise, out);
   out.gap["not_said"] = out.data.not_said;
   out.gap["provenance"] = {{"calendem", version()}, {"hashes", "64-bit FNV-1a"}};

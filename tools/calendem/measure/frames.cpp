@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "measure/frames.h"
 
+#include "measure/frames.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "measure/run_directory.h"
 
+#include "measure/run_directory.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "measure/branches.h"
+#include "measure/curve.h"
 #include "measure/frames.h"
 #include "measure/problem.h"
 

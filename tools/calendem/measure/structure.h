@@ -5,8 +5,7 @@
 
 #include "measure/contacts.h"
 #include "measure/diffusion.h"
-#include "measure/porosity.h"
-#include "measure/surface.h"
+#include "measure/phases.h"
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>

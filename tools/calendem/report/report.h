@@ -3,14 +3,12 @@
 #ifndef CALENDEM_REPORT_REPORT_H
 #define CALENDEM_REPORT_REPORT_H
 
-#include <string>
-#include <vector>
-
-#include <nlohmann/json.hpp>
-
 #include "measure/run_directory.h"
 #include "report/chart.h"
-#include "report/electrode_picture.h"
+#include "report/pictures.h"
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 namespace calendem::report {
 
@@ -45,6 +43,8 @@ nlohmann::json to_json(const Report &report);
 /// 0 done, 2 bad input (all mistakes are on stderr and nothing is written).
 int write_report(const std::vector<std::string> &directories, std::string page,
                  const std::string &figures = "");
+
+std::string to_html(const Report &report);
 
 } // namespace calendem::report
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/study_charts.h"
-#include "report/paper_reference.h"
+#include "report/tables.h"
 #include <algorithm>
 #include <array>
 #include <cmath>

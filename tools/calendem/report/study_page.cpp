@@ -2,9 +2,8 @@
 #include "report/study_page.h"
 #include "base/messages.h"
 #include "base/provenance.h"
-#include "report/embedded.h"
 #include "report/page_template.h"
-#include "report/paper_reference.h"
+#include "report/tables.h"
 #include "simulate/collect.h"
 #include <cmath>
 #include <filesystem>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "simulate/by_slurm.h"
 #include "base/child.h"
 #include "base/provenance.h"
 #include "simulate/slurm.h"

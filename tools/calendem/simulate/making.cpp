@@ -2,11 +2,10 @@
 #include "simulate/making.h"
 #include "base/case.h"
 #include "base/child.h"
-#include "base/job_pool.h"
 #include "base/provenance.h"
 #include "electrode/pack/pack.h"
 #include "simulate/run.h"
-#include "simulate/study_table.h"
+#include "simulate/study.h"
 #include <algorithm>
 #include <chrono>
 #include <fcntl.h>

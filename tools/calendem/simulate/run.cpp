@@ -3,7 +3,6 @@
 #include "base/case.h"
 #include "base/child.h"
 #include "base/liggghts_job.h"
-#include "base/output_folder.h"
 #include "base/provenance.h"
 #include "base/recipe.h"
 #include "simulate/collect.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The folder of a run before it starts: may it be written, does it hold a run, can that go on.
+// The folder of a run before it starts: may it be written, does it hold a run, can that go on, is
+// its restart file complete.
 #ifndef CALENDEM_SIMULATE_RUN_FOLDER_H
 #define CALENDEM_SIMULATE_RUN_FOLDER_H
 
@@ -39,6 +40,10 @@ void clear_old_results(const std::string &folder);
 /// what a resumed run has done before.
 void mark_as_running(const std::string &folder, const std::string &hash,
                      const std::string &electrode, double wall_clock_s);
+
+/// The file ends, as the host writes it, with one chunk per rank (count of values, values; every
+/// atom's record begins with its own length) and these hold `atoms` atoms in all.
+bool restart_is_whole(const std::string &file, long atoms);
 
 } // namespace calendem
 

@@ -3,6 +3,7 @@
 #ifndef CALENDEM_SIMULATE_SLURM_H
 #define CALENDEM_SIMULATE_SLURM_H
 
+#include "simulate/making.h"
 #include <map>
 #include <string>
 #include <vector>
@@ -48,6 +49,14 @@ std::map<int, SlurmTask> tasks_of(const std::string &name, const std::string &sc
 
 /// How a task ended that squeue no longer knows, from the accounts; empty where there are none.
 std::string state_in_accounts(long job, int task, const std::string &scratch);
+
+// A study as two job arrays of Slurm: its packings, then its runs.
+
+/// Submits what is neither made nor in the queue, and waits for it. A task makes one step of one
+/// run, so that no two make the same packing; a run that ended without a result is lost to
+/// `making`. Stopped, it leaves the queue as it is. Throws Failure: 2 Slurm is not there or
+/// refuses, 3 stopped on request.
+void make_by_slurm(Making &making, const Study &study, const StudyOptions &options);
 
 } // namespace calendem
 

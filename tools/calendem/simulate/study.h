@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Makes the packings and runs of a study as independent jobs; what is there already is not made
-// again, so that a study that was stopped goes on where it was.
+// again, so that a study that was stopped goes on where it was. A table of what they gave.
 #ifndef CALENDEM_SIMULATE_STUDY_H
 #define CALENDEM_SIMULATE_STUDY_H
 
@@ -39,6 +39,17 @@ void make_study(const Study &study, StudyOptions options);
 
 /// Folders of the runs in their order; empty where a run is not done or its checks did not hold.
 std::vector<std::string> finished_runs(const Study &study, StudyOptions options);
+
+/// Header of study.csv: number, status, folders, the varied settings, then numbers of summary.json
+/// and, for every pressure of the study, displacement, thickness, broken fraction and total
+/// porosity at the compression's first crossing. Pressures MPa, lengths um.
+std::string study_header(const Study &study);
+
+/// The cells of a finished run's results, each after a comma; empty cells: not known.
+std::string results_of(const std::string &folder, const std::vector<double> &pressures);
+
+/// The same for a run that is not finished.
+std::string no_results(const std::vector<double> &pressures);
 
 } // namespace calendem
 

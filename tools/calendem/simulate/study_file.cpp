@@ -2,8 +2,8 @@
 #include "simulate/study_file.h"
 #include "base/case.h"
 #include "base/csv_table.h"
-#include "base/file_kind.h"
 #include "base/table_reader.h"
+#include "base/toml_file.h"
 #include <algorithm>
 #include <fmt/format.h>
 #include <fstream>

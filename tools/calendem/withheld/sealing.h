@@ -3,7 +3,7 @@
 #ifndef CALENDEM_WITHHELD_SEALING_H
 #define CALENDEM_WITHHELD_SEALING_H
 
-#include "base/file_hash.h"
+#include "base/encoding.h"
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>

@@ -3,7 +3,7 @@
 #include "base/case.h"
 #include "base/random.h"
 #include "diagnose/bank/bank_design.h"
-#include "withheld/hidden_changes.h"
+#include "withheld/round_file.h"
 #include "withheld/sealing.h"
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/bank/bank_design.h"
 #include "base/messages.h"
-#include "diagnose/inference/sobol_points.h"
+#include "diagnose/inference/numerics.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -33,11 +33,27 @@
 #define CALENDEM_DIAGNOSE_BANK_BANK_SPEC_H
 
 #include "base/effects.h"
-#include "diagnose/bank/measurement_price.h"
 #include <map>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace calendem {
+
+// Measurements that a laboratory could make next, and what each costs.
+
+struct MeasurementPrice {
+  std::string name;   ///< [[measurement]] name in a bank's file
+  std::string what;   ///< what is done
+  double hours = 0.0; ///< work for one sample
+  double sd = 0.0;    ///< standard deviation of the result, in `unit`
+  std::string unit;   ///< empty: the bank's table has no such result, so nothing is foretold
+};
+
+constexpr const char *kUnloadingCurve = "unloading_curve"; ///< a bank may lack it
+
+/// Hours and deviations are estimates of this project, from no source; a bank's file changes them.
+const std::vector<MeasurementPrice> &usual_prices();
 
 struct BankParameter {
   std::string name;

@@ -3,7 +3,7 @@
 #ifndef CALENDEM_DIAGNOSE_INFERENCE_OBSERVABLE_H
 #define CALENDEM_DIAGNOSE_INFERENCE_OBSERVABLE_H
 
-#include "diagnose/inference/linear.h"
+#include "diagnose/inference/numerics.h"
 #include <string>
 #include <vector>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Scatter between packings from few of them, and the law of data whose covariance was estimated.
+// Scatter between packings from few of them, the law of data whose covariance was estimated, and
+// tail probabilities of squared distances.
 #ifndef CALENDEM_DIAGNOSE_INFERENCE_SCATTER_H
 #define CALENDEM_DIAGNOSE_INFERENCE_SCATTER_H
 
@@ -37,6 +38,13 @@ constexpr double kNormal = 1e6; ///< from here on a t distribution is computed a
 /// ln density of the multivariate t distribution of a residual whose square in its scale matrix is
 /// `square` (Kotz and Nadarajah 2004, eq. 1.1).
 double log_student_t(double square, double log_determinant, int n, double degrees_of_freedom);
+
+/// Probability that a squared distance in n dimensions exceeds `square`: chi-squared, or n times
+/// Fisher's F with `degrees_of_freedom` where the covariance was estimated (Hotelling).
+double chance_beyond(double square, int n, double degrees_of_freedom);
+
+/// |z| of a normal variable with the same two-sided chance as `square` has in n dimensions.
+double equivalent_z(double square, int n);
 
 } // namespace calendem::inference
 

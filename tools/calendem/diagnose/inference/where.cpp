@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/inference/where.h"
 #include "base/random.h"
-#include "diagnose/inference/chances.h"
 #include "diagnose/inference/scatter.h"
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Which hypothesis explains the gap, and whether that may be claimed.
+// Which hypothesis explains the gap, and whether that may be claimed; where an effect that no table
+// has may act, and how.
 #ifndef CALENDEM_DIAGNOSE_INFERENCE_WHICH_H
 #define CALENDEM_DIAGNOSE_INFERENCE_WHICH_H
 
@@ -84,6 +85,19 @@ void decide(Which &which, const WhichSettings &settings, int effects);
 /// How much of every effect and pair lies below `limits` (amplitudes, by effect; NaN: it cannot be
 /// seen at all), for another decide.
 void set_limits(Which &which, const Problem &problem, const std::vector<double> &limits);
+
+struct UnknownPlace {
+  std::string name;
+  double share = 1.0; ///< of the unknown's prior
+  Matrix unknown;     ///< covariance of the discrepancy
+  Hypothesis hypothesis;
+};
+
+/// All that are worth computing: their shares sum to less than 1 where others cannot matter.
+/// `best`: the effects beside which the unknown is sought; `so_far`: hypotheses with their
+/// evidence.
+std::vector<UnknownPlace> unknown_places(const Problem &problem, const Which &so_far,
+                                         const std::vector<int> &best, const Priors &priors);
 
 } // namespace calendem::inference
 

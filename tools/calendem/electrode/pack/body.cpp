@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/pack/body.h"
-#include "base/pi.h"
 #include "electrode/pack/sizes.h"
+#include "physics/pi.h"
 #include <algorithm>
 #include <fmt/format.h>
 #include <set>

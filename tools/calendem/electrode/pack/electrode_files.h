@@ -5,7 +5,6 @@
 #define CALENDEM_ELECTRODE_PACK_ELECTRODE_FILES_H
 
 #include "electrode/pack/packing_state.h"
-#include "electrode/pack/pose.h"
 #include <string>
 
 namespace calendem {

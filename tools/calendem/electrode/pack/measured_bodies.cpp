@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/pack/measured_bodies.h"
-#include "base/pi.h"
 #include "base/provenance.h"
 #include "electrode/pack/sizes.h"
+#include "physics/pi.h"
 #include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is measured of a finished packing, from positions alone.
+// What is measured of a finished packing, from positions alone: overlaps, forces, the volume that a
+// tomogram shows as solid, and where each body ended.
 #ifndef CALENDEM_ELECTRODE_PACK_PACKING_STATE_H
 #define CALENDEM_ELECTRODE_PACK_PACKING_STATE_H
 
@@ -43,6 +44,24 @@ PackingState examine(const Recipe &recipe, const std::vector<Body> &bodies,
 /// Bonds of the lattice: index pairs of one body's particles that touch, periodic in x and y.
 std::vector<std::pair<int, int>> bonds_by_distance(const std::vector<Particle> &particles,
                                                    double lx, double ly);
+
+struct Pose {
+  Eigen::Vector3d centre;  ///< of mass, inside the cell [um]
+  Eigen::Quaterniond turn; ///< orientation of the cubic lattice; a single primary keeps its first
+  double distortion = 0.0; ///< largest distance of a primary from the rigid body [um]
+};
+
+/// Poses in the order of `bodies`, whose primaries are the first particles, body by body.
+std::vector<Pose> find_poses(const Recipe &recipe, const std::vector<Body> &bodies,
+                             const std::vector<Particle> &particles);
+
+struct Envelope {
+  double am = 0.0;    ///< union of the bodies' envelopes [um^3]
+  double total = 0.0; ///< union of those and the CBD spheres [um^3]
+};
+
+Envelope measure_envelope(const Recipe &recipe, const std::vector<Particle> &particles,
+                          const std::vector<Pose> &poses, double voxel = 0.2);
 
 } // namespace calendem
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/pack/placement.h"
-#include "base/pi.h"
-#include "electrode/pack/sphere_bins.h"
+#include "physics/pi.h"
 #include <cmath>
 
 namespace calendem {

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/slurry/dry.h"
 #include "base/liggghts_job.h"
-#include "base/output_folder.h"
 #include "base/provenance.h"
 #include "electrode/pack/electrode_files.h"
 #include "electrode/pack/measured_bodies.h"
 #include "electrode/slurry/film_files.h"
-#include "electrode/slurry/spheres.h"
 #include <chrono>
 #include <filesystem>
 #include <fmt/format.h>

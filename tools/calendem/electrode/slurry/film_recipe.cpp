@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/slurry/film_recipe.h"
-#include "base/pi.h"
 #include "electrode/pack/placement.h"
+#include "physics/pi.h"
 #include <cmath>
 #include <fmt/format.h>
 

@@ -73,6 +73,12 @@ void check_length(const std::string &file, double announced, long there);
 /// zlib packs at most 1032 bytes into one.
 constexpr double kDeflate = 1032.0;
 
+// Whether packed voxels (zlib or gzip) are whole. MetaIO waits forever on a stream that is not.
+
+/// Bytes that the stream at `offset` of `file`, at most `length` long, unpacks to; stops above
+/// `most`. -1: the stream is cut or damaged.
+long unpacked_bytes(const std::string &file, long offset, long length, long most);
+
 } // namespace calendem
 
 #endif

@@ -5,7 +5,9 @@
 #define CALENDEM_ELECTRODE_STRUCTURE_MEASURED_SHAPE_H
 
 #include "electrode/structure/particle_mask.h"
+#include <array>
 #include <nlohmann/json_fwd.hpp>
+#include <vector>
 
 namespace calendem {
 
@@ -34,6 +36,14 @@ MeasuredShape make_shape(const ParticleMask &mask, int cells = 48);
 nlohmann::json to_json(const MeasuredShape &shape);
 /// Throws std::exception where a field is missing or the cells do not fill the box.
 MeasuredShape shape_from_json(const nlohmann::json &j);
+
+// Exact distance transform on voxels.
+
+/// Distance [unit of `cell`] from every cell's centre to the face between inside and outside: > 0
+/// outside, < 0 inside; half a cell is taken off because the face lies between two centres.
+/// Felzenszwalb & Huttenlocher, Theory of Computing 8 (2012) 415, algorithm 1, per axis.
+std::vector<float> signed_distance(const std::vector<char> &inside, const std::array<int, 3> &n,
+                                   double cell);
 
 } // namespace calendem
 
