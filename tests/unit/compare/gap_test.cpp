@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "compare/gap.h"
-#include "compare/heat_map.h"
-#include "compare/observables.h"
+#include "diagnose/compare/gap.h"
+#include "diagnose/compare/gap_page.h"
+#include "diagnose/compare/observables.h"
 #include "support/test_folder.h"
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Line loads of passes against the closed form of a linear film; the search for the gap of a line
 // load.
+#include "base/case.h"
+#include "base/provenance.h"
 #include "physics/roll_nip.h"
-#include "run/line_load.h"
-#include "run/roll_passes.h"
-#include "spec/case.h"
-#include "spec/provenance.h"
+#include "simulate/line_load.h"
+#include "simulate/roll_passes.h"
 #include "support/test_folder.h"
 #include <algorithm>
 #include <cmath>
