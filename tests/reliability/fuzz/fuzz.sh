@@ -13,7 +13,7 @@ mkdir -p "$2"
 work=$(cd "$2" && pwd)
 # -fno-sanitize=unreachable: toml++ states what it assumes with __builtin_unreachable, which UBSan takes for a fault.
 options=(-std=c++17 -g -O1 -DNDEBUG "-fsanitize=fuzzer,address,undefined" -fno-sanitize=unreachable
-  -fno-sanitize-recover=undefined -DCALENDEM_VERSION='"fuzz"' -DCALENDEM_SOURCE_DIR='"."'
+  -fno-sanitize-recover=undefined -DCALENDEM_VERSION='"fuzz"'
   -I "$core" -I "$core/../../src_plugin" -I /usr/include/eigen3)
 
 build_readers() {

@@ -64,12 +64,13 @@ fs::path program_folder() {
 } // namespace
 
 std::string input_scripts() {
-  const fs::path beside = program_folder() / "../../input_scripts";
-  return fs::exists(beside) ? fs::canonical(beside).string()
-                            : std::string(CALENDEM_SOURCE_DIR) + "/input_scripts";
+  return fs::weakly_canonical(program_folder() / "../share/calendem/input_scripts").string();
 }
 
-std::string liggghts_program() { return (program_folder() / "liggghts").string(); }
+std::string liggghts_program() {
+  const fs::path installed = program_folder() / "liggghts-calendem";
+  return (fs::exists(installed) ? installed : program_folder() / "liggghts").string();
+}
 
 void write_file(const std::string &name, const std::string &content) {
   // Of this process: tasks of a cluster may write the same file at the same time.

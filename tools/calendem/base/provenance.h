@@ -20,9 +20,9 @@ bool made_of(const std::string &json_file, const std::string &identity);
 
 std::string version();
 
-/// Folder with the input scripts: beside the installed program, else the source tree.
+/// ../share/calendem/input_scripts, seen from this program's folder.
 std::string input_scripts();
-/// The LIGGGHTS program that lies beside this one.
+/// The LIGGGHTS program beside this one: liggghts-calendem where installed, else liggghts.
 std::string liggghts_program();
 
 /// The file's bytes; empty if it cannot be read.
