@@ -3,7 +3,7 @@
 # block of shell must succeed, and print the lines of the block of text that follows it: a number stands for any
 # number, … for anything. A block that begins with "# takes" is long: it is run with CALENDEM_HEAVY only.
 set -euo pipefail
-page=$1 bin=$2 work=$3
+page=$1 bin=$(cd "$2" && pwd) work=$3
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
 fail() { echo "FAILED: $*" >&2; exit 1; }
 if [ "$(id -u)" -eq 0 ]; then export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; fi
