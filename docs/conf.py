@@ -10,7 +10,7 @@ copyright = "the authors of Calendem, GPL-2.0-or-later"
 version = release = re.search(r"project\(Calendem VERSION (\S+)", (top / "CMakeLists.txt").read_text()).group(1)
 
 extensions = ["myst_parser", "sphinx.ext.mathjax"]
-exclude_patterns = []
+exclude_patterns = ["figures"]
 myst_enable_extensions = ["deflist", "dollarmath"]
 myst_heading_anchors = 3
 
@@ -22,6 +22,7 @@ html_copy_source = False
 html_show_sourcelink = False
 html_show_sphinx = False
 highlight_language = "none"
+suppress_warnings = ["misc.highlighting_failure"]  # other languages in here-documents
 
 # MathJax 2 of the distribution, copied into the site; its SVG output needs no fonts of its own.
 mathjax_path = "mathjax/MathJax.js"
