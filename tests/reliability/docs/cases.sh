@@ -20,6 +20,7 @@ site_builds() { # Sphinx takes a dead link, a missing picture or a page in no ta
   { grep -rnoE '<(script|img|link|iframe)[^>]* (src|href)="(https?:)?//[^"]*"' "$work/site" --include='*.html' || true; } |
     report "the site must not load anything from elsewhere"
 }
+# shellcheck disable=SC2016 # backticks of Markdown
 paths_exist() { # those of the repository that stand in code, and links of the pages beside docs/
   local page path
   pages | while read -r page; do
@@ -32,6 +33,7 @@ paths_exist() { # those of the repository that stand in code, and links of the p
   done | report "these are not there"
 }
 # Lines of commands in blocks of shell, continued lines joined.
+# shellcheck disable=SC2016 # awk's
 commands() {
   pages | xargs awk '/^```sh/ { in_block = 1; next } /^```/ { in_block = 0 } in_block' |
     sed -e ':a' -e '/\\$/ { N; s/\\\n */ /; ba' -e '}'
