@@ -51,8 +51,27 @@ commands_exist() {
       done
     done | report "commands of the pages that the programs do not know"
 }
+styles_have_pages() { # each style that the plugin registers has a page with its name
+  grep -hoE '^ *((Fix|Compute|Dump|Command)Style\([a-z/_]+|(NORMAL|COHESION|SURFACE)_MODEL\([A-Z_]+, [a-z_]+)|DumpStyle\(platen/vtk|ComputeStyle\(bond/bpm/body' \
+    src_plugin/liggghts/*.h | sed 's/.*[( ]//' | sort -u |
+    while read -r style; do
+      grep -qE "^# .*$style" docs/reference/styles/*.md || echo "$style"
+    done | report "styles without a page in docs/reference/styles"
+}
+# shellcheck disable=SC2016 # Markdown
+columns_have_a_meaning() { # of every table that the run of the tutorial left
+  local file column
+  for file in "$work"/../pages/own_recipe/tree/my/{run,electrode}/{curve,breaks,bodies,cracks,thresholds,packing}.csv; do
+    [ ! -f "$file" ] || head -n 1 "$file" | tr ',' '\n' | sed -E 's/^(wall|inside_bodies|am_am|am_cbd|cbd_cbd)_/..._/' |
+      while read -r column; do
+        grep -qF "\`$column\`" docs/reference/files.md || echo "$(basename "$file"): $column"
+      done
+  done | report "columns that docs/reference/files.md does not have"
+}
+# shellcheck disable=SC2016 # Markdown
 readme_is_short() {
   awk 'END { if (NR > 150) print NR " lines" }' README.md | report "README.md may have 150 lines"
+  { grep -v '^```' docs/figures/demo_output.md | grep -vxFf README.md || true; } | report "what the demo prints differs in README.md"
 }
 case ${1:-} in
   "" | *[!a-z_]*) echo "usage: cases.sh CASE BIN WORK" >&2; exit 1 ;;
