@@ -3,7 +3,7 @@
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "commands/commands.h"
-#include "simulate/generated_files.h"
+#include "commands/generated_files.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "simulate/generated_files.h"
+#include "commands/generated_files.h"
 #include "base/effects.h"
+#include "commands/reference_pages.h"
 #include "registry/settings.h"
 #include <algorithm>
 #include <fmt/format.h>
@@ -167,51 +168,15 @@ std::string bond_laws_in() {
   return out;
 }
 
-std::string of_unit(const Effect &e) {
-  const std::string unit = key_of(e).unit;
-  return unit.empty() ? "" : " " + unit;
-}
-
-std::string in_code(const std::vector<std::string> &names) {
-  std::string out;
-  for (const std::string &name : names)
-    out += (out.empty() ? "`" : ", `") + name + "`";
-  return out;
-}
-
-std::string effects_page() {
-  std::string out =
-      "# The effects\n\n"
-      "What the base model leaves out, each off by default, each a law in "
-      "`src_plugin/physics` with its source, range and "
-      "energy.\nMade from the rows in `src_plugin/registry` by `calendem registry`; "
-      "not to be edited.\n\n"
-      "| effect | what it is | keys of the case, or of the recipe | off | range, prior | law | "
-      "verified by | source |\n"
-      "|---|---|---|---|---|---|---|---|\n";
-  for (const Effect &e : effects()) {
-    std::vector<std::string> keys;
-    for (const Key &key : e.settings)
-      keys.push_back(key.name);
-    const EffectParameter &p = e.parameter;
-    out += fmt::format(
-        "| `{}` | {} | {} | {} | {:g}–{:g}{}, {}{} | `{}` | `tests/{}` | {} |\n", e.name, e.what,
-        in_code(keys.empty() ? p.keys : keys) + (e.in_recipe ? " of the recipe" : ""), p.off, p.low,
-        p.high, of_unit(e), p.spread == Spread::Uniform ? "uniform" : "log-uniform",
-        p.scale == AmplitudeScale::Reciprocal ? "; the smaller, the stronger" : "", e.law,
-        folder_of_tests(e), e.source);
-  }
-  return out;
-}
-
 } // namespace
 
 std::vector<GeneratedFile> generated_files() {
-  return {{"input_scripts/common/defaults.in", defaults_in()},
-          {"input_scripts/common/settings.in", settings_in()},
-          {"input_scripts/common/effects.in", effects_in()},
-          {"input_scripts/common/bond_laws.in", bond_laws_in()},
-          {"src_plugin/registry/README.md", effects_page()}};
+  std::vector<GeneratedFile> all = reference_pages();
+  all.insert(all.begin(), {{"input_scripts/common/defaults.in", defaults_in()},
+                           {"input_scripts/common/settings.in", settings_in()},
+                           {"input_scripts/common/effects.in", effects_in()},
+                           {"input_scripts/common/bond_laws.in", bond_laws_in()}});
+  return all;
 }
 
 } // namespace calendem

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The files that are made from the rows of settings, effects and contact laws (registry/): parts of
-// the input scripts, so that plain LIGGGHTS can run them, and the page of the effects.
-#ifndef CALENDEM_SIMULATE_GENERATED_FILES_H
-#define CALENDEM_SIMULATE_GENERATED_FILES_H
+// the input scripts, so that plain LIGGGHTS can run them, and pages of docs/reference.
+#ifndef CALENDEM_COMMANDS_GENERATED_FILES_H
+#define CALENDEM_COMMANDS_GENERATED_FILES_H
 
 #include <string>
 #include <vector>
