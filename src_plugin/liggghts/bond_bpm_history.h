@@ -8,9 +8,16 @@
 
 namespace LAMMPS_NS {
 
-/// State of a pair. The overlap at creation stays the contact's reference until a broken pair's
-/// spheres have separated.
-enum BondState { kNeverBonded = 0, kIntact = 1, kBrokenTouching = 2, kBrokenSeparated = 3 };
+/// State of a pair. The overlap at creation stays the contact's reference at least until a broken
+/// pair's spheres have separated. A binder bridge stands beside the pair's contact, which has no
+/// reference.
+enum BondState {
+  kNeverBonded = 0,
+  kIntact = 1,
+  kBrokenTouching = 2,
+  kBrokenSeparated = 3,
+  kBridge = 4
+};
 
 /// View of one pair's history values; vectors change sign in the host's mirrored copies. State and
 /// length stand last, beside the friction's values: a contact without a bond reads no more.
@@ -22,7 +29,9 @@ public:
 
   int state() const { return static_cast<int>(h_[kState]); }
   void set_state(BondState s) { h_[kState] = s; }
-  double length() const { return h_[kLength]; } ///< centre distance at creation [um]
+  /// Centre distance [um] from which the contact counts: that at creation while bonded, and until a
+  /// broken pair has separated; 0: the sum of radii.
+  double length() const { return h_[kLength]; }
   double strength_factor() const { return h_[7]; }
 
   calendem::BondLoads loads() const { return {calendem::load(h_), calendem::load(h_ + 4), h_[3]}; }
@@ -32,22 +41,27 @@ public:
     calendem::store(l.bending, h_ + 4);
   }
 
-  void create(double length, double strength_factor) {
-    h_[kState] = kIntact;
+  void create(double length, double strength_factor, BondState state = kIntact) {
+    h_[kState] = state;
     h_[kLength] = length;
     h_[7] = strength_factor;
     set_loads({});
   }
+  /// The spheres have separated, or never touched: they meet at that distance [um].
+  void meet_at(double length) { h_[kLength] = length; }
 
+  /// True while a bond or a bridge joins the pair.
+  bool acts() const { return state() == kIntact || state() == kBridge; }
   /// True while the contact's overlap is counted from its creation.
   bool has_reference() const { return state() == kIntact || state() == kBrokenTouching; }
   /// Memory of `model hertz_effects`, whose history value follows; NULL for a contact that the
   /// effects leave alone.
   const double *effect_memory() const { return has_reference() ? nullptr : h_ + kSize; }
 
-  /// Overlap [um] at creation, subtracted from the contact's overlap while the reference lives.
+  /// Overlap [um] at that distance, subtracted from the contact's overlap.
   double reference_overlap(double radius_sum) const {
-    return has_reference() && length() < radius_sum ? radius_sum - length() : 0.0;
+    const bool counts = state() != kBridge && length() > 0.0 && length() < radius_sum;
+    return counts ? radius_sum - length() : 0.0;
   }
 
 private:

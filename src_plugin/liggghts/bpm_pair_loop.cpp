@@ -2,6 +2,7 @@
 #include "bpm_pair_loop.h"
 #include "atom.h"
 #include "contact_model_constants.h"
+#include "error.h"
 #include "fix_bond_bpm.h"
 #include "fix_energy_bpm.h"
 #include "force.h"
@@ -21,6 +22,8 @@ using namespace LIGGGHTS::ContactModels;
 using calendem::Vec3;
 
 namespace {
+
+constexpr long long kMostUnits = 1LL << 62; // of the sum of forces on an atom
 
 Vec3 difference(const double *a, const double *b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
@@ -65,7 +68,8 @@ void BpmPairLoop::choose_units() {
   for (int i = 0; i < atom->nlocal; ++i)
     radius = std::max(radius, atom->radius[i]);
   MPI_Allreduce(&radius, &largest, 1, MPI_DOUBLE, MPI_MAX, world);
-  double modulus = fix_->settings().material.youngs_modulus;
+  double modulus = std::max(fix_->settings().material.youngs_modulus,
+                            fix_->bridge_settings().material.youngs_modulus);
   for (int a = 1; a <= atom->ntypes; ++a)
     for (int b = 1; b <= atom->ntypes; ++b)
       modulus = std::max(modulus, modulus_[a][b]);
@@ -171,10 +175,10 @@ void BpmPairLoop::compute_force(PairGran *pair) {
 }
 
 void BpmPairLoop::work_off() {
-  const BondSettings &b = fix_->settings();
   const double dt = update->dt;
   sort();
-  for (const Kind kind : {kBond, kPressedBond}) {
+  for (const Kind kind : {kBond, kPressedBond, kBridged}) {
+    const BondSettings &b = settings_of(kind);
     run_bonds(tiles_[kind], b.material, b.strength, b.criterion, update_, dt);
     if (update_)
       keep_bonds(kind);
@@ -187,7 +191,7 @@ void BpmPairLoop::work_off() {
     if (update_)
       keep_contacts(kind);
   }
-  for (const Kind kind : {kBond, kPressedBond, kContact})
+  for (const Kind kind : {kBond, kPressedBond, kContact, kBridged})
     sum_forces(kind);
   if (energy_)
     book();
@@ -207,6 +211,8 @@ void BpmPairLoop::sort() {
     const bool touches = pair.r_squared < radius_sum * radius_sum;
     if (creating && touches)
       fix_->create(pair.i, pair.j, std::sqrt(pair.r_squared), bond);
+    if (creating)
+      fix_->bridge(pair.i, pair.j, std::sqrt(pair.r_squared), bond);
     const double length = bond.length();
     const bool intact = bond.state() == kIntact;
     const bool pressed = touches & (pair.r_squared < length * length);
@@ -218,13 +224,37 @@ void BpmPairLoop::sort() {
   }
   for (const Kind kind : {kBond, kPressedBond, kContact})
     fill(kind);
+  if (fix_->bridges().on())
+    sort_bridges();
   for (int p = 0; p < count_[kApart]; ++p) {
     const Pair &pair = pairs_[of_kind_[kApart][p]];
     BondHistory bond(pair.history + bond_);
     if (bond.state() == kBrokenTouching && update_)
-      bond.set_state(kBrokenSeparated);
+      fix_->separate(pair.i, pair.j, bond);
     leave(pair);
   }
+}
+
+void BpmPairLoop::sort_bridges() {
+  for (int n = 0; n < found_; ++n) {
+    const Pair &pair = pairs_[n];
+    if (BondHistory(pair.history + bond_).state() != kBridge)
+      continue;
+    of_kind_[kBridged][count_[kBridged]++] = n;
+    acting_ += fix_->decides(pair.i, pair.j);
+  }
+  PairTile &t = tiles_[kBridged];
+  t.size = count_[kBridged];
+  for (int p = 0; p < t.size; ++p) {
+    const Pair &pair = pairs_[of_kind_[kBridged][p]];
+    put_spheres(t, p, pair);
+    put_bond(t, p, pair);
+    *pair.flags |= CONTACT_COHESION_MODEL;
+  }
+}
+
+const BondSettings &BpmPairLoop::settings_of(Kind kind) const {
+  return kind == kBridged ? fix_->bridge_settings() : fix_->settings();
 }
 
 // The spheres do not touch: the contact forgets. Flags here and below are those that the host's
@@ -305,7 +335,7 @@ void BpmPairLoop::act_effects() {
     double *memory = pair.history + memory_;
     if (update_) {
       const Vec3 n = (1.0 / std::sqrt(pair.r_squared)) * t.d[p];
-      const double before = overlap + dot(t.v[p], n) * update->dt;
+      const double before = overlap > 0.0 ? overlap + dot(t.v[p], n) * update->dt : 0.0;
       const double taken = effects_.advance(contact, before, update->dt, memory);
       if (energy_ && taken != 0.0)
         energy_->add_taken(pair.i, pair.j, taken, effects_.law(a, b).takes);
@@ -316,7 +346,7 @@ void BpmPairLoop::act_effects() {
 }
 
 void BpmPairLoop::keep_bonds(Kind kind) {
-  const BondSettings &b = fix_->settings();
+  const BondSettings &b = settings_of(kind);
   const PairTile &t = tiles_[kind];
   for (int p = 0; p < t.size; ++p) {
     const Pair &pair = pairs_[of_kind_[kind][p]];
@@ -356,6 +386,12 @@ void BpmPairLoop::add_forces(PairGran *pair) {
   for (int i = 0; i < atom->nlocal; ++i) {
     const double relax = pair->relax(i);
     const unsigned long long *sum = forces_[i].sum;
+    unsigned long long large =
+        0; // top bit: a sum of 2^62 units or more; a term beyond 2^63 makes one
+    for (int k = 0; k < 6; ++k)
+      large |= sum[k] + kMostUnits;
+    if (large >> 63)
+      stop_force(i);
     for (int k = 0; k < 3; ++k) {
       atom->f[i][k] += relax * force_unit_.value(static_cast<long long>(sum[k]));
       atom->torque[i][k] += relax * torque_unit_.value(static_cast<long long>(sum[3 + k]));
@@ -363,8 +399,19 @@ void BpmPairLoop::add_forces(PairGran *pair) {
   }
 }
 
+void BpmPairLoop::stop_force(int i) const {
+  char message[400];
+  snprintf(
+      message, sizeof message,
+      "particle %d is under a force or torque of more than the units of its sum hold: %.3g nN, "
+      "%.3g nN um, which would press one sphere into another by its radius. The time step is "
+      "too large, or something moves too fast: lower the timestep or the speed",
+      atom->tag[i], force_unit_.value(kMostUnits), torque_unit_.value(kMostUnits));
+  error->one(FLERR, message);
+}
+
 void BpmPairLoop::book() {
-  for (const Kind kind : {kBond, kPressedBond}) {
+  for (const Kind kind : {kBond, kPressedBond, kBridged}) {
     const PairTile &t = tiles_[kind];
     for (int p = 0; p < t.size; ++p) {
       const Pair &pair = pairs_[of_kind_[kind][p]];

@@ -44,7 +44,8 @@ public:
   void compute_force(class PairGran *pair);
 
 private:
-  enum Kind { kBond, kPressedBond, kContact, kApart, kKinds }; // a pressed bond touches as well
+  /// A pressed bond touches as well; a bridge is a contact, or apart, beside.
+  enum Kind { kBond, kPressedBond, kContact, kBridged, kApart, kKinds };
 
   /// Two spheres within the range of histories.
   struct Pair {
@@ -80,6 +81,8 @@ private:
   int find_near(int i, const int *neighbors, int count, double factor_squared);
   void work_off();
   void sort();
+  void sort_bridges();
+  const struct BondSettings &settings_of(Kind kind) const;
   void leave(const Pair &pair) const;
   void fill(Kind kind);
   void put_spheres(PairTile &tile, int p, const Pair &pair) const;
@@ -91,6 +94,7 @@ private:
   void choose_units();
   void sum_forces(Kind kind);
   void add_forces(class PairGran *pair);
+  void stop_force(int i) const;
   void book();
 };
 

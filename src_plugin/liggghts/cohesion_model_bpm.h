@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Cohesion model `bpm`: the parallel bond for bonded pairs, SJKR (eq. 3) for all others, in one
-// run.
+// run, with a binder bridge beside it where there is one.
 #ifdef COHESION_MODEL
 COHESION_MODEL(COHESION_BPM, bpm, 30)
 #else
@@ -59,6 +59,8 @@ public:
           cohEnergyDens_[s.itype][s.jtype], s.r + bond.reference_overlap(s.radsum), s.radi, s.radj);
       calendem::subtract_from(pull * n, i_forces.delta_F);
       calendem::add_to(pull * n, j_forces.delta_F);
+      if (bond.state() == kBridge)
+        bond_force(s, bond, n, s.r, i_forces, j_forces);
     }
     if (energy_)
       remember(i_forces, j_forces);
@@ -68,7 +70,7 @@ public:
     if (!s.contact_history)
       return;
     BondHistory bond(s.contact_history + offset_);
-    if (bond.state() != kIntact)
+    if (!bond.acts())
       return;
     *s.contact_flags |= CONTACT_COHESION_MODEL;
     s.omega_i = atom->omega[s.i];
@@ -122,7 +124,7 @@ private:
 
   void bond_force(SurfacesCloseData &s, BondHistory &bond, const calendem::Vec3 &n, double r,
                   ForceData &i_forces, ForceData &j_forces) {
-    const BondSettings &b = fix_->settings();
+    const BondSettings &b = fix_->settings_of(bond);
     const double radius_min = s.radi < s.radj ? s.radi : s.radj;
     const calendem::BondSection section(b.material.radius_ratio * radius_min);
     const calendem::BondStiffness k(b.material, section, bond.length());

@@ -28,7 +28,8 @@ const int kGatherEvery = 100; // steps
 FixBondBpm::FixBondBpm(LAMMPS *lmp, int narg, char **arg)
     : Fix(lmp, narg, arg), energy_(NULL), body_(NULL), broken_(NULL), history_offset_(-1),
       created_(false), creating_(false), log_ready_(false), initial_(0), by_mode_(),
-      energy_lost_(0.0), overstretched_(0.0), acting_(0), expected_(-1), missing_(0), spacing_() {
+      energy_lost_(0.0), bridges_made_(), bridges_broken_(), bridge_energy_lost_(0.0),
+      overstretched_(0.0), acting_(0), expected_(-1), missing_(0), spacing_() {
   if (!atom->sphere_flag || !atom->tag_enable)
     error->fix_error(FLERR, this, "needs atom_style granular (or sphere) with atom tags");
   if (domain->triclinic)
@@ -36,7 +37,7 @@ FixBondBpm::FixBondBpm(LAMMPS *lmp, int narg, char **arg)
   parse(narg, arg);
   restart_global = restart_peratom = create_attribute = 1;
   vector_flag = 1;
-  size_vector = 9;
+  size_vector = 17;
   global_freq = 1;
   comm_forward = 1;
   neighbor->register_contact_dist_factor(kContactDistanceFactor);
@@ -55,7 +56,7 @@ FixBondBpm::~FixBondBpm() {
 }
 
 int FixBondBpm::setmask() {
-  // PRE_EXCHANGE and PRE_FORCE for their set-up calls
+  // PRE_EXCHANGE for its set-up call
   return POST_INTEGRATE | PRE_EXCHANGE | PRE_FORCE | POST_FORCE | END_OF_STEP;
 }
 
@@ -90,6 +91,7 @@ void FixBondBpm::init() {
   choose_grid();
   energy_ = FixEnergyBpm::find(lmp);
   check_materials();
+  check_radii();
   if (!created_)
     read_bodies();
   if (!log_ready_)
@@ -142,6 +144,18 @@ void FixBondBpm::setup_pre_force(int) {
   creating_ = !created_;
   if (creating_)
     comm->forward_comm_fix(this);
+  pre_force(0);
+}
+
+// Pairs that are new in the lists, or whose history the host has dropped, know of no bond.
+void FixBondBpm::pre_force(int) {
+  if (settings_.contact_diameter == 1.0 || neighbor->ago != 0)
+    return;
+  comm->forward_comm_fix(this);
+  for_each_neighbor([this](int i, int j, BondHistory &bond) {
+    if (bond.state() == kNeverBonded)
+      bond.meet_at(meeting_distance(i, j));
+  });
 }
 
 void FixBondBpm::setup(int) {
@@ -154,12 +168,14 @@ void FixBondBpm::setup(int) {
     fprintf(screen, "fix %s: " BIGINT_FORMAT " bonds made\n", id, initial_);
   if (comm->me == 0 && logfile)
     fprintf(logfile, "fix %s: " BIGINT_FORMAT " bonds made\n", id, initial_);
+  if (bridges_.on())
+    count_bridges_made();
 }
 
 // Of every pair on two ranks, or across a periodic side, both copies are intact or none.
 bool FixBondBpm::copies_agree() {
   bigint mine = 0, all = 0;
-  for_each_copy([&](int i, int j, const BondHistory &) {
+  for_each_acting_copy([&](int i, int j, const BondHistory &) {
     if (j >= atom->nlocal)
       mine += decides(i, j) ? 1 : -1;
   });
@@ -177,15 +193,18 @@ bigint FixBondBpm::count_intact() {
 void FixBondBpm::record_break(int i, int j, BondHistory bond, const calendem::BondLoads &loads,
                               double tension, const calendem::BondSection &section,
                               const calendem::BondStiffness &k, double factor) {
-  const calendem::BondStress s = bond_stress(loads, tension, section, settings_.criterion);
-  const bool i_is_low = atom->tag[i] < atom->tag[j];
+  const BondSettings &set = settings_of(bond);
+  const calendem::BondStress s = bond_stress(loads, tension, section, set.criterion);
+  const bool i_is_low = atom->tag[i] < atom->tag[j], of_bridge = bond.state() == kBridge;
   const int low = i_is_low ? i : j, high = i_is_low ? j : i;
   const double *a = atom->x[low], *b = atom->x[high];
   const BreakEvent e = {update->ntimestep * update->dt,
                         static_cast<double>(atom->tag[low]),
                         static_cast<double>(atom->tag[high]),
-                        static_cast<double>(body_[low < atom->nlocal ? low : high]),
-                        static_cast<double>(break_mode(s, settings_.strength_of(factor))),
+                        of_bridge ? -1.0
+                                  : static_cast<double>(body_[low < atom->nlocal ? low : high]),
+                        of_bridge ? static_cast<double>(kind_of_bridge(i, j))
+                                  : static_cast<double>(break_mode(s, set.strength_of(factor))),
                         s.sigma(),
                         s.tau(),
                         0.5 * (a[0] + b[0]),
@@ -212,10 +231,11 @@ void FixBondBpm::stop_if_wrong() {
   MPI_Allreduce(&overstretched_, &stretch, 1, MPI_DOUBLE, MPI_MAX, world);
   if (stretch > 0.0)
     stop_overstretched(stretch);
-  const bigint mine[3] = {missing_, expected_, static_cast<bigint>(mine_.size())};
-  bigint all[3];
+  bigint mine[3] = {missing_, expected_, 0}, all[3];
+  for (const BreakEvent &e : mine_)
+    mine[2] += e.tag_low > 0.0;
   MPI_Allreduce(mine, all, 3, MPI_LMP_BIGINT, MPI_SUM, world);
-  const bigint intact = initial_ - broken() - all[2];
+  const bigint intact = acting_pairs() - all[2];
   if (all[0] != 0)
     stop_lost(intact - all[0], intact);
   if (all[1] != intact)
@@ -237,9 +257,12 @@ void FixBondBpm::gather_breaks() {
   mine_.clear();
   std::sort(all.begin(), all.end());
   for (const BreakEvent &e : all) {
-    ++by_mode_[static_cast<int>(e.mode)];
-    energy_lost_ += e.energy;
+    ++(e.of_bridge() ? bridges_broken_ : by_mode_)[static_cast<int>(e.mode)];
+    (e.of_bridge() ? bridge_energy_lost_ : energy_lost_) += e.energy;
   }
+  all.erase(
+      std::remove_if(all.begin(), all.end(), [](const BreakEvent &e) { return e.of_bridge(); }),
+      all.end());
   log_breaks(all);
 }
 
@@ -262,7 +285,7 @@ void FixBondBpm::post_run() { gather_breaks(); }
 void FixBondBpm::check_acting(bool new_lists) {
   if (new_lists) {
     expected_ = 0;
-    for_each_intact([this](int, int, const BondHistory &) { ++expected_; });
+    for_each_acting_copy([this](int i, int j, const BondHistory &) { expected_ += decides(i, j); });
   }
   if (missing_ == 0)
     missing_ = expected_ - acting_;
@@ -294,11 +317,15 @@ void FixBondBpm::apply_breaks() {
   for (Break &b : failing_) {
     if (energy_)
       energy_->bond_breaks(b.i, b.j, b.bond);
-    b.bond.set_state(kBrokenTouching);
+    const bool of_body = !b.event.of_bridge();
+    if (of_body)
+      b.bond.set_state(kBrokenTouching);
+    else
+      separate(b.i, b.j, b.bond);
     b.bond.set_loads({});
-    ++broken_[b.i];
+    broken_[b.i] += of_body;
     if (b.j < atom->nlocal)
-      ++broken_[b.j];
+      broken_[b.j] += of_body;
     if (!decides(b.i, b.j))
       continue;
     b.event.pressure = pressure;
@@ -329,16 +356,21 @@ double FixBondBpm::compute_vector(int n) {
     return broken();
   if (n <= 6)
     return by_mode_[n - 2];
-  if (n == 8)
-    return energy_lost_;
+  if (n >= 9)
+    return bridge_vector(n - 9);
+  return n == 8 ? energy_lost_ : strain_energy_of(kIntact);
+}
+
+double FixBondBpm::strain_energy_of(BondState state) {
   double mine = 0.0, all = 0.0;
-  for_each_intact([&](int i, int j, const BondHistory &bond) {
+  for_each_acting_copy([&](int i, int j, const BondHistory &bond) {
+    if (bond.state() != state || !decides(i, j))
+      return;
     double **x = atom->x;
     const calendem::Vec3 d = calendem::load(x[i]) - calendem::load(x[j]);
-    const double radius =
-        settings_.material.radius_ratio * std::min(atom->radius[i], atom->radius[j]);
-    const calendem::BondStiffness k(settings_.material, calendem::BondSection(radius),
-                                    bond.length());
+    const calendem::BondMaterial &material = settings_of(bond).material;
+    const double radius = material.radius_ratio * std::min(atom->radius[i], atom->radius[j]);
+    const calendem::BondStiffness k(material, calendem::BondSection(radius), bond.length());
     mine += strain_energy(bond.loads(), k.normal * (norm(d) - bond.length()), k);
   });
   MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);

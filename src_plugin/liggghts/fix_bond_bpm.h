@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // fix ID all bond/bpm bodies FILE youngs_modulus E nu NU radius_ratio L tensile S shear T
 //     criterion signed|unsigned|as_printed damping D weibull M SEED breakable yes|no log FILE
-//     pressure PLATEN_FIX LAW NUMBERS ...
+//     pressure PLATEN_FIX contact_diameter D LAW NUMBERS ...
 // fix_modify ID LAW NUMBERS ...       with a further law of strength, see bond_strengths.h
+// fix_modify ID bridges E NU L GAP S_AM S_CBD S_COLLECTOR RATIO
 //
 // Keeps positions and periodic sides on a grid on which shifts by a side are exact: both copies of
 // a pair then do the same arithmetic, and find the same breaks, whichever ranks hold them. Owns the
@@ -10,8 +11,14 @@
 // first set-up after the fix appears, between touching primaries of one body, once), the breaks,
 // and the event log. Every copy of a pair breaks in the same step without a word between ranks; the
 // rank that owns the lower tag writes the event down, and events are gathered when they are asked
-// for, at the latest after 100 steps. All stresses in kPa (units micro). Global vector: see compute
-// bond/bpm. Everything restarts, under the same fix ID.
+// for, at the latest after 100 steps. Two primaries of one body that are not bonded, nor have
+// touched since their bond broke, meet at D times the sum of their radii, 1 by default. All
+// stresses in kPa (units micro). Everything restarts, under the same fix ID. Bridges
+// (physics/binder_bridge.h) of modulus E, radius ratio L and tensile strengths S between CBD and
+// AM, CBD, collector (types as in registry/effect.h) are made with the bonds and damped as they
+// are; the script gives them again after a restart. No bond of a body and nothing of bodies counts
+// them. Global vector: 1-9 as compute bond/bpm; bridges made 10 to AM 11 to CBD 12 to the
+// collector; broken 13 14 15; 16 their strain energy, 17 that released by breaks [fJ].
 #ifdef FIX_CLASS
 
 FixStyle(bond/bpm, FixBondBpm)
@@ -23,6 +30,7 @@ FixStyle(bond/bpm, FixBondBpm)
 #include "bond_bpm_history.h"
 #include "bond_strengths.h"
 #include "fix.h"
+#include "physics/binder_bridge.h"
 #include "physics/bond_failure.h"
 #include <cstdint>
 #include <map>
@@ -38,6 +46,7 @@ struct BondSettings {
   calendem::FailureCriterion criterion = calendem::FailureCriterion::Signed;
   BondStrengths strengths; ///< from bond to bond
   bool breakable = true;
+  double contact_diameter = 1.0; ///< of a body's primaries that meet, over the sum of radii
 
   calendem::BondStrength strength_of(double factor) const {
     return {factor * strength.tensile, factor * strength.shear};
@@ -45,7 +54,8 @@ struct BondSettings {
 };
 
 /// One broken bond; the same list on every rank, ordered by step, then tags. Plain doubles, so that
-/// it travels through MPI and restart files as it is.
+/// it travels through MPI and restart files as it is. Of a bridge: `mode` is its kind, `body` -1,
+/// and `tag_low` 0 on the collector; it is counted and not kept.
 struct BreakEvent {
   double time, tag_low, tag_high, body, mode, sigma, tau, x, y, z, pressure, energy;
 
@@ -54,6 +64,7 @@ struct BreakEvent {
            : tag_low != o.tag_low ? tag_low < o.tag_low
                                   : tag_high < o.tag_high;
   }
+  bool of_bridge() const { return body < 0.0; }
 };
 
 class FixBondBpm : public Fix {
@@ -61,11 +72,12 @@ public:
   FixBondBpm(class LAMMPS *, int, char **);
   ~FixBondBpm();
   int setmask();
-  int modify_param(int narg, char **arg) { return parse_strength(narg, arg); }
+  int modify_param(int narg, char **arg);
   void init();
   void setup_pre_exchange();
   void setup_pre_force(int);
   void setup(int);
+  void pre_force(int);
   void post_integrate();
   void post_run();
   void post_force(int);
@@ -92,8 +104,21 @@ public:
 
   // for the contact models, per pair and step
   const BondSettings &settings() const { return settings_; }
+  const BondSettings &bridge_settings() const { return bridge_settings_; }
+  const BondSettings &settings_of(const BondHistory &bond) const {
+    return bond.state() == kBridge ? bridge_settings_ : settings_;
+  }
+  const calendem::BinderBridges &bridges() const { return bridges_; }
   bool creating() const { return creating_; }
   void create(int i, int j, double r, BondHistory &bond) const;
+  /// The spheres of a broken pair have separated, or were bridged.
+  void separate(int i, int j, BondHistory &bond) const;
+  void bridge(int i, int j, double r, BondHistory &bond) const;
+  /// On the collector: all that were made; one of this rank has broken.
+  void bridges_made_on_wall(bigint n) {
+    bridges_made_[int(calendem::BridgeKind::CbdCollector)] = n;
+  }
+  void bridge_breaks_on_wall(int i, double energy);
   void record_break(int i, int j, BondHistory bond, const calendem::BondLoads &, double tension,
                     const calendem::BondSection &, const calendem::BondStiffness &, double factor);
   void check_stretch(double stretch) {
@@ -117,6 +142,8 @@ public:
   template <class Visit> void for_each_intact(Visit visit);
   /// The same for every copy on this rank: each local atom meets all its bonds.
   template <class Visit> void for_each_copy(Visit visit);
+  /// The same with bridges between spheres.
+  template <class Visit> void for_each_acting_copy(Visit visit);
   /// Calls visit(i, j, r, history) for every pair whose spheres overlap, each once over all ranks.
   template <class Visit> void for_each_touching(Visit visit);
   /// The same for every copy on this rank.
@@ -130,7 +157,8 @@ private:
   static constexpr double kContactDistanceFactor = 1.1;
   static constexpr double kStretchLimit = 0.98 * kContactDistanceFactor;
 
-  BondSettings settings_;
+  BondSettings settings_, bridge_settings_; // of a bridge the strength's factor is sigma_c
+  calendem::BinderBridges bridges_;
   class FixEnergyBpm *energy_; // NULL when no ledger is kept
   std::string bodies_file_, log_file_, platen_id_;
   std::vector<int> body_of_tag_;        // from the body map; empty after a restart
@@ -141,6 +169,8 @@ private:
   bigint initial_;
   bigint by_mode_[5];
   double energy_lost_;
+  bigint bridges_made_[calendem::kBridgeKinds], bridges_broken_[calendem::kBridgeKinds];
+  double bridge_energy_lost_;
   /// A copy of a bond that fails in this step.
   struct Break {
     int i, j;
@@ -151,14 +181,24 @@ private:
   std::vector<BreakEvent> mine_;   // decided here since the last gathering
   std::vector<BreakEvent> breaks_; // gathered
   double overstretched_;           // the first stretch beyond the limit, 0 if none
-  // intact bonds that this rank decides: acted in this step; are there; did not act when they had
-  // to
+  // intact bonds and bridges that this rank decides: acted in this step; are there; did not act
+  // when they had to
   bigint acting_, expected_, missing_;
   double spacing_[3]; // of the grid of positions, 0 along sides that are not periodic
 
   void parse(int narg, char **arg);
   int parse_keyword(int iarg, int narg, char **arg);
   int parse_strength(int narg, char **arg);
+  int parse_bridges(int narg, char **arg);
+  void check_bridges(double poisson);
+  void check_radii();
+  calendem::BridgeKind kind_of_bridge(int i, int j) const;
+  void count_bridges(bigint *of_kind);
+  void count_bridges_made();
+  void check_bridges_add_up();
+  bigint acting_pairs() const;
+  double bridge_vector(int n);
+  double strain_energy_of(BondState state);
   double positive(const char *keyword, const char *text, bool zero_allowed);
   std::uint64_t seed(const char *text);
   void check_settings();
@@ -170,6 +210,7 @@ private:
   void read_bodies();
   void measure_bodies();
   void check_box();
+  double meeting_distance(int i, int j) const;
   bigint count_intact();
   bool copies_agree();
   bigint broken() const;

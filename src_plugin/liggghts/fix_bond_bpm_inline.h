@@ -25,6 +25,18 @@ inline void FixBondBpm::create(int i, int j, double r, BondHistory &bond) const 
       r, settings_.strengths.factor({atom->tag[i], atom->tag[j], body, body_diameter_.at(body)}));
 }
 
+// 0: the sum of radii.
+inline double FixBondBpm::meeting_distance(int i, int j) const {
+  const double D = settings_.contact_diameter;
+  const bool one_body = D < 1.0 && body_[i] > 0 && body_[i] == body_[j];
+  return one_body ? D * (atom->radius[i] + atom->radius[j]) : 0.0;
+}
+
+inline void FixBondBpm::separate(int i, int j, BondHistory &bond) const {
+  bond.set_state(kBrokenSeparated);
+  bond.meet_at(meeting_distance(i, j));
+}
+
 template <class Visit> void FixBondBpm::for_each_neighbor(Visit visit) {
   PairGran *pair = static_cast<PairGran *>(force->pair_match("gran", 1));
   if (!pair || !pair->list || !pair->list->listgranhistory || history_offset_ < 0)
@@ -45,6 +57,13 @@ template <class Visit> void FixBondBpm::for_each_neighbor(Visit visit) {
 template <class Visit> void FixBondBpm::for_each_copy(Visit visit) {
   for_each_neighbor([&](int i, int j, BondHistory &bond) {
     if (bond.state() == kIntact)
+      visit(i, j, bond);
+  });
+}
+
+template <class Visit> void FixBondBpm::for_each_acting_copy(Visit visit) {
+  for_each_neighbor([&](int i, int j, BondHistory &bond) {
+    if (bond.acts())
       visit(i, j, bond);
   });
 }

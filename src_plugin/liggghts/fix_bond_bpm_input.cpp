@@ -87,7 +87,9 @@ int FixBondBpm::parse_keyword(int iarg, int narg, char **arg) {
   else if (key == "weibull") {
     settings_.strengths.weibull_modulus = positive("weibull", value, true);
     settings_.strengths.seed = seed(arg[iarg + 2]);
-  } else if (key == "log")
+  } else if (key == "contact_diameter")
+    settings_.contact_diameter = positive("contact_diameter", value, false);
+  else if (key == "log")
     log_file_ = value;
   else if (key == "pressure")
     platen_id_ = value;
@@ -104,12 +106,16 @@ int FixBondBpm::parse_keyword(int iarg, int narg, char **arg) {
         "unknown setting '" + key + " " + value +
         "'; known: bodies FILE, youngs_modulus, nu, radius_ratio, tensile, shear, criterion "
         "signed|unsigned|as_printed, damping, weibull MODULUS SEED, breakable yes|no, log FILE, "
-        "pressure FIX";
+        "pressure FIX, contact_diameter";
     for (const BondStrengths::Keyword &law : BondStrengths::keywords())
       message += std::string(", ") + law.name;
     error->fix_error(FLERR, this, message.c_str());
   }
   return iarg + 1 + values;
+}
+
+int FixBondBpm::modify_param(int narg, char **arg) {
+  return !strcmp(arg[0], "bridges") ? parse_bridges(narg, arg) : parse_strength(narg, arg);
 }
 
 void FixBondBpm::parse(int narg, char **arg) {
@@ -131,6 +137,10 @@ void FixBondBpm::check_settings() {
     error->fix_error(FLERR, this, "'radius_ratio' must be between 0 and 1.5");
   if (m.damping > 1.0)
     error->fix_error(FLERR, this, "'damping' is a fraction of critical damping, between 0 and 1");
+  if (settings_.contact_diameter > 1.0)
+    error->fix_error(FLERR, this,
+                     "'contact_diameter' is in sums of radii; it must be at most 1, which is the "
+                     "spheres' own");
   m.shear_modulus = calendem::shear_modulus(m.youngs_modulus, nu);
   if (settings_.breakable && (settings_.strength.tensile <= 0.0 || settings_.strength.shear <= 0.0))
     error->fix_error(FLERR, this, "breakable bonds need 'tensile' and 'shear' strengths (kPa) > 0");

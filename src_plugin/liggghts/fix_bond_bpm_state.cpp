@@ -14,7 +14,7 @@
 using namespace LAMMPS_NS;
 
 namespace {
-const int kHeader = 8; // values before the list of breaks in the restart record
+const int kHeader = 15; // values before the list of breaks in the restart record
 const int kEventSize = sizeof(BreakEvent) / sizeof(double);
 } // namespace
 
@@ -96,6 +96,11 @@ void FixBondBpm::write_restart(FILE *fp) {
   record[3] = static_cast<double>(breaks_.size());
   for (int m = 1; m <= 4; ++m)
     record[3 + m] = static_cast<double>(by_mode_[m]);
+  for (int k = 0; k < calendem::kBridgeKinds; ++k) {
+    record[8 + k] = static_cast<double>(bridges_made_[k]);
+    record[11 + k] = static_cast<double>(bridges_broken_[k]);
+  }
+  record[14] = bridge_energy_lost_;
   const double *events = reinterpret_cast<const double *>(breaks_.data());
   record.insert(record.end(), events, events + kEventSize * breaks_.size());
   const int bytes = static_cast<int>(record.size() * sizeof(double));
@@ -111,6 +116,11 @@ void FixBondBpm::restart(char *buf) {
   breaks_.resize(static_cast<size_t>(record[3]));
   for (int m = 1; m <= 4; ++m)
     by_mode_[m] = static_cast<bigint>(record[3 + m]);
+  for (int k = 0; k < calendem::kBridgeKinds; ++k) {
+    bridges_made_[k] = static_cast<bigint>(record[8 + k]);
+    bridges_broken_[k] = static_cast<bigint>(record[11 + k]);
+  }
+  bridge_energy_lost_ = record[14];
   memcpy(breaks_.data(), record + kHeader, breaks_.size() * sizeof(BreakEvent));
 }
 

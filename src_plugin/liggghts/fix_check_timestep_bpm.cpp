@@ -10,6 +10,7 @@
 #include "physics/hertz_contact.h"
 #include "physics/time_step_bound.h"
 #include "update.h"
+#include "wall_bridges.h"
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -55,11 +56,11 @@ void FixCheckTimestepBpm::setup(int) { end_of_step(); }
 
 double FixCheckTimestepBpm::bond_bound() const {
   FixBondBpm *bonds = FixBondBpm::find(lmp, "fix check/timestep/bpm");
-  const calendem::BondMaterial &material = bonds->settings().material;
   const int nlocal = atom->nlocal;
-  Rows rows(nlocal);
+  Rows rows(nlocal), bridges(nlocal);
   const double *m = atom->rmass, *R = atom->radius;
-  bonds->for_each_copy([&](int i, int j, const BondHistory &bond) {
+  bonds->for_each_acting_copy([&](int i, int j, const BondHistory &bond) {
+    const calendem::BondMaterial &material = bonds->settings_of(bond).material;
     const calendem::BondSection section(material.radius_ratio * std::min(R[i], R[j]));
     const calendem::BondStiffness k(material, section, bond.length());
     const calendem::BondDamping c(material, section, k, m[i] * m[j] / (m[i] + m[j]),
@@ -68,9 +69,14 @@ double FixCheckTimestepBpm::bond_bound() const {
     const calendem::Vec3 n = (1.0 / norm(d)) * d;
     for (int a : {i, j})
       if (a < nlocal)
-        rows[a].add(k, c, n, bond.length());
+        (bond.state() == kBridge ? bridges : rows)[a].add(k, c, n, bond.length());
   });
-  double least = pressure_ > 0.0 ? contact_bound(rows) : HUGE_VAL;
+  if (const WallBridges *wall = WallBridges::find(lmp))
+    for (int i = 0; i < nlocal; ++i)
+      wall->add_to_rows(&bridges[i].stiffness, &bridges[i].damping, i);
+  double least = pressure_ > 0.0 ? contact_bound(rows, bridges) : HUGE_VAL;
+  for (int i = 0; i < nlocal; ++i)
+    rows[i].add(bridges[i]);
   add_contacts(rows);
   for (int i = 0; i < nlocal; ++i)
     least = std::min(least, calendem::stable_step(rows[i].stiffness, rows[i].damping, m[i], R[i]));
@@ -103,7 +109,8 @@ calendem::BondCoefficients FixCheckTimestepBpm::stiffness_of(int ti, int tj, dou
 }
 
 // Of sphere i with the contacts that `pressure` will make with spheres or a wall of type `other`.
-double FixCheckTimestepBpm::contact_bound(int i, int other, const Row &bonds) const {
+double FixCheckTimestepBpm::contact_bound(int i, int other, const Row &bonds,
+                                          const Row &bridges) const {
   const calendem::BondMaterial &material =
       FixBondBpm::find(lmp, "fix check/timestep/bpm")->settings().material;
   const int type = atom->type[i];
@@ -116,15 +123,16 @@ double FixCheckTimestepBpm::contact_bound(int i, int other, const Row &bonds) co
   const calendem::BondSection section(material.radius_ratio * R);
   const bool bonds_are_softer =
       calendem::BondStiffness(material, section, 2.0 * R).normal < k.normal;
-  const Row beside = bonds_are_softer ? bonds : Row();
+  Row beside = bonds_are_softer ? bonds : Row();
+  beside.add(bridges);
   return calendem::stable_step_of_contacts(k, c, m, R, beside.stiffness, beside.damping);
 }
 
-double FixCheckTimestepBpm::contact_bound(const Rows &bonds) const {
+double FixCheckTimestepBpm::contact_bound(const Rows &bonds, const Rows &bridges) const {
   double least = HUGE_VAL;
   for (int i = 0; i < atom->nlocal; ++i)
     for (int other = 1; other <= atom->ntypes; ++other)
-      least = std::min(least, contact_bound(i, other, bonds[i]));
+      least = std::min(least, contact_bound(i, other, bonds[i], bridges[i]));
   return least;
 }
 

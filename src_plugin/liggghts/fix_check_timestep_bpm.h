@@ -45,12 +45,16 @@ private:
       stiffness.add(k, n, length);
       damping.add(c, n, length);
     }
+    void add(const Row &more) {
+      stiffness.add(more.stiffness);
+      damping.add(more.damping);
+    }
   };
   typedef std::vector<Row> Rows;
 
   double bond_bound() const;
-  double contact_bound(const Rows &bonds) const;
-  double contact_bound(int i, int other, const Row &bonds) const;
+  double contact_bound(const Rows &bonds, const Rows &bridges) const;
+  double contact_bound(int i, int other, const Row &bonds, const Row &bridges) const;
   void add_contacts(Rows &rows) const;
   calendem::BondCoefficients stiffness_of(int ti, int tj, double a) const;
   double rayleigh_time() const;

@@ -159,20 +159,23 @@ void FixEnergyBpm::bond_breaks(int i, int j, const BondHistory &bond) {
   const Vec3 d = calendem::load(atom->x[i]) - calendem::load(atom->x[j]);
   const double r = norm(d);
   const Vec3 n = (1.0 / r) * d;
-  const calendem::BondMaterial &material = bonds_->settings().material;
+  const calendem::BondMaterial &material = bonds_->settings_of(bond).material;
   const calendem::BondSection section(material.radius_ratio * std::min(radius[i], radius[j]));
   const calendem::BondStiffness k(material, section, bond.length());
   const calendem::PairMotion motion = {d, {}, {}, {}, n, r};
   const calendem::BondAction a =
       action(bond.loads(), k.normal * (r - bond.length()), motion, calendem::BondDamping());
   const double beyond = r + bond.reference_overlap(radius[i] + radius[j]);
-  const double pull = calendem::sjkr_force(cohesion_energy_density_[atom->type[i]][atom->type[j]],
-                                           beyond, radius[i], radius[j]);
+  const bool begins = bond.state() != kBridge; // beside a bridge it acts all the time
+  const double pull =
+      begins ? calendem::sjkr_force(cohesion_energy_density_[atom->type[i]][atom->type[j]], beyond,
+                                    radius[i], radius[j])
+             : 0.0;
   const Vec3 force = a.force + pull * n; // the bond's, which ends, less the cohesion's
   last_forces_.push_back({i, {force, a.torque_i}});
   if (j < atom->nlocal)
     last_forces_.push_back({j, {-force, a.torque_j}});
-  if (bonds_->decides(i, j))
+  if (begins && bonds_->decides(i, j))
     sums_[kBreaks] -= cohesion(i, j, beyond);
 }
 

@@ -87,6 +87,8 @@ public:
   void add_collapse(double work) { sums_[kCollapse] += work; }
   /// For fix bond/bpm, once per copy of the pair, while the history still holds the bond's loads.
   void bond_breaks(int i, int j, const BondHistory &bond);
+  /// A force on atom i acts in this step for the last time: a bridge on a wall has broken.
+  void force_ends(int i, const ForceAndTorque &action) { last_forces_.push_back({i, action}); }
 
 private:
   struct AtomLoads {

@@ -6,6 +6,7 @@
 #include "error.h"
 #include "fix_property_atom.h"
 #include "granular_sliding_wall.h"
+#include "modify.h"
 #include "physics/fixed_point.h"
 #include "primitive_wall.h"
 #include "update.h"
@@ -93,8 +94,16 @@ bool FixWallGranPlaten::set_roll_keyword(const std::string &key, const std::stri
   return true;
 }
 
+bool FixWallGranPlaten::set_bridges(const std::string &key, const std::string &value) {
+  if (key != "bridges" || (value != "yes" && value != "no"))
+    return false;
+  if (value == "yes")
+    bridges_.reset(new WallBridges(lmp, id, programme_.start));
+  return true;
+}
+
 void FixWallGranPlaten::set_keyword(const std::string &key, const std::string &value) {
-  if (set_roll_keyword(key, value))
+  if (set_roll_keyword(key, value) || set_bridges(key, value))
     return;
   if (key == "side" && (value == "top" || value == "bottom"))
     sign_ = value == "top" ? -1.0 : 1.0;
@@ -131,7 +140,7 @@ void FixWallGranPlaten::set_keyword(const std::string &key, const std::string &v
         "'; known: side top|bottom, motion hold | motion pressure P | motion position Z | "
         "motion roll GAP, roll_radius, counter_radius, slip, passes, first_gap, "
         "touch_speed, load_speed, release_speed, touch_pressure, dwell, ramp, lost, lowest, "
-        "average, compliance, release yes|no";
+        "average, compliance, release yes|no, bridges yes|no";
     error->fix_error(FLERR, this, message.c_str());
   }
 }
@@ -149,6 +158,8 @@ void FixWallGranPlaten::parse() {
   }
   if (programme_.control == PlatenControl::Hold)
     return;
+  if (bridges_)
+    error->fix_error(FLERR, this, "'bridges yes' is for walls at rest, 'motion hold'");
   if (programme_.load_speed <= 0.0 || programme_.touch_speed <= 0.0 ||
       programme_.release_speed <= 0.0)
     error->fix_error(FLERR, this,
@@ -194,8 +205,22 @@ bool FixWallGranPlaten::slides() const {
 
 int FixWallGranPlaten::setmask() { return FixWallGran::setmask() | INITIAL_INTEGRATE; }
 
+void FixWallGranPlaten::post_create() {
+  FixWallGran::post_create();
+  if (bridges_)
+    bridges_->add_storage(style);
+}
+
+void FixWallGranPlaten::pre_delete(bool unfix) {
+  FixWallGran::pre_delete(unfix);
+  if (unfix && bridges_)
+    bridges_->delete_storage();
+}
+
 void FixWallGranPlaten::init() {
   FixWallGran::init();
+  if (bridges_)
+    bridges_->init(modify->find_fix(id));
   set_window();
   memory_offset_ = get_history_offset("contact_effects");
   shear_ = 1;
@@ -235,6 +260,17 @@ void FixWallGranPlaten::initial_integrate(int) {
   record_.work += 0.5 * record_.drag * sliding_ * dt;
 }
 
+void FixWallGranPlaten::setup_pre_force(int) {
+  if (bridges_)
+    bridges_->note_creation();
+}
+
+void FixWallGranPlaten::setup(int vflag) {
+  if (bridges_)
+    bridges_->create(atom_type_wall());
+  FixWallGran::setup(vflag);
+}
+
 void FixWallGranPlaten::pre_force(int vflag) {
   rebuildPrimitiveNeighlist_ = rebuildPrimitiveNeighlist_ || moved_;
   moved_ = false;
@@ -249,6 +285,8 @@ double FixWallGranPlaten::area() const { return domain->xprd * domain->yprd; }
 
 void FixWallGranPlaten::post_force(int vflag) {
   FixWallGran::post_force(vflag);
+  if (bridges_)
+    bridges_->act(!update->setupflag);
   if (update->setupflag)
     return;
   measure();
@@ -268,6 +306,8 @@ void FixWallGranPlaten::measure() {
   long long load = 0;
   for (int i = 0; i < atom->nlocal; ++i)
     load += kLoads.of(sign_ * fix_wallforce_->array_atom[i][2]);
+  for (int i = 0; bridges_ && i < atom->nlocal; ++i)
+    load += kLoads.of(sign_ * bridges_->force(i));
   record_.load = load;
   record_.block.add(load);
   record_.work += 0.5 * kLoads.value(load) * record_.state.speed * update->dt;

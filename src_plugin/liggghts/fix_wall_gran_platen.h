@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // fix ID all wall/gran/platen model hertz tangential history primitive type T zplane Z
-//     side top|bottom motion hold
+//     side top|bottom motion hold bridges yes|no
 //     side top motion pressure P | position Z2  touch_speed V load_speed V release_speed V
 //          touch_pressure P dwell T ramp T lost F lowest Z average T compliance C
 //          release yes|no
@@ -18,6 +18,7 @@
 //   reached, 11 1 when the dwell is over and `release no` holds the platen, 12 averaging window
 //   [us], 13 position averaged as 5 is: what the averaged pressure is compared with, 14 passes
 //   under the roll that are still to come, 15 speed of the surface along x.
+// bridges yes: the wall holds CBD by the binder bridges of fix bond/bpm, which stands before it.
 // A position is what the machine shows, which is `compliance` [um/kPa] times the pressure further.
 // Load is positive when the wall presses the film. State restarts under the same fix ID.
 #ifdef FIX_CLASS
@@ -32,6 +33,8 @@ FixStyle(wall/gran/platen, FixWallGranPlaten)
 #include "physics/fixed_point.h"
 #include "physics/moving_average.h"
 #include "physics/platen_motion.h"
+#include "wall_bridges.h"
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -51,7 +54,11 @@ class FixWallGranPlaten : private PlatenArguments, public FixWallGran {
 public:
   FixWallGranPlaten(class LAMMPS *, int, char **);
   int setmask();
+  void post_create();
+  void pre_delete(bool);
   void init();
+  void setup_pre_force(int);
+  void setup(int);
   void initial_integrate(int);
   void pre_force(int);
   void post_force(int);
@@ -70,6 +77,7 @@ public:
   bool is_top() const { return sign_ < 0.0; }
   bool sticks() { return contact_match("cohesion", "sjkr"); }
   bool has_effects() const { return memory_offset_ >= 0; } ///< model hertz_effects
+  WallBridges *bridges() const { return bridges_.get(); }  ///< NULL: the wall has none
   /// Memory of atom i's contact under `model hertz_effects`, NULL under another model.
   const double *effect_memory(int i) const;
 
@@ -94,9 +102,11 @@ private:
   bool moved_;
   double sliding_;
   int memory_offset_; // -1: another model
+  std::unique_ptr<WallBridges> bridges_;
 
   void parse();
   void set_keyword(const std::string &key, const std::string &value);
+  bool set_bridges(const std::string &key, const std::string &value);
   bool set_roll_keyword(const std::string &key, const std::string &value);
   void check_roll();
   double number(const std::string &key, const std::string &value, bool zero_allowed);

@@ -15,6 +15,7 @@ SURFACE_MODEL(SURFACE_BPM, bpm, 30)
 #include "force.h"
 #include "granular_bpm.h"
 #include "surface_model_base.h"
+#include <cmath>
 
 namespace LIGGGHTS {
 namespace ContactModels {
@@ -56,8 +57,10 @@ public:
 
   void surfacesIntersect(SurfacesIntersectData &s, ForceData &, ForceData &) {
     BondHistory bond(s.contact_history + offset_);
-    if (fix_->creating())
+    if (fix_->creating()) {
       fix_->create(s.i, s.j, s.r, bond);
+      fix_->bridge(s.i, s.j, s.r, bond);
+    }
     const double overlap = s.radsum - s.r;
     const double beyond = overlap - bond.reference_overlap(s.radsum);
     contact_kinematics(s, overlap);
@@ -70,8 +73,10 @@ public:
     if (!s.contact_history)
       return;
     BondHistory bond(s.contact_history + offset_);
+    if (fix_->creating())
+      fix_->bridge(s.i, s.j, std::sqrt(s.rsq), bond);
     if (bond.state() == kBrokenTouching && s.computeflag && s.shearupdate)
-      bond.set_state(kBrokenSeparated);
+      fix_->separate(s.i, s.j, bond);
   }
 
   void endSurfacesIntersect(SurfacesIntersectData &, TriMesh *, double *const) {}

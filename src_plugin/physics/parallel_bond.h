@@ -30,11 +30,10 @@
 #ifndef CALENDEM_PHYSICS_PARALLEL_BOND_H
 #define CALENDEM_PHYSICS_PARALLEL_BOND_H
 
+#include "pi.h"
 #include "vector3.h"
 
 namespace calendem {
-
-inline constexpr double kPi = 3.14159265358979323846;
 
 /// Material and geometry shared by all bonds of a run.
 struct BondMaterial {

@@ -41,6 +41,12 @@ struct BondRowSum {
       rotation[a] += k.twist * nn[a] + (k.bend + arm) * (1.0 - nn[a]);
     }
   }
+  void add(const BondRowSum &more) {
+    for (int a = 0; a < 3; ++a) {
+      translation[a] += more.translation[a];
+      rotation[a] += more.rotation[a];
+    }
+  }
 };
 
 /// Contact with an area of radius a [um]; E*, G* [kPa].

@@ -58,13 +58,14 @@ inline double script_units(const std::string &unit) {
 /// What two keys of the case may not be together.
 struct Relation {
   enum class Is {
-    AtMost, ///< the other
+    AtMost, ///< `part` of the other
     NotBoth ///< above 0
   };
   std::string key;
   Is is;
   std::string other;
   std::string why; ///< what is wrong if they are, and what to give
+  double part = 1.0;
 };
 
 struct Effect {

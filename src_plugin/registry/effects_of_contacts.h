@@ -4,6 +4,7 @@
 #ifndef CALENDEM_REGISTRY_EFFECTS_OF_CONTACTS_H
 #define CALENDEM_REGISTRY_EFFECTS_OF_CONTACTS_H
 
+#include "physics/binder_bridge.h"
 #include "registry/effect.h"
 
 namespace calendem {
@@ -189,9 +190,60 @@ inline Effect collector_indentation() {
   return e;
 }
 
+inline Key bridge_strength(const std::string &phase, const std::string &meaning) {
+  return {"effects.binder_bridges." + phase + "_strength_MPa",
+          "bridge_" + phase + "_MPa",
+          "",
+          0,
+          1000,
+          "MPa",
+          meaning,
+          "",
+          false,
+          false,
+          "effects.binder_bridges.strength_MPa"};
+}
+
+inline Effect binder_bridges() {
+  Effect e;
+  e.name = "binder_bridges";
+  e.layer = "contact";
+  e.what = "the binder holds CBD to CBD, active material and collector by bonds that break";
+  const std::string at = "effects.binder_bridges.";
+  e.settings = {{at + "strength_MPa", "bridge_MPa", "0", 0, 1000, "MPa",
+                 "tensile strength of bridges from CBD to CBD; 0: none"},
+                bridge_strength("am", "the same to active material"),
+                bridge_strength("collector", "the same to the collector"),
+                {at + "shear_ratio", "bridge_shear_ratio", "2", 0.1, 10, "",
+                 "shear over tensile strength of a bridge"},
+                {at + "modulus_GPa", "bridge_GPa", "1", 0.01, 100, "GPa", "of a bridge"},
+                {at + "radius_ratio", "bridge_radius_ratio", "0.5", 0.05, 1.5, "",
+                 "radius of a bridge over the smaller radius; a sphere's on the collector"},
+                {at + "gap_um", "bridge_gap_um", "0.02", 0, BinderBridges::kMostGap, "um",
+                 "between surfaces, up to which they are bridged at the start"}};
+  e.parameter = strength(e.settings[0], 1, 25, Spread::LogUniform);
+  for (const char *key : {"strength_MPa", "am_strength_MPa", "collector_strength_MPa"}) {
+    e.relations.push_back({at + key, Relation::Is::AtMost, at + "modulus_GPa",
+                           "bridges would stretch too far before they break",
+                           BinderBridges::kMostStrain});
+    for (const char *shrinks :
+         {"effects.cbd_collapse.yield_pressure_MPa", "imposed.cbd_nanoporosity_until_MPa"})
+      e.relations.push_back({at + key, Relation::Is::NotBoth, shrinks,
+                             "a bridge keeps its length while its spheres would shrink"});
+  }
+  e.moves = "stiffer film below some 20 MPa, and springback that what holds together resists; the "
+            "only tensile and adhesive strength of the coating where cohesion is 0";
+  e.source = "Potyondy & Cundall 2004; shear over tensile strength: Luo et al. 2018, of a coating "
+             "on its foil; the other values are unsourced priors";
+  e.law = "binder_bridge.h";
+  e.verification = "binder_bridges";
+  return e;
+}
+
 inline std::vector<Effect> effects_of_contacts() {
   return {friction(),       nmc_plasticity(),  cbd_collapse(),    cbd_viscoelasticity(),
-          cbd_plasticity(), cbd_confinement(), nmc_confinement(), collector_indentation()};
+          cbd_plasticity(), cbd_confinement(), nmc_confinement(), collector_indentation(),
+          binder_bridges()};
 }
 
 } // namespace calendem

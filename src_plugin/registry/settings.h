@@ -44,6 +44,10 @@ inline std::vector<Key> base_settings() {
       {"bond.criterion", "criterion", "signed", 0, 0, "", "sign of F_n in eq. 6",
        "signed|unsigned|as_printed"},
       {"bond.breakable", "breakable", "yes", 0, 0, "", "no: bonds bear any load", "yes|no"},
+      {"bond.contact_diameter", "contact_diameter", "radii", 0, 0, "",
+       "at which primaries of one body meet that are not bonded, nor have touched since their bond "
+       "broke: the sum of their radii, or the spacing of their lattice",
+       "radii|lattice"},
       {"bond.damping", "bond_damping", "0.02", 0, 1, "", "fraction of critical damping"},
       {"bond.weibull_modulus", "weibull_m", "0", 0, 100, "", "scatter of strength; 0: none"},
       {"bond.seed", "bond_seed", "1", 0, 4e9, "", "of the scatter", "", false, true},
@@ -56,7 +60,8 @@ inline std::vector<Key> base_settings() {
       {"platen.thickness_um", "h_target_um", "0", 0, 1000, "um", "with control = thickness"},
       {"platen.displacement_um", "d_target_um", "0", 0, 1000, "um", "with control = displacement"},
       {"platen.roll_gap_um", "roll_gap_um", "0", 0, 1000, "um",
-       "with control = roll_gap: film between the loaded rolls, without foil"},
+       "with control = roll_gap: film between the loaded rolls, without foil; with line_load_N_mm "
+       "where the search begins"},
       {"platen.speed_m_s", "speed_m_s", "1", 1e-4, 20, "m/s",
        "under load; under a roll the largest of closing and of slip"},
       {"platen.touch_speed_m_s", "touch_speed_m_s", "1", 1e-4, 20, "m/s",
@@ -71,6 +76,9 @@ inline std::vector<Key> base_settings() {
       {"roll.radius_mm", "roll_radius_mm", "200", 1, 2000, "mm", "of the roll on the film"},
       {"roll.counter_radius_mm", "counter_radius_mm", "", 0, 2000, "mm",
        "of the roll behind the collector; 0: flat", "", false, false, "roll.radius_mm"},
+      {"roll.line_load_N_mm", "", "0", 0, 1e5, "N/mm",
+       "of the last pass; the passage is rehearsed with other gaps until it agrees; 0: "
+       "platen.roll_gap_um is the gap"},
       {"roll.line_speed_m_min", "line_speed_m_min", "0.5", 1e-3, 1000, "m/min",
        "of the web; tells how much faster the passage is run"},
       {"roll.slip", "roll_slip", "0", 0, 0.1, "", "surface of the roll ahead of the web, fraction"},

@@ -4,8 +4,8 @@
 #ifndef CALENDEM_TESTS_MADE_BANK_H
 #define CALENDEM_TESTS_MADE_BANK_H
 
-#include "bank/bank_table.h"
-#include "pack/random.h"
+#include "base/random.h"
+#include "diagnose/bank/bank_table.h"
 #include <algorithm>
 #include <cmath>
 

@@ -11,7 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "run/fracture.h"
+#include "simulate/fracture.h"
 
 namespace calendem::tests {
 namespace {

@@ -1,29 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The command line. Exit status: 0 done, 1 usage, 2 bad input, 3 the simulation failed, 4 a check
 // did not hold.
-#include "bank/verb.h"
-#include "compare/verb.h"
-#include "diagnose/verb.h"
-#include "effects/verb.h"
-#include "pack/verb.h"
-#include "report/verb.h"
-#include "run/collect_verb.h"
-#include "run/verb.h"
-#include "sample/verb.h"
-#include "slurry/verb.h"
-#include "spec/messages.h"
-#include "structure/measure_verb.h"
-#include "study/verb.h"
-#include "tomogram/verb.h"
-#include "validate/verb.h"
-#include "withheld/verb.h"
+#include "base/messages.h"
+#include "base/provenance.h"
+#include "commands/commands.h"
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
 int main(int argc, char **argv) {
   CLI::App app{"Calendering of battery electrodes: pack an electrode, press it, report."};
   app.require_subcommand(1);
-  app.set_version_flag("--version", CALENDEM_VERSION);
+  app.set_version_flag("--version", calendem::version());
   calendem::add_dry_verb(app);
   calendem::add_pack_verb(app);
   calendem::add_run_verb(app);

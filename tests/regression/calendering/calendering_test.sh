@@ -164,6 +164,66 @@ case $case in
       [ -z "${other:-}" ] || holds "($other - $released) ^ 2 < 0.2 ^ 2" "roll and platen are apart"
       other=$released
     done ;;
+  line_load) # one layer of four elastic spheres: the gap that carries the load, in closed form; gone on with after a kill
+    rm -rf "$work"/layer "$work"/loaded*
+    mkdir -p "$work/layer"
+    (cd "$work/layer"
+      {
+        printf 'layer\n\n4 atoms\n4 atom types\n\n0 5 xlo xhi\n0 5 ylo yhi\n0 4 zlo zhi\n\nAtoms\n\n'
+        awk 'BEGIN { for (n = 0; n < 4; ++n) print n + 1, 1, 1.59, 4.65, 1.25 + 2.5 * (n % 2), 1.25 + 2.5 * (n > 1), 0.795 }'
+      } >electrode.data
+      printf '1 1\n2 2\n3 3\n4 4\n' >bodies.map
+      printf 'variable %s equal %s\n' thickness_um 1.6 area_um2 25 solid_volume_um3 8.4 primary_diameter_um 1.59 lattice_um 1.28 \
+        cbd_diameter_um 1.59 >electrode.in
+      echo '{"cell_um": [5, 5], "thickness_um": 1.6, "porosity_total": 0.79, "porosity_macro": 0.79, "bonds": 0, "bodies": 4,
+        "primaries": 4, "recipe": {"particles.lattice_um": "1.28", "particles.primary_diameter_um": "1.59", "cbd.diameter_um": "1.59"}}' \
+        >electrode.json
+      echo body >bodies.csv)
+    cat >"$work/loaded.toml" <<'EOF'
+electrode = "layer"
+[material.am]
+ced_J_m3 = 0
+[material.collector]
+youngs_modulus_GPa = 200
+[platen]
+control = "roll_gap"
+roll_gap_um = 1.54
+speed_m_s = 0.1
+touch_speed_m_s = 0.1
+release_speed_m_s = 0.1
+ramp_us = 0
+[roll]
+line_load_N_mm = 30
+[numerics]
+average_us = 0.01
+gravity_m_s2 = 0
+[output]
+every_us = 0.01
+restart_every_us = 0.5
+EOF
+    "$bin/calendem" run "$work/loaded.toml" -o "$work/loaded" --ranks 1
+    cat "$work/loaded/rehearsals.csv"
+    sed -n '/"roll":/,/^  }/p' "$work/loaded/summary.json" >"$work/said"
+    load=$(number line_load_N_mm "$work/said" | head -n 1) gap=$(number gap_um "$work/said" | head -n 1)
+    # q = n/A (3 pi/8) F s0, F = (4/3) E* sqrt(R) (d/2)^1.5, s0 = sqrt(2 R_nip d); waves: v sqrt(k m)/F = 1.2e-3
+    closed=$(awk "BEGIN { d = 1.59 - $gap; print 4 / 25 * 3 * 3.14159265 / 8 * 4 / 3 * 100 / 0.91 * sqrt(0.795) * (d / 2) ^ 1.5 * sqrt(2e5 * d) }")
+    echo "line load $load N/mm at $gap um; Hertz contacts there: $closed N/mm"
+    holds "($load / 30 - 1) ^ 2 <= 0.02 ^ 2" "the line load is $load instead of 30 N/mm"
+    holds "($load / $closed - 1) ^ 2 < 0.002 ^ 2" "the line load is $load, of Hertz contacts $closed N/mm"
+    kill_and_resume "$work/loaded.toml" "$work/loaded_killed"
+    cmp "$work/loaded/curve.csv" "$work/loaded_killed/curve.csv" || fail "curves differ after --resume"
+    cmp "$work/loaded/rehearsals.csv" "$work/loaded_killed/rehearsals.csv" || fail "rehearsals differ after --resume" ;;
+  packed_anew) # an electrode that changes under a run is told, not collected
+    rm -rf "$work/anew" "$work/on_anew"
+    cp -r "$work/electrode" "$work/anew"
+    sed 's/^electrode = .*/electrode = "anew"/' "$here/case.toml" >"$work/on_anew.toml"
+    "$bin/calendem" run "$work/on_anew.toml" -o "$work/on_anew" --ranks 1 >"$work/said" 2>&1 &
+    run=$!
+    until [ -s "$work/on_anew/curve_raw.csv" ] || ! kill -0 $run 2>/dev/null; do sleep 0.05; done
+    sed 's/^1 1 /1 2 /' "$work/electrode/electrode.data" >"$work/anew/electrode.data"
+    head -n 3 "$work/electrode/bodies.map" >"$work/anew/bodies.map"
+    wait $run && fail "a run whose electrode changed must not end with exit status 0"
+    grep -q "anew/electrode.data' has changed while the run went on" "$work/said" || { cat "$work/said"; fail "it is not said"; } ;;
   many_kills) # twenty kill -9 at random moments, every time gone on with: the uninterrupted run's bytes
     [ "${CALENDEM_HEAVY:-0}" = 1 ] || { echo "skipped: calendering.many_kills runs with tools/test --all"; exit 77; }
     RANDOM=4

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The energy ledger of one run closes: energy_test.sh friction|frictionless|plastic|collapse|viscous|hardening|confined BIN WORK
+# The energy ledger of one run closes: energy_test.sh friction|frictionless|plastic|collapse|viscous|hardening|confined|bridges BIN WORK
 set -euo pipefail
 case=$1 bin=$2 work=$3
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -33,6 +33,9 @@ case $case in
   confined) # from 0.9 of the surface on, so that the bulk acts at this pressure
     sed 's/^max_pressure_MPa = .*/max_pressure_MPa = 30/; s/^timestep_us.*//' "$here/case.toml" >"$work/$case.toml"
     printf '\n[effects.cbd_confinement]\nbulk_modulus_GPa = 10\nfree_surface = 0.9\n' >>"$work/$case.toml" ;;
+  bridges) # strong, so that what they lose in breaks would be missed
+    sed 's/^max_pressure_MPa = .*/max_pressure_MPa = 30/' "$here/case.toml" >"$work/$case.toml"
+    printf '\n[effects.binder_bridges]\nstrength_MPa = 25\ncollector_strength_MPa = 10\n' >>"$work/$case.toml" ;;
 esac
 rm -rf "${work:?}/$case"
 "$bin/calendem" run "$work/$case.toml" -o "$work/$case" --ranks 1
@@ -53,6 +56,15 @@ if [ "$case" = collapse ]; then # frames carry the radii: the nanopores' share o
     END { print v / first }' "$work/$case/curve.csv")
   echo "nanopores at the end, of those at the start: $nano"
   holds "$nano < 0.9" "the nanopores did not collapse"
+fi
+if [ "$case" = bridges ]; then
+  for of in $(sed -n '/"bridges"/,/^  }/p' "$summary" | tr -d ' ",{}' | grep '^[a-z]*:[0-9]'); do
+    echo "bridges, broken after and at the maximum, made: $of"
+    holds "${of#*:} > 0" "no bridges were made, or none broke"
+  done
+  x=$(at at_max_pressure lost_in_breaks)
+  echo "lost in breaks: $(awk "BEGIN { print 100 * $x / $W }") % of the work at maximum pressure"
+  holds "$x >= 2 * $limit * $W" "bridges lose too little for this test: $x of $W fJ"
 fi
 if [ "$case" = frictionless ]; then # the host damps across a contact in the half step of a set-up
   x=$(at at_end friction)

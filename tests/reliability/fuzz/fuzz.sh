@@ -13,16 +13,16 @@ mkdir -p "$2"
 work=$(cd "$2" && pwd)
 # -fno-sanitize=unreachable: toml++ states what it assumes with __builtin_unreachable, which UBSan takes for a fault.
 options=(-std=c++17 -g -O1 -DNDEBUG "-fsanitize=fuzzer,address,undefined" -fno-sanitize=unreachable
-  -fno-sanitize-recover=undefined -DCALENDEM_VERSION='"fuzz"' -DCALENDEM_SOURCE_DIR='"."'
+  -fno-sanitize-recover=undefined -DCALENDEM_VERSION='"fuzz"'
   -I "$core" -I "$core/../../src_plugin" -I /usr/include/eigen3)
 
 build_readers() {
   local sources source objects=()
   cd "$core"
-  sources=(spec/*.cpp structure/{atom_rows,data_header,data_plausible,given_structure,particle_data}.cpp
-    bank/{bank_design,bank_spec,bank_table,measurement_price}.cpp {compare/simulated_run,effects/effects,pack/placement}.cpp
-    {slurry/film_recipe,study/study_file,tomogram/spec,withheld/hidden_changes,withheld/round_file}.cpp
-    inference/{bank,bank_table,observable,prior,sobol_points}.cpp "$here/fuzz_target.cpp")
+  sources=(base/*.cpp electrode/structure/{data_rows,existing_structure,particle_data}.cpp
+    electrode/{pack/placement,slurry/film_recipe,tomogram_spec}.cpp simulate/study_file.cpp
+    diagnose/bank/{bank_design,bank_spec,bank_table}.cpp diagnose/compare/simulated_run.cpp
+    diagnose/inference/{bank,numerics,observable,prior}.cpp withheld/round_file.cpp "$here/fuzz_target.cpp")
   rm -rf "$work/objects"
   mkdir -p "$work/objects"
   for source in "${sources[@]}"; do
@@ -31,7 +31,7 @@ build_readers() {
     clang++ "${options[@]}" -c "$source" -o "${objects[-1]}" &
   done
   wait
-  clang++ "${options[@]}" "${objects[@]}" -lfmt -o "$work/readers"
+  clang++ "${options[@]}" "${objects[@]}" -lfmt -lcrypto -o "$work/readers"
 }
 build_label_image() {
   local vtk suffix
@@ -39,8 +39,8 @@ build_label_image() {
   [ -n "$vtk" ] || { echo "skipped: no headers of VTK in /usr/include"; exit 77; }
   suffix=${vtk##*/vtk}
   clang++ "${options[@]}" -isystem "$vtk" "$here/fuzz_image.cpp" \
-    "$core"/structure/{atom_rows,data_header,image_files,image_header,label_image,packed_data,raw_image_header}.cpp \
-    "$core"/structure/{tiff_header,vti_header}.cpp "$core"/spec/{messages,provenance}.cpp -lfmt -lz \
+    "$core"/electrode/structure/{data_rows,image_formats,image_header,label_image}.cpp \
+    "$core"/base/{messages,provenance}.cpp -lfmt -lz \
     -lvtk{IOImage,IOXML,CommonExecutionModel,CommonDataModel,CommonCore,sys}"$suffix" -o "$work/label_image_reader"
 }
 program=$work/readers

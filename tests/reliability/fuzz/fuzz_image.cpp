@@ -8,8 +8,8 @@
 #include <string>
 #include <unistd.h>
 
-#include "spec/messages.h"
-#include "structure/label_image.h"
+#include "base/messages.h"
+#include "electrode/structure/label_image.h"
 
 namespace {
 

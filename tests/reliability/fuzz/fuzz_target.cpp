@@ -9,17 +9,17 @@
 #include <map>
 #include <string>
 
-#include "bank/bank_table.h"
-#include "inference/bank.h"
-#include "slurry/film_recipe.h"
-#include "spec/case.h"
-#include "spec/csv_table.h"
-#include "spec/experiment.h"
-#include "spec/messages.h"
-#include "spec/recipe.h"
-#include "structure/given_structure.h"
-#include "study/study_file.h"
-#include "tomogram/tomogram.h"
+#include "base/case.h"
+#include "base/csv_table.h"
+#include "base/experiment.h"
+#include "base/messages.h"
+#include "base/recipe.h"
+#include "diagnose/bank/bank_table.h"
+#include "diagnose/inference/bank.h"
+#include "electrode/slurry/film_recipe.h"
+#include "electrode/structure/existing_structure.h"
+#include "electrode/tomogram.h"
+#include "simulate/study_file.h"
 #include "withheld/round_file.h"
 
 namespace {
@@ -68,9 +68,9 @@ void structure(const std::string &text) {
   source.body_map = text[0] & 16 ? file() : "";
   source.am_types = {1, 2};
   source.cbd_types = {3};
-  const calendem::GivenStructure g = calendem::read_structure(source);
+  const calendem::ExistingStructure g = calendem::read_structure(source);
   for (const auto *phase : {&g.am, &g.cbd})
-    for (const calendem::GivenSphere &p : *phase)
+    for (const calendem::ExistingSphere &p : *phase)
       demand(p.diameter > 0.0 && p.density > 0.0 && p.x.allFinite() && p.x.z() > 0.0);
   demand(!g.am.empty() && g.thickness > 0.0 && g.thickness <= g.extent);
 }

@@ -34,10 +34,24 @@ includes_point_one_way() { # physics <- registry <- liggghts, tools/calendem; te
     report "registry may include standard headers, physics and its own"
   includes src_plugin | matching '"[^"]*(calendem|tools|tests|gtest)[^"]*"' |
     report "src_plugin must not include tools or tests" || exit 1
-  includes tools/calendem | matching '"[^"]*(liggghts|tests)/|<(gtest|gmock|benchmark)/|"(fix|pair|compute|dump)_' |
-    report "tools/calendem must not include adapters or tests" || exit 1
-  includes tools/calendem | without '^tools/calendem/main.cpp' | matching '"\.\./' |
-    report "capabilities include each other by their path from tools/calendem, not by ../"
+  # A folder of tools/calendem knows itself, those before it in this list, and its CMake library links no other.
+  local folder known=physics\|registry
+  for folder in base electrode/structure electrode/pack electrode/slurry electrode simulate measure report \
+    diagnose/inference diagnose/compare diagnose/bank diagnose withheld commands .; do
+    known="$known|$folder"
+    find "tools/calendem/$folder" -maxdepth 1 -name '*.h' -o -maxdepth 1 -name '*.cpp' | LC_ALL=C sort |
+      xargs grep -nE '^ *# *include *"' /dev/null | without "include \"($known)/[a-z0-9_]+\.h\"" |
+      report "tools/calendem/$folder may include ${known//|/, } and nothing else of the project" || exit 1
+  done
+  cxx_files | matching '^tools/calendem/' | cut -d/ -f3- | sed 's:/*[^/]*$::' | sort -u |
+    without "^($known)?$" | report "folders of tools/calendem that have no place in the order of includes" || exit 1
+  includes tools/calendem | matching '<(gtest|gmock|benchmark)/' | report "tools/calendem must not include tests"
+}
+headers_agree() { # no two definitions of one name: all headers in one translation unit
+  { find src_plugin/physics src_plugin/registry -name '*.h' -printf '%P %H\n' | sed 's|\(.*\) src_plugin/\(.*\)|\2/\1|'
+    find tools/calendem -name '*.h' -printf '%P\n'; } | LC_ALL=C sort | sed 's/.*/#include "&"/' |
+    "${CXX:-g++}" -std=c++17 -Wall -Wextra -Werror -fsyntax-only -I src_plugin -I tools/calendem \
+      -isystem /usr/include/eigen3 -x c++ - || { echo "FAILED: a name is defined in two headers"; exit 1; }
 }
 no_large_files() { # in the repository, or in the tree where there is no git
   { git ls-files -z 2>/dev/null || find . -path ./build -prune -o -type f -print0; } |

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "bank/bank_table.h"
-#include "spec/messages.h"
-#include "spec/provenance.h"
+#include "base/messages.h"
+#include "base/provenance.h"
+#include "diagnose/bank/bank_table.h"
 #include "support/test_folder.h"
 #include <cmath>
 #include <fstream>

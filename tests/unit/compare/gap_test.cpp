@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "compare/gap.h"
-#include "compare/heat_map.h"
-#include "compare/observables.h"
+#include "diagnose/compare/gap.h"
+#include "diagnose/compare/gap_page.h"
+#include "diagnose/compare/observables.h"
 #include "support/test_folder.h"
 #include <algorithm>
 #include <cmath>
@@ -276,6 +276,19 @@ TEST(Belongs, ControlsThatARunCanHave) {
   r.target = 24.0;
   EXPECT_FALSE(belongs(r, c));
   std::filesystem::remove(file);
+}
+
+// A roll beside a platen is not passed over in silence.
+TEST(FindGap, SaysThatAPlatenStandsForARoll) {
+  const auto says = [](const Gap &gap) {
+    return std::any_of(gap.not_said.begin(), gap.not_said.end(), [](const std::string &text) {
+      return text.find("pressed under a roll, the runs under a platen") != std::string::npos;
+    });
+  };
+  Experiment e = paper();
+  EXPECT_FALSE(says(find_gap(e, {pressed_to(150, 0.3, "a")})));
+  e.conditions[1].control = "roll_gap";
+  EXPECT_TRUE(says(find_gap(e, {pressed_to(150, 0.3, "a")})));
 }
 
 TEST(DisplacementAt, IsLinearBetweenPointsAndNothingBeyond) {

@@ -111,7 +111,7 @@ TEST(ExperimentData, AnEffectsPointThatLacksWhatOthersHaveIsLeftOut) {
   curve.close();
   const auto of_friction = [](const ExperimentData &data) {
     return std::count_if(data.bank.runs.begin(), data.bank.runs.end(),
-                         [](const inference::Run &r) { return r.effect == "friction"; });
+                         [](const inference::BankRun &r) { return r.effect == "friction"; });
   };
   const ExperimentData whole = data_of(e, bank, {});
   const auto cut = [&](const std::string &effect) {
@@ -133,7 +133,7 @@ TEST(ExperimentData, AnEffectsPointThatLacksWhatOthersHaveIsLeftOut) {
 
 TEST(ExperimentData, OnlyTheConditionsThatAreWanted) {
   const ExperimentData data = data_of(made_experiment(kTruth), made_bank(), {"p60"});
-  for (const inference::Observable &o : data.experiment.of)
+  for (const inference::ObservableId &o : data.experiment.of)
     EXPECT_EQ(o.condition, "p60");
 }
 
@@ -173,7 +173,7 @@ TEST(ExperimentData, InstrumentsAreAppliedToTheRunsOfTheBaseModel) {
   const BankTable table = made_bank();
   const ExperimentData data = data_of(made_experiment(kTruth), table, {});
   int shown = 0;
-  for (const inference::Run &run : data.bank.runs)
+  for (const inference::BankRun &run : data.bank.runs)
     if (run.effect == "thickness_zero") {
       const SimulatedRun &base = table.rows[std::size_t(2 * shown)].run; // 30 MPa
       const double after = base.thickness_after + run.amplitudes[0];
@@ -195,7 +195,7 @@ TEST(ExperimentData, AnEffectOfFewPointsIsLeftOutAndTold) {
   const ExperimentData data = data_of(made_experiment(kTruth), table, {});
   EXPECT_TRUE(told(data, "4 points of friction, fewer than the 5"));
   ASSERT_EQ(data.bank.effects.size(), 1u);
-  for (const inference::Run &run : data.bank.runs)
+  for (const inference::BankRun &run : data.bank.runs)
     EXPECT_NE(run.effect, "friction");
 }
 
@@ -225,7 +225,7 @@ TEST(ExperimentData, AnotherFilmIsComparedOverItsSolid) {
   const ExperimentData data = data_of(e, made_bank(), {});
   EXPECT_TRUE(told(data, "its mass or loading is not given; taken is the recipe's"));
   bool over_solid = false;
-  for (const inference::Observable &o : data.experiment.of) {
+  for (const inference::ObservableId &o : data.experiment.of) {
     EXPECT_NE(o.name, "thickness");
     over_solid |= o.name == "thickness over solid thickness";
   }
@@ -236,7 +236,8 @@ TEST(ExperimentData, AnotherFilmIsComparedOverItsSolid) {
 TEST(ExperimentData, ABanksRangeIsThePrior) {
   BankTable table = made_bank();
   const auto highest = [&table](const char *name) {
-    for (const inference::Effect &e : data_of(made_experiment(kTruth), table, {}).bank.effects)
+    for (const inference::ModelledEffect &e :
+         data_of(made_experiment(kTruth), table, {}).bank.effects)
       if (e.name == name)
         return e.parameters[0].prior.value(8.0); // a score of 8: the end of the range
     return std::nan("");
@@ -251,7 +252,7 @@ TEST(ExperimentData, MicrometresCountLessInAThickerFilm) {
   Experiment thick = made_experiment(kTruth);
   thick.recipe.loading *= 3.0;
   int shown = 0;
-  for (const inference::Run &run : data_of(thick, table, {}).bank.runs)
+  for (const inference::BankRun &run : data_of(thick, table, {}).bank.runs)
     if (run.effect == "thickness_zero") {
       const double after =
           table.rows[std::size_t(2 * shown)].run.thickness_after + run.amplitudes[0] / 3.0;
@@ -268,7 +269,7 @@ TEST(ExperimentData, MicrometresCountAlikeWhateverLoadingARunHas) {
     row.run.solid_column *= row.point.base_point % 2 ? 1.05 : 0.95;
   const auto runs = data_of(made_experiment(kTruth), table, {}).bank.runs;
   int shown = 0;
-  for (const inference::Run &run : runs)
+  for (const inference::BankRun &run : runs)
     if (run.effect == "thickness_zero")
       EXPECT_NEAR(run.values[1] - runs[std::size_t(shown++)].values[1], run.amplitudes[0], 1e-9);
   EXPECT_EQ(shown, 24);
@@ -310,10 +311,10 @@ TEST(ExperimentData, EffectsThatTheBankHasNoRunsOfAreTold) {
 
 TEST(ExperimentData, NumbersAreToldWithUnitAndPressure) {
   const ExperimentData data = data_of(made_experiment(kTruth), made_bank(), {});
-  ASSERT_EQ(data.told.size(), data.experiment.of.size());
-  EXPECT_EQ(data.told[0].name, "total porosity");
-  EXPECT_EQ(data.told[0].unit, "%");
-  EXPECT_EQ(data.told.back().pressure, 60.0);
+  ASSERT_EQ(data.labels.size(), data.experiment.of.size());
+  EXPECT_EQ(data.labels[0].name, "total porosity");
+  EXPECT_EQ(data.labels[0].unit, "%");
+  EXPECT_EQ(data.labels.back().pressure, 60.0);
 }
 
 TEST(ExperimentData, NothingToCompareIsBadInput) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "diagnose/full_cell.h"
+#include "diagnose/bank_points.h"
 #include "support/test_folder.h"
 #include <fstream>
 
@@ -12,7 +12,7 @@ using namespace calendem;
 struct Films {
   BankTable bank;
   Experiment experiment;
-  std::vector<Covered> covered;
+  std::vector<CoveredCondition> covered;
 
   explicit Films(double loading) {
     const auto folder = calendem_test::test_folder();
@@ -44,7 +44,7 @@ struct Films {
 TEST(FullCell, AFilmOfItsLoadingIsShiftedByTheMeanDifference) {
   std::vector<std::string> told;
   const Films f(18.0);
-  const Transfer t = transfer_of(f.experiment, f.bank, f.covered, told);
+  const FullCellChange t = full_cell_change(f.experiment, f.bank, f.covered, told);
   ASSERT_EQ(t.change.size(), 1);
   EXPECT_NEAR(t.change[0], -0.05, 1e-15);
   // variance of -0.04 and -0.06 is 2e-4; that of a third about their mean 1.5 times as large
@@ -55,8 +55,9 @@ TEST(FullCell, AFilmOfItsLoadingIsShiftedByTheMeanDifference) {
 TEST(FullCell, TheShiftGoesWithOneOverLoading) {
   std::vector<std::string> told;
   const Films own(6.0), between(9.0); // 1/6, 1/9 and 1/18: half way
-  EXPECT_EQ(transfer_of(own.experiment, own.bank, own.covered, told).change[0], 0.0);
-  const Transfer t = transfer_of(between.experiment, between.bank, between.covered, told);
+  EXPECT_EQ(full_cell_change(own.experiment, own.bank, own.covered, told).change[0], 0.0);
+  const FullCellChange t =
+      full_cell_change(between.experiment, between.bank, between.covered, told);
   EXPECT_NEAR(t.change[0], -0.025, 1e-15);
   EXPECT_NEAR(t.covariance(0, 0), 0.25 * 3e-4, 1e-15);
 }
@@ -65,7 +66,7 @@ TEST(FullCell, OnePointIsTooFew) {
   std::vector<std::string> told;
   Films f(18.0);
   f.bank.rows.pop_back();
-  EXPECT_EQ(transfer_of(f.experiment, f.bank, f.covered, told).change.size(), 0);
+  EXPECT_EQ(full_cell_change(f.experiment, f.bank, f.covered, told).change.size(), 0);
 }
 
 } // namespace

@@ -24,7 +24,7 @@ TEST(Further, WhatIsMeasuredIsNotAskedForAgain) {
   EXPECT_EQ(data.next[0].what, "displacement while the pressure rises: p30, p60");
   EXPECT_EQ(data.next[0].cost, 2.0); // an hour for each sample
   EXPECT_EQ(data.next[0].of.size(), 8u);
-  for (const inference::Run &run : data.bank.runs)
+  for (const inference::BankRun &run : data.bank.runs)
     EXPECT_EQ(run.values.size(), 6 + 8);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "diagnose/point_noise.h"
-#include "pack/random.h"
+#include "base/random.h"
+#include "diagnose/bank_points.h"
 #include "support/made_bank.h"
 #include "support/test_folder.h"
 #include <fstream>

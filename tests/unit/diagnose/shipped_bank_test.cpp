@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What the bank that is shipped can tell.
 #include "diagnose/diagnose.h"
-#include "inference/hypothesis.h"
-#include "inference/which.h"
+#include "diagnose/inference/hypothesis.h"
+#include "diagnose/inference/which.h"
 #include "support/test_folder.h"
 #include <algorithm>
 #include <fstream>
@@ -97,7 +97,7 @@ TEST(ShippedBank, EffectsAtTwiceTheirDetectionLimitAreNamed) {
   const BankSpec spec = read_bank_spec(folder + "bank.toml");
   const BankTable bank = read_bank_table(spec, folder + "bank.csv");
   const ExperimentData data = data_of(shown(bank, 0, spec.recipe_file), bank, {});
-  inference::Settings settings;
+  inference::DiagnosisSettings settings;
   settings.model.packings_in_sample = 1e5;
   const inference::Model model(data.bank, data.experiment, settings.model, {});
   const inference::Problem problem = model.problem(data.experiment.values);

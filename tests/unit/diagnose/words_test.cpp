@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "diagnose/tell.h"
+#include "diagnose/words.h"
 #include <gtest/gtest.h>
 
 namespace {
@@ -90,7 +90,7 @@ TEST(Tell, AmplitudesBecomeValuesOfTheKeyWithTheSmallerEndFirst) {
                    {{"effect", "friction"}, {"amplitude", 0.199}, {"rival", "none"}}});
   BankTable bank;
   bank.spec.prices[4].hours = 9.0; // the unloading curve, which this bank lacks
-  tell({}, bank, gap);
+  put_in_words({}, bank, gap);
   const Json &fitted = gap["fitted_effects"][0];
   EXPECT_EQ(fitted["keys"][0], "effects.nmc_plasticity.yield_pressure_GPa");
   EXPECT_NEAR(fitted["value"].get<double>(), 4.0, 1e-12);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The rows of settings and contact laws: what they need to be scripts and keys.
-#include "effects/generated_files.h"
-#include "spec/case.h"
-#include "spec/provenance.h"
+#include "base/case.h"
+#include "base/provenance.h"
+#include "commands/generated_files.h"
 #include "support/test_folder.h"
 #include <algorithm>
 #include <gtest/gtest.h>

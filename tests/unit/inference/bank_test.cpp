@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "spec/messages.h"
+#include "base/messages.h"
 #include "synthetic_bank.h"
 #include <gtest/gtest.h>
 
@@ -67,7 +67,7 @@ TEST(Bank, RunsThatCannotServeAreTold) {
 
 TEST(Bank, AMeasurementFaultIsAnEffectWithoutSimulation) {
   Bank bank = synthetic_bank(10, 0.1);
-  const Effect zero{"thickness zero", {{"offset", {Prior::uniform, 0.0, 2.0}, true}}};
+  const ModelledEffect zero{"thickness zero", {{"offset", {Prior::uniform, 0.0, 2.0}, true}}};
   add_measurement_fault(bank, zero, [](const auto &, const Vector &v, const Vector &a) {
     Vector shown = v;
     shown[kCurve] += a[0];

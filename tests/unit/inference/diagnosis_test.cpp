@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The whole way on a bank from formulas: learn, recalibrate, weigh, say.
-#include "inference/diagnosis.h"
+#include "diagnose/inference/diagnosis.h"
 #include "synthetic_bank.h"
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kScatter = 0.04, kNoise = 0.04;
 
-Settings quick() {
-  Settings s;
+DiagnosisSettings quick() {
+  DiagnosisSettings s;
   s.which.evidence.samples = 256;
   s.where.simulations = 2000;
   return s;
@@ -36,10 +36,10 @@ struct Laboratory {
                       const std::vector<Candidate> &candidates = {}) {
     for (const std::string &name : without) {
       bank.runs.erase(std::remove_if(bank.runs.begin(), bank.runs.end(),
-                                     [&](const Run &r) { return r.effect == name; }),
+                                     [&](const BankRun &r) { return r.effect == name; }),
                       bank.runs.end());
       bank.effects.erase(std::remove_if(bank.effects.begin(), bank.effects.end(),
-                                        [&](const Effect &e) { return e.name == name; }),
+                                        [&](const ModelledEffect &e) { return e.name == name; }),
                          bank.effects.end());
     }
     model = std::make_unique<Model>(bank, experiment("", 0.0, 1), quick().model, candidates);

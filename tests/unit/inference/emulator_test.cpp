@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "inference/emulators.h"
-#include "inference/feature_map.h"
-#include "inference/scatter.h"
+#include "diagnose/inference/emulators.h"
+#include "diagnose/inference/feature_map.h"
+#include "diagnose/inference/scatter.h"
 #include "synthetic_bank.h"
 #include <gtest/gtest.h>
 
@@ -237,8 +237,8 @@ TEST(Emulators, ResidualsAreThoseOfAllThatIsSimulated) {
   EXPECT_GT(residuals.topRows(12).squaredNorm() / (12.0 * 16.0), 0.1);
 }
 
-std::vector<Observable> curve_of(int points) {
-  std::vector<Observable> all;
+std::vector<ObservableId> curve_of(int points) {
+  std::vector<ObservableId> all;
   for (int k = 0; k < points; ++k)
     all.push_back({"curve", "compression", "c", k / (points - 1.0)});
   return all;

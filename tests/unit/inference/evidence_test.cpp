@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "inference/evidence.h"
-#include "inference/hypothesis.h"
-#include "inference/sobol_points.h"
+#include "diagnose/inference/evidence.h"
+#include "diagnose/inference/hypothesis.h"
+#include "diagnose/inference/numerics.h"
 #include "linear_world.h"
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Analytic derivatives beside differences: 1e-5 of the gradient's size.
-#include "inference/hypothesis.h"
-#include "inference/model.h"
-#include "inference/quasi_newton.h"
+#include "diagnose/inference/hypothesis.h"
+#include "diagnose/inference/model.h"
+#include "diagnose/inference/numerics.h"
 #include "synthetic_bank.h"
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ Problem learnt() {
   bank.effects[1].parameters[0].nothing = 0.002;
   bank.effects[2].parameters[0].prior = {Prior::normal, 0.5, 0.25};
   Random packing(99, 77), rough(4, 4);
-  for (Run &r : bank.runs) // differences without scatter make ill-conditioned emulators
+  for (BankRun &r : bank.runs) // differences without scatter make ill-conditioned emulators
     for (double &v : r.values)
       v += 0.03 * rough.normal();
   ObservableVector experiment{bank.observables,

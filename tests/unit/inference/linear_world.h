@@ -3,9 +3,9 @@
 #ifndef CALENDEM_TESTS_DIAGNOSE_LINEAR_WORLD_H
 #define CALENDEM_TESTS_DIAGNOSE_LINEAR_WORLD_H
 
-#include "inference/problem.h"
-#include "inference/scatter.h"
-#include "pack/random.h"
+#include "base/random.h"
+#include "diagnose/inference/problem.h"
+#include "diagnose/inference/scatter.h"
 
 namespace calendem::inference {
 

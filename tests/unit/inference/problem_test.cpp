@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "inference/problem.h"
+#include "diagnose/inference/problem.h"
 #include "linear_world.h"
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "inference/scatter.h"
+#include "diagnose/inference/scatter.h"
 #include "linear_world.h"
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "inference/scores.h"
-#include "pack/random.h"
+#include "base/random.h"
+#include "diagnose/inference/scores.h"
 #include <cmath>
 #include <gtest/gtest.h>
 

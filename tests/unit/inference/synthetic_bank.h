@@ -3,17 +3,17 @@
 #ifndef CALENDEM_TESTS_DIAGNOSE_SYNTHETIC_BANK_H
 #define CALENDEM_TESTS_DIAGNOSE_SYNTHETIC_BANK_H
 
-#include "inference/bank.h"
-#include "inference/sobol_points.h"
-#include "pack/random.h"
+#include "base/random.h"
+#include "diagnose/inference/bank.h"
+#include "diagnose/inference/numerics.h"
 
 namespace calendem::inference {
 
 constexpr int kCurve = 12;
 
 /// A pressure curve of 12 points, porosity after, springback, broken fraction.
-inline std::vector<Observable> synthetic_observables() {
-  std::vector<Observable> all;
+inline std::vector<ObservableId> synthetic_observables() {
+  std::vector<ObservableId> all;
   for (int k = 0; k < kCurve; ++k)
     all.push_back({"ln pressure", "compression", "p150", k / (kCurve - 1.0)});
   all.push_back({"porosity_after", "relaxation", "p150"});
@@ -66,7 +66,7 @@ inline Bank synthetic_bank(int runs, double scatter) {
     const double stiffness = 2.0 * points(0, i) - 1.0, strength = 2.0 * points(1, i) - 1.0;
     for (int e = -1; e < 3; ++e) {
       Random packing(std::uint64_t(i), 77);
-      Run r;
+      BankRun r;
       r.packing = "p" + std::to_string(i);
       r.effect = e < 0 ? "" : bank.effects[e].name;
       r.base = Eigen::Vector2d(stiffness, strength);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "inference/chances.h"
-#include "inference/where.h"
-#include "inference/which.h"
+#include "diagnose/inference/scatter.h"
+#include "diagnose/inference/where.h"
+#include "diagnose/inference/which.h"
 #include "linear_world.h"
 #include <gtest/gtest.h>
 

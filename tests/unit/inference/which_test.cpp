@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "inference/confounding.h"
-#include "inference/which.h"
+#include "diagnose/inference/confounding.h"
+#include "diagnose/inference/which.h"
 #include "linear_world.h"
 #include <boost/math/tools/minima.hpp>
 #include <gtest/gtest.h>
@@ -269,7 +269,7 @@ TEST(Confounding, CosinesOddsAndLimitsInClosedForm) {
   world.covariance.setIdentity();
   world.signatures << 1.0, 0.6, 0.0, 0.8, 0.0, 0.0;
   Problem problem = world.problem(Vector::Zero(3));
-  for (Effect &e : problem.effects)
+  for (ModelledEffect &e : problem.effects)
     e.parameters[0].prior = {Prior::uniform, 0.0, 10.0};
   problem.predict = [&](const Vector &, const std::vector<Applied> &on) {
     Prediction out{Vector::Zero(3), Vector::Zero(3)};

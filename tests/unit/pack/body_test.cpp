@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "pack/body.h"
+#include "electrode/pack/body.h"
 #include "support.h"
 #include <numeric>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // From an existing structure to bodies and places: nothing is lost, doubled or lighter than before.
-#include "pack/electrode_files.h"
-#include "pack/given_description.h"
-#include "pack/given_recipe.h"
-#include "pack/start.h"
+#include "electrode/pack/description.h"
+#include "electrode/pack/electrode_files.h"
+#include "electrode/pack/from_structure.h"
+#include "electrode/pack/pack.h"
 #include "support.h"
 #include <fmt/format.h>
 #include <set>
@@ -222,7 +222,7 @@ TEST_F(GivenFilm, TheTableNamesTheTagsOfEveryParticle) {
 TEST_F(GivenFilm, LossDoublingAndLostMassAreNoticed) {
   const std::vector<Particle> &all = start.placed.loose.particles;
   const std::vector<Pose> poses = find_poses(in.recipe, start.made.bodies, all);
-  const auto said_of = [&](const GivenBodies &made, const std::vector<Particle> &particles) {
+  const auto said_of = [&](const BodiesOfStructure &made, const std::vector<Particle> &particles) {
     const nlohmann::json j =
         describe_structure(in.recipe, in.structure, made, start.placed, poses, particles);
     try {
@@ -238,7 +238,7 @@ TEST_F(GivenFilm, LossDoublingAndLostMassAreNoticed) {
   expect_parts(said_of(start.made, fewer), {"cbd: 6 in the structure, 5", "mass of CBD differs"});
   fewer.assign(all.begin() + 1, all.end());
   expect_parts(said_of(start.made, fewer), {"active material's mass differs by -"});
-  GivenBodies doubled = start.made;
+  BodiesOfStructure doubled = start.made;
   doubled.ids[3] = doubled.ids[4];
   expect_parts(said_of(doubled, all), {"in no body or in two"});
 }
@@ -259,7 +259,7 @@ TEST(GivenClusters, AreKeptAcrossAPeriodicFace) {
   const PackInput in = input(kClusters);
   EXPECT_NEAR(in.recipe.lattice, 1.28, 1e-4); // of mass: 4.633 g/cm3 in a sphere, 4.65 in a cell
   EXPECT_EQ(in.recipe.primary_diameter, 1.59);
-  const GivenBodies made = bodies_of_clusters(in.recipe, in.structure);
+  const BodiesOfStructure made = bodies_of_clusters(in.recipe, in.structure);
   ASSERT_EQ(made.bodies.size(), 3u);
   EXPECT_EQ(made.bodies[0].primaries.size(), 19u);
   EXPECT_EQ(made.bodies[1].primaries.size(), 10u);
@@ -289,7 +289,7 @@ TEST(GivenClusters, AreNotTurned) {
   const Start start = make_start(in, test_folder().string());
   const auto &p = start.placed.loose.particles;
   ASSERT_EQ(p.size(), 38u);
-  const GivenBodies made = bodies_of_clusters(in.recipe, in.structure);
+  const BodiesOfStructure made = bodies_of_clusters(in.recipe, in.structure);
   for (int k = 1; k < 19; ++k)
     EXPECT_NEAR((periodic_difference(in.recipe, p[k].x, p[0].x) -
                  (made.bodies[0].primaries[k] - made.bodies[0].primaries[0]))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "pack/packing_state.h"
+#include "electrode/pack/packing_state.h"
 #include "support.h"
 
 namespace {

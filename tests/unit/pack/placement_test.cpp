@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "pack/placement.h"
+#include "electrode/pack/placement.h"
 #include "support.h"
 #include <algorithm>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "pack/envelope.h"
-#include "pack/pose.h"
+#include "electrode/pack/packing_state.h"
 #include "support.h"
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "pack/sizes.h"
+#include "electrode/pack/sizes.h"
 #include "support.h"
 #include <numeric>
 

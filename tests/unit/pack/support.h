@@ -3,7 +3,7 @@
 #ifndef CALENDEM_TESTS_UNIT_PACK_SUPPORT_H
 #define CALENDEM_TESTS_UNIT_PACK_SUPPORT_H
 
-#include "spec/recipe.h"
+#include "base/recipe.h"
 #include "support/test_folder.h"
 #include <fstream>
 #include <string>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/base64.h"
+#include "base/encoding.h"
 
 #include <string>
 
 #include <gtest/gtest.h>
 
-using calendem::report::base64;
+using calendem::base64;
 
 namespace {
 std::string encoded(const std::string &text) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/branches.h"
+#include "measure/curve.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-using calendem::report::Curve;
+using calendem::Curve;
 
 namespace {
 Curve up_and_down() {
@@ -29,7 +29,7 @@ TEST(Branches, ShareTheTurningPoint) {
 // Requirement: values are those of the first crossing in compression, interpolated; NaN if none.
 TEST(Branches, FirstCrossingIsInterpolated) {
   const Curve curve = up_and_down();
-  using calendem::report::at_first_crossing;
+  using calendem::at_first_crossing;
   EXPECT_DOUBLE_EQ(at_first_crossing(curve, 5, "broken_fraction"), 0.05);
   EXPECT_DOUBLE_EQ(at_first_crossing(curve, 9, "broken_fraction"), 0.09); // not on the way back
   EXPECT_DOUBLE_EQ(at_first_crossing(curve, 24, "broken_fraction"), 0.225);
@@ -40,7 +40,7 @@ TEST(Branches, FirstCrossingIsInterpolated) {
 // Requirement: the imbalance is relative to the platen's pressure and counts above the threshold
 // only.
 TEST(Branches, WorstImbalanceAboveThreshold) {
-  EXPECT_DOUBLE_EQ(calendem::report::worst_imbalance(up_and_down(), 5), 0.1);
-  EXPECT_DOUBLE_EQ(calendem::report::worst_imbalance(up_and_down(), 10), 0.05);
-  EXPECT_TRUE(std::isnan(calendem::report::worst_imbalance(up_and_down(), 100)));
+  EXPECT_DOUBLE_EQ(calendem::worst_imbalance(up_and_down(), 5), 0.1);
+  EXPECT_DOUBLE_EQ(calendem::worst_imbalance(up_and_down(), 10), 0.05);
+  EXPECT_TRUE(std::isnan(calendem::worst_imbalance(up_and_down(), 100)));
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/chart.h"
-#include "report/chart_axis.h"
 
 #include <cmath>
 #include <limits>

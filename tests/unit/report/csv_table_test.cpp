@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "spec/csv_table.h"
+#include "base/csv_table.h"
 
 #include <cmath>
 

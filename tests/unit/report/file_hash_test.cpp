@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/file_hash.h"
+#include "base/encoding.h"
 
 #include <gtest/gtest.h>
 
-using calendem::report::sha256;
+using calendem::sha256;
 
 // Requirement: FIPS 180-4 examples, and lengths on both sides of the padding's block boundary.
 TEST(FileHash, VectorsOfTheStandard) {

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Fracture in the report: tables of a made-up run, stages of the paper's Figure 3, the studied
 // body.
-#include "report/fracture_part.h"
+#include "report/plots.h"
 
 #include <fstream>
 
 #include <gtest/gtest.h>
 
-#include "report/fracture_pictures.h"
+#include "report/pictures.h"
 #include "support/make_run.h"
 
 namespace fs = std::filesystem;
 using namespace calendem::report;
-using ReportRun = calendem::report::Run; // a test has a Run of its own
+using ReportRun = calendem::Run; // a test has a Run of its own
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/paper_reference.h"
+#include "report/tables.h"
 
 #include <gtest/gtest.h>
 

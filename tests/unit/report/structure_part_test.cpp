@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What `calendem measure` left in a run's directory, in the report.
-#include "report/structure_part.h"
+#include "report/plots.h"
 
 #include <fstream>
 
 #include <gtest/gtest.h>
 
-#include "spec/provenance.h"
+#include "base/provenance.h"
 #include "support/make_run.h"
 
 namespace fs = std::filesystem;
 using namespace calendem::report;
 using nlohmann::json;
-using ReportRun = calendem::report::Run; // a test has a Run of its own
+using ReportRun = calendem::Run; // a test has a Run of its own
 
 namespace {
 

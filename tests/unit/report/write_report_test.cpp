@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The verb on whole (made-up) run directories.
-#include "report/verb.h"
+#include "commands/commands.h"
+#include "report/report.h"
 
 #include <filesystem>
 #include <fstream>
@@ -11,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "spec/messages.h"
+#include "base/messages.h"
 #include "support/make_run.h"
 
 namespace fs = std::filesystem;

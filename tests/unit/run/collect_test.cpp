@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What is read off the curve after the release, and over what its rows are averaged.
+#include "base/case.h"
+#include "base/provenance.h"
 #include "physics/moving_average.h"
-#include "run/collect.h"
-#include "spec/case.h"
-#include "spec/provenance.h"
+#include "simulate/collect.h"
 #include "support/test_folder.h"
 #include <cmath>
 #include <gtest/gtest.h>

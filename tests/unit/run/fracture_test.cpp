@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Bodies whose fragments are known by hand.
-#include "run/fracture.h"
+#include "simulate/fracture.h"
 #include <gtest/gtest.h>
 
 namespace calendem {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/progress.h"
-#include "spec/provenance.h"
+#include "base/provenance.h"
+#include "simulate/progress.h"
 #include "support/test_folder.h"
 #include <gtest/gtest.h>
 

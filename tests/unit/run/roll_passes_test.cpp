@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Line loads of passes against the closed form of a linear film.
+// Line loads of passes against the closed form of a linear film; the search for the gap of a line
+// load.
+#include "base/case.h"
+#include "base/provenance.h"
 #include "physics/roll_nip.h"
-#include "run/roll_passes.h"
-#include "spec/case.h"
-#include "spec/provenance.h"
+#include "simulate/line_load.h"
+#include "simulate/roll_passes.h"
 #include "support/test_folder.h"
 #include <algorithm>
 #include <cmath>
@@ -74,5 +76,33 @@ TEST(RollPasses, CaseIsChecked) {
     for (const char *said : {"roll.first_gap_um is 40, below platen.roll_gap_um = 50",
                              "does not stand still in the nip", "is the gap of the loaded rolls"})
       EXPECT_NE(std::string(e.what()).find(said), std::string::npos) << e.what();
+  }
+  try {
+    case_with("[roll]\nline_load_N_mm = 100\n");
+    FAIL() << "the case was taken";
+  } catch (const std::exception &e) {
+    EXPECT_NE(std::string(e.what()).find("only a roll has a line load"), std::string::npos);
+  }
+}
+
+// Requirement: the load is met from any gap to begin with, above the film or deep in it; at once
+// where it grows as the square of the depth.
+TEST(LineLoad, GapIsFound) {
+  const double touch = 58.0, lowest = 30.0, asked = 100.0;
+  const auto hertz = [&](double gap) { return 3.0 * std::pow(std::max(touch - gap, 0.0), 2); };
+  const auto stiff = [&](double gap) { return 5.0 * std::expm1(0.6 * std::max(touch - gap, 0.0)); };
+  const auto runs = [&](const auto &film, double gap) {
+    std::vector<Rehearsal> done;
+    while (std::fabs(film(gap) / asked - 1.0) > kLineLoadTolerance && done.size() < 100) {
+      done.push_back({gap, film(gap), std::max(touch, gap)});
+      gap = next_gap(done, asked, lowest);
+      EXPECT_GT(gap, lowest);
+    }
+    return done.size() + 1;
+  };
+  for (const double gap : {31.0, 45.0, 50.0, 53.0, 57.5, 59.0}) {
+    EXPECT_LE(runs(hertz, gap), gap < touch ? 2u : 4u) << "from " << gap;
+    EXPECT_LE(runs(stiff, gap), kMostRehearsals) << "from " << gap;
+    std::printf("from %g um: %zu and %zu runs\n", gap, runs(hertz, gap), runs(stiff, gap));
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "spec/messages.h"
-#include "spec/provenance.h"
+#include "base/messages.h"
+#include "base/provenance.h"
 #include "support/test_folder.h"
 #include <gtest/gtest.h>
 #include <sys/wait.h>

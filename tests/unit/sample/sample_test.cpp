@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Folders of runs become a folder that reads as a run; what is no sample is refused.
-#include "compare/gap.h"
-#include "sample/sample.h"
-#include "spec/messages.h"
-#include "spec/provenance.h"
+#include "base/messages.h"
+#include "base/provenance.h"
+#include "diagnose/compare/gap.h"
+#include "simulate/sample.h"
 #include "support/test_folder.h"
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The slurry of a recipe: volumes and densities by hand, spheres that keep its mass, mixing,
 // checks.
-#include "pack/body.h"
-#include "pack/sphere_bins.h"
-#include "slurry/film_files.h"
-#include "slurry/spheres.h"
-#include "spec/pi.h"
+#include "electrode/pack/body.h"
+#include "electrode/pack/placement.h"
+#include "electrode/slurry/film_files.h"
+#include "physics/pi.h"
 #include "support/test_folder.h"
 #include <fstream>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Phases, heights and clusters of an existing structure; the [structure] table of a recipe.
-#include "spec/recipe.h"
-#include "structure/given_structure.h"
+#include "base/recipe.h"
+#include "electrode/structure/existing_structure.h"
 #include "support.h"
 
 namespace {
@@ -27,8 +27,8 @@ StructureSource clusters(const std::string &body_map = "") {
   return s;
 }
 
-TEST(GivenStructure, PhasesFollowTheTypesAndHeightsTheLowestPoint) {
-  const GivenStructure g = read_structure(source(kData + "lammps_micro.data", {1, 2}, {3}));
+TEST(ExistingStructure, PhasesFollowTheTypesAndHeightsTheLowestPoint) {
+  const ExistingStructure g = read_structure(source(kData + "lammps_micro.data", {1, 2}, {3}));
   ASSERT_EQ(g.am.size(), 3u);
   ASSERT_EQ(g.cbd.size(), 3u);
   EXPECT_EQ(g.cbd[0].id, 4);
@@ -40,12 +40,12 @@ TEST(GivenStructure, PhasesFollowTheTypesAndHeightsTheLowestPoint) {
   EXPECT_EQ(g.thickness, g.extent);
 }
 
-TEST(GivenStructure, AFilmThatIsPeriodicInHeightIsAsThickAsTheBox) {
+TEST(ExistingStructure, AFilmThatIsPeriodicInHeightIsAsThickAsTheBox) {
   StructureSource s = source((test_folder() / "a.data").string(), {1}, {});
   std::ofstream(s.file) << "t\n2 atoms\n1 atom types\n0 9 xlo xhi\n0 9 ylo yhi\n0 6 zlo zhi\n"
                            "Atoms\n\n1 1 4 4.65 1 1 0\n2 1 4 4.65 5 5 7\n";
   s.z_periodic = true;
-  const GivenStructure g = read_structure(s);
+  const ExistingStructure g = read_structure(s);
   EXPECT_NEAR(g.am[1].x.z(), 3.0, 1e-12); // z = 7 is at 1, the lowest point at -2
   EXPECT_NEAR(g.extent, 5.0, 1e-12);
   EXPECT_NEAR(g.thickness, 5.0, 1e-12);
@@ -55,7 +55,7 @@ TEST(GivenStructure, AFilmThatIsPeriodicInHeightIsAsThickAsTheBox) {
   EXPECT_NEAR(read_structure(s).thickness, 6.0, 1e-12);
 }
 
-TEST(GivenStructure, EveryTypeHasItsPhase) {
+TEST(ExistingStructure, EveryTypeHasItsPhase) {
   expect_parts(refusal([] {
                  read_structure(source(kData + "lammps_micro.data", {1, 7}, {3}));
                }),
@@ -63,13 +63,13 @@ TEST(GivenStructure, EveryTypeHasItsPhase) {
                 "structure.am_types names type 7"});
   StructureSource s = source(kData + "lammps_micro.data", {1}, {3});
   s.left_out_types = {2};
-  const GivenStructure g = read_structure(s);
+  const ExistingStructure g = read_structure(s);
   EXPECT_EQ(g.am.size() + g.cbd.size(), 5u);
   EXPECT_EQ(g.left_out, 1);
 }
 
-TEST(GivenStructure, ClustersComeFromMoleculesOrFromAMap) {
-  const GivenStructure g = read_structure(clusters());
+TEST(ExistingStructure, ClustersComeFromMoleculesOrFromAMap) {
+  const ExistingStructure g = read_structure(clusters());
   EXPECT_EQ(g.am.front().cluster, 11);
   EXPECT_EQ(g.am.back().cluster, 7);
   const std::string map = (test_folder() / "bodies.map").string();
@@ -79,7 +79,7 @@ TEST(GivenStructure, ClustersComeFromMoleculesOrFromAMap) {
     for (int id = 1; id <= 36; ++id)
       out << id << " " << (id <= 7 ? 1 : 2) << "\r\n";
   }
-  const GivenStructure m = read_structure(clusters(map));
+  const ExistingStructure m = read_structure(clusters(map));
   EXPECT_EQ(m.am.front().cluster, 1);
   EXPECT_EQ(m.am.back().cluster, 2);
   EXPECT_NE(hash_of_structure(clusters()), hash_of_structure(clusters(map)));
@@ -88,7 +88,7 @@ TEST(GivenStructure, ClustersComeFromMoleculesOrFromAMap) {
   expect_parts(refusal([&] { read_structure(no_ids); }), {"no molecule ids", "body_map"});
 }
 
-TEST(GivenStructure, AMapOfAnotherFileIsRefused) {
+TEST(ExistingStructure, AMapOfAnotherFileIsRefused) {
   const std::string map = (test_folder() / "bodies.map").string();
   const auto said_of = [&](const std::string &text) {
     std::ofstream(map) << text;

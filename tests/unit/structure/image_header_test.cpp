@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Headers on which VTK's readers crash, hang, take gigabytes or read other numbers than are there:
 // they are refused before VTK sees the file. Most were found by tests/reliability/fuzz.
-#include "structure/label_image.h"
+#include "electrode/structure/label_image.h"
 #include "support.h"
 #include <map>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The whole way: a synthetic tomogram with known particles, its file, the shapes, the bodies.
-#include "pack/measured_bodies.h"
+#include "electrode/pack/measured_bodies.h"
+#include "electrode/tomogram.h"
 #include "support.h"
-#include "tomogram/tomogram.h"
 #include <nlohmann/json.hpp>
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "structure/label_image.h"
+#include "electrode/structure/label_image.h"
 #include "support.h"
 #include <fmt/format.h>
 #include <vtkImageData.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Coordination numbers of lattices and of hand-made contacts.
+#include "measure/contacts.h"
 #include "measure_support.h"
-#include "structure/measure_contacts.h"
 
 namespace {
 using namespace calendem;

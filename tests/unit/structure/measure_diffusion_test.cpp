@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Diffusion and tortuosity against closed forms.
+#include "measure/diffusion.h"
+#include "measure/multigrid.h"
 #include "measure_support.h"
-#include "structure/measure_diffusion.h"
-#include "structure/measure_multigrid.h"
 #include <Eigen/IterativeLinearSolvers>
 #include <random>
 
@@ -13,8 +13,8 @@ using namespace calendem_test;
 DiffusionGrid grid_of(const PhaseImage &image, float am, float cbd = 0.0F) {
   DiffusionGrid grid = pore_space(image);
   for (size_t v = 0; v < image.label.size(); ++v)
-    if (image.phase(v) != Phase::pore)
-      grid.diffusivity[v] = image.phase(v) == Phase::am ? am : cbd;
+    if (image.phase(v) != VoxelPhase::pore)
+      grid.diffusivity[v] = image.phase(v) == VoxelPhase::am ? am : cbd;
   return grid;
 }
 

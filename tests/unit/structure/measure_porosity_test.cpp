@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The three porosities of physics.md, section 4, and profiles, on structures with a known answer.
+#include "measure/structure.h"
 #include "measure_support.h"
-#include "structure/measure_structure.h"
 
 namespace {
 using namespace calendem;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Images of experiments and simulated structures through the same code; files.
+#include "measure/structure.h"
 #include "measure_support.h"
-#include "structure/measure_structure.h"
 #include <nlohmann/json.hpp>
 
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Area of spheres and planes from voxels.
+#include "electrode/structure/particle_mask.h"
+#include "measure/phases.h"
 #include "measure_support.h"
-#include "structure/measure_surface.h"
-#include "structure/smooth_surface.h"
 
 namespace {
 using namespace calendem;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A simulated frame as voxels: volumes, pores inside bodies, cracks, periodic faces, platens.
+#include "measure/contacts.h"
 #include "measure_support.h"
-#include "structure/measure_contacts.h"
 
 namespace {
 using namespace calendem;

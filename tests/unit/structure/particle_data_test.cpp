@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Data files written by LAMMPS and by LIGGGHTS themselves, and what is wrong with spoilt ones.
-#include "structure/particle_data.h"
+#include "electrode/structure/particle_data.h"
 #include "support.h"
 #include <algorithm>
 #include <map>

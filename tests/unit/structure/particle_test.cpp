@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // From labels to volumes, surfaces and distances of single particles.
-#include "structure/distance.h"
-#include "structure/particle_mask.h"
-#include "structure/smooth_surface.h"
+#include "electrode/structure/measured_shape.h"
+#include "electrode/structure/particle_mask.h"
 #include "support.h"
 
 namespace {

@@ -3,8 +3,8 @@
 #ifndef CALENDEM_TESTS_UNIT_STRUCTURE_SUPPORT_H
 #define CALENDEM_TESTS_UNIT_STRUCTURE_SUPPORT_H
 
-#include "spec/messages.h"
-#include "structure/label_image.h"
+#include "base/messages.h"
+#include "electrode/structure/label_image.h"
 #include "support/test_folder.h"
 #include <fstream>
 #include <iterator>

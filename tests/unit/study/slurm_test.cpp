@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "study/slurm.h"
+#include "simulate/slurm.h"
 #include <gtest/gtest.h>
 
 namespace calendem {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "spec/messages.h"
-#include "spec/provenance.h"
-#include "study/study_page.h"
+#include "base/messages.h"
+#include "base/provenance.h"
+#include "report/study_page.h"
 #include "support/test_folder.h"
 #include <cmath>
 
@@ -34,11 +34,11 @@ TEST(Groups, PackingsOfASettingAreOneGroupAndRunsThatFailedAreNone) {
 
 TEST(Groups, SpreadIsOfTheValuesThatThereAre) {
   const StudyGroup low = table().groups()[0], high = table().groups()[1];
-  const Spread s = table().spread(low, "porosity_after_relaxation");
+  const MeanAndSd s = table().mean_and_sd(low, "porosity_after_relaxation");
   EXPECT_NEAR(s.mean, 0.31, 1e-15);
   EXPECT_NEAR(s.sd, 0.02 / std::sqrt(2.0), 1e-15);
-  EXPECT_EQ(table().spread(high, "broken_fraction_at_90_MPa").n, 1);
-  EXPECT_EQ(table().spread(high, "broken_fraction_at_90_MPa").sd, 0.0);
+  EXPECT_EQ(table().mean_and_sd(high, "broken_fraction_at_90_MPa").n, 1);
+  EXPECT_EQ(table().mean_and_sd(high, "broken_fraction_at_90_MPa").sd, 0.0);
 }
 
 TEST(Groups, PressuresAreThoseOfTheColumns) {

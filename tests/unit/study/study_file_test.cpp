@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "spec/messages.h"
-#include "study/study_file.h"
+#include "base/messages.h"
+#include "simulate/study_file.h"
 #include "support/test_folder.h"
 #include <cmath>
 #include <fstream>

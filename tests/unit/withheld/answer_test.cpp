@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A whole round on a bank of formulas: sealed, handed out, answered, scored, tampered with.
-#include "bank/bank_table.h"
+#include "base/messages.h"
+#include "diagnose/bank/bank_table.h"
 #include "diagnose/diagnose.h"
-#include "spec/messages.h"
 #include "support/test_folder.h"
 #include "withheld/answer.h"
 #include "withheld/make.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Draws of a round, and what of a truth is handed out.
-#include "spec/experiment.h"
-#include "spec/messages.h"
+#include "base/experiment.h"
+#include "base/messages.h"
 #include "support/test_folder.h"
-#include "withheld/handed_out.h"
-#include "withheld/hidden_changes.h"
+#include "withheld/make.h"
+#include "withheld/round_file.h"
 #include "withheld/sealing.h"
 #include <cmath>
 #include <fstream>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A bank asked about itself.
-#include "bank/bank_table.h"
-#include "spec/csv_table.h"
-#include "spec/messages.h"
-#include "spec/provenance.h"
+#include "base/csv_table.h"
+#include "base/messages.h"
+#include "base/provenance.h"
+#include "diagnose/bank/bank_table.h"
 #include "support/test_folder.h"
 #include "withheld/rehearsal.h"
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "spec/messages.h"
+#include "base/messages.h"
 #include "support/test_folder.h"
 #include "withheld/sealing.h"
 #include <fstream>

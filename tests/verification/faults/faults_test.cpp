@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "meeting.h"
+#include "physics/hertz_contact.h"
+#include "physics/hertz_mindlin.h"
 #include "spheres.h"
 
 using namespace calendem;
@@ -240,4 +242,27 @@ TEST(VerificationFaults, MomentumOfADampedUnequalPair) {
       worst = std::fmax(worst, std::fabs(r.at(c) - rows[0].at(c)) / mass);
   std::printf("damped unequal pair: momentum changes by %.1e of mass x 1 um/us\n", worst);
   EXPECT_LT(worst, kSteps * 2.2e-16 * 4.0);
+}
+
+// Forces are sums of whole units, 2^62 of which are E R^2 or up to twice that: what is beyond stops
+// the run instead of wrapping. Damping alone makes it.
+TEST(VerificationFaults, ForceBeyondTheUnitsOfItsSumStops) {
+  const double R = 0.795, E = 2e8, overlap = 0.1 * R;
+  const double most = std::exp2(std::ceil(std::log2(E * R * R)));
+  const double modulus = effective_modulus(E, 0.3, E, 0.3), log_e = std::log(0.15);
+  const double mass = kDensity * 4.0 / 3.0 * kPi * std::pow(R, 3);
+  const double beta = log_e / std::sqrt(log_e * log_e + kPi * kPi);
+  const double damping =
+      contact_resistance({modulus, 0.0, beta, 0.0}, std::sqrt(0.5 * R * overlap), 0.5 * mass)
+          .normal_damping;
+  for (const double share : {0.9, 1.1}) {
+    const double speed =
+        0.5 * (share * most - hertz_force(modulus, 0.5 * R, overlap)) / damping; // of each
+    const CaseRun run("in.body", {{"bonded", "0"}, {"ced", "0"}, {"dt", "1e-8"}, {"steps", "10"}},
+                      1,
+                      files_of({{{5.0, 5.0, 5.0}, R, 1, {speed, 0.0, 0.0}},
+                                {{5.0 + 2.0 * R - overlap, 5.0, 5.0}, R, 2, {-speed, 0.0, 0.0}}},
+                               {0, 0, 0}, {10, 10, 10}));
+    EXPECT_EQ(run.finished(), share < 1.0) << run.why();
+  }
 }

@@ -88,6 +88,17 @@ TEST(VerificationPlasticContact, HardeningFollowsTheLaw) {
   expect_small("hardening", pressed(2 * R, effective_radius(R, R), settings, 1e7));
 }
 
+// Primaries of one body that were never bonded, and meet closer than at the sum of their radii.
+TEST(VerificationPlasticContact, FragmentsFollowTheLaw) {
+  Settings settings = elastic_otherwise();
+  const double apart = 2 * R + 0.01, touch = 0.9 * 2 * R;
+  settings.insert({{"body", "1"},
+                   {"meet", "0.9"},
+                   {"z0", number(apart)},
+                   {"down", std::to_string(std::lround((apart - touch + 0.01) / 1e-5))}});
+  expect_small("fragments", pressed(touch, effective_radius(R, R), settings));
+}
+
 // Thornton's coefficient of restitution, his eq. 31, from the ratio of yield speed and speed.
 TEST(VerificationPlasticContact, RestitutionIsThorntons) {
   const double R_eff = 0.5 * R, m_eff = 0.5 * mass;

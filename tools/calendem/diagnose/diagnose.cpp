@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/diagnose.h"
-#include "diagnose/point_noise.h"
-#include "diagnose/tell.h"
-#include "spec/messages.h"
-#include "spec/provenance.h"
+#include "base/messages.h"
+#include "base/provenance.h"
+#include "diagnose/bank_points.h"
+#include "diagnose/words.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -21,12 +21,12 @@ template <typename Derived> void append(const Eigen::MatrixBase<Derived> &values
 /// Bytes that are equal where a model would be.
 std::string layout_of(const ExperimentData &data, const inference::ModelSettings &settings) {
   std::string out;
-  for (const inference::Observable &o : data.experiment.of)
+  for (const inference::ObservableId &o : data.experiment.of)
     out += key_of(o) + "\n";
   append(data.experiment.covariance, out);
-  for (const inference::Effect &e : data.bank.effects)
+  for (const inference::ModelledEffect &e : data.bank.effects)
     out += e.name + "\n";
-  for (const inference::Run &run : data.bank.runs)
+  for (const inference::BankRun &run : data.bank.runs)
     append(run.values, out);
   append(inference::Vector::Constant(1, settings.packings_in_sample), out);
   return out;
@@ -85,7 +85,7 @@ Diagnosed diagnosed(const Experiment &experiment, const BankTable &table, double
                     SharedModels &models) {
   Diagnosed out;
   out.data = data_of(experiment, table, {});
-  inference::Settings settings;
+  inference::DiagnosisSettings settings;
   settings.model.packings_in_sample = cells > 0.0 ? cells : cells_of(experiment, table.spec);
   out.model = models.of(out.data, settings.model);
   const std::vector<inference::PointNoise> point_noise =
@@ -94,7 +94,7 @@ Diagnosed diagnosed(const Experiment &experiment, const BankTable &table, double
                                       settings, point_noise);
   out.gap = nlohmann::ordered_json::parse(inference::to_json(out.diagnosis));
   out.gap["experiment"] = experiment.name;
-  tell(out.data, table, out.gap);
+  put_in_words(out.data, table, out.gap);
   tell_point_noise(point_noise, out);
   out.gap["not_said"] = out.data.not_said;
   out.gap["provenance"] = {{"calendem", version()}, {"hashes", "64-bit FNV-1a"}};

@@ -4,7 +4,7 @@
 #define CALENDEM_DIAGNOSE_DIAGNOSE_H
 
 #include "diagnose/experiment_data.h"
-#include "inference/diagnosis.h"
+#include "diagnose/inference/diagnosis.h"
 #include <map>
 #include <memory>
 #include <mutex>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/experiment_data.h"
-#include "diagnose/full_cell.h"
-#include "inference/sobol_points.h"
-#include "spec/messages.h"
+#include "base/messages.h"
+#include "diagnose/bank_points.h"
+#include "diagnose/inference/numerics.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -22,9 +22,9 @@ inference::Prior prior_of(Spread spread, double low, double high) {
           low, high};
 }
 
-inference::Run bank_run(const PointRuns &runs, const Vector &values) {
+inference::BankRun bank_run(const PointRuns &runs, const Vector &values) {
   const BankPoint &p = runs.front()->point;
-  inference::Run out;
+  inference::BankRun out;
   out.effect = p.effect;
   out.packing = fmt::format("{}", p.packing);
   out.base = Eigen::Map<const Vector>(p.base.data(), Eigen::Index(p.base.size()));
@@ -35,7 +35,7 @@ inference::Run bank_run(const PointRuns &runs, const Vector &values) {
 }
 
 void add_instrument(const Effect &effect, std::uint64_t seed, double film,
-                    const std::vector<Covered> &all, const std::vector<PointRuns> &points,
+                    const std::vector<CoveredCondition> &all, const std::vector<PointRuns> &points,
                     inference::Bank &bank) {
   const inference::Parameter p = inference_effect(effect).parameters.front();
   const Matrix shares = inference::sobol_points(1, int(points.size()), seed);
@@ -46,23 +46,24 @@ void add_instrument(const Effect &effect, std::uint64_t seed, double film,
       const double value = effect.parameter.value(amplitude);
       const double on_film = value * film; // micrometres do not grow with a film
       const auto see = [&](const SimulatedRun &r) { return shown_with(effect, on_film, r); };
-      inference::Run run = bank_run(points[k], values_of(all, points[k], see));
+      inference::BankRun run = bank_run(points[k], values_of(all, points[k], see));
       run.effect = effect.name;
       run.amplitudes = Vector::Constant(1, amplitude);
       bank.runs.push_back(run);
     }
 }
 
-inference::Observable named(const Covered &c, const Observable &o) {
+inference::ObservableId named(const CoveredCondition &c, const Observable &o) {
   return {o.curve.empty() ? o.name : o.curve, o.stage, c.condition.id, o.coordinate};
 }
 
 /// Observables, and their covariance: the pressure's error is common to all of them, the loading's
 /// to those of a condition.
-inference::ObservableVector measured_of(const std::vector<Covered> &all, const Vector &pressure) {
+inference::ObservableVector measured_of(const std::vector<CoveredCondition> &all,
+                                        const Vector &pressure) {
   inference::ObservableVector out;
   std::vector<double> values, sd;
-  for (const Covered &c : all)
+  for (const CoveredCondition &c : all)
     for (const Observable &o : c.observables) {
       out.of.push_back(named(c, o));
       values.push_back(o.measured);
@@ -73,7 +74,7 @@ inference::ObservableVector measured_of(const std::vector<Covered> &all, const V
   const Vector s = Eigen::Map<Vector>(sd.data(), n);
   out.covariance = Matrix(s.cwiseAbs2().asDiagonal()) + pressure * pressure.transpose();
   Eigen::Index next = 0;
-  for (const Covered &c : all) {
+  for (const CoveredCondition &c : all) {
     Vector loading = Vector::Zero(n);
     for (const Observable &o : c.observables)
       loading[next++] = o.by_loading;
@@ -86,7 +87,7 @@ inference::ObservableVector measured_of(const std::vector<Covered> &all, const V
 std::vector<int> known_of(const inference::Bank &bank, int first, int count) {
   std::vector<int> known;
   for (int k = 0; k < count; ++k)
-    if (std::all_of(bank.runs.begin(), bank.runs.end(), [&](const inference::Run &run) {
+    if (std::all_of(bank.runs.begin(), bank.runs.end(), [&](const inference::BankRun &run) {
           return std::isfinite(run.values[first + k]);
         }))
       known.push_back(k);
@@ -104,22 +105,23 @@ inference::ObservableVector only(const inference::ObservableVector &all,
 }
 
 /// What the experiment has and every run too; the bank's values of it go into `kept`.
-void set_experiment(const inference::ObservableVector &measured, const std::vector<Covered> &all,
-                    ExperimentData &data, std::vector<int> &kept) {
-  std::vector<Told> told;
-  for (const Covered &c : all)
+void set_experiment(const inference::ObservableVector &measured,
+                    const std::vector<CoveredCondition> &all, ExperimentData &data,
+                    std::vector<int> &kept) {
+  std::vector<ValueLabel> labels;
+  for (const CoveredCondition &c : all)
     for (const Observable &o : c.observables)
-      told.push_back({o.name, o.unit, o.curve.empty() ? c.pressure : o.pressure});
-  for (const int k : known_of(data.bank, 0, int(told.size())))
+      labels.push_back({o.name, o.unit, o.curve.empty() ? c.pressure : o.pressure});
+  for (const int k : known_of(data.bank, 0, int(labels.size())))
     if (std::isfinite(measured.values[k]))
       kept.push_back(k);
-  for (int k = 0; k < int(told.size()); ++k)
+  for (int k = 0; k < int(labels.size()); ++k)
     if (std::find(kept.begin(), kept.end(), k) == kept.end())
       data.not_said.push_back(fmt::format("{}: {}: not every run of the bank has it; left out.",
                                           measured.of[std::size_t(k)].condition,
-                                          told[std::size_t(k)].name));
+                                          labels[std::size_t(k)].name));
     else
-      data.told.push_back(told[std::size_t(k)]);
+      data.labels.push_back(labels[std::size_t(k)]);
   if (kept.empty())
     throw Failure(kBadInput,
                   fmt::format("nothing that was measured can be compared with the bank. Conditions "
@@ -196,7 +198,8 @@ void tell_other_effects(const BankSpec &spec, std::vector<std::string> &not_said
 }
 
 /// Points of effects that lack what nearly all others have are left out: else it would be.
-std::vector<PointRuns> complete(std::vector<PointRuns> points, const std::vector<Covered> &all,
+std::vector<PointRuns> complete(std::vector<PointRuns> points,
+                                const std::vector<CoveredCondition> &all,
                                 std::vector<std::string> &not_said) {
   std::vector<Vector> values;
   for (const PointRuns &runs : points)
@@ -224,7 +227,7 @@ std::vector<PointRuns> complete(std::vector<PointRuns> points, const std::vector
   return kept;
 }
 
-void fill_bank(double film, const BankTable &table, const std::vector<Covered> &all,
+void fill_bank(double film, const BankTable &table, const std::vector<CoveredCondition> &all,
                const std::vector<PointRuns> &points, inference::Bank &bank) {
   for (const BankParameter &p : table.spec.parameters)
     bank.base.push_back({p.name, prior_of(p.spread, p.low, p.high), false});
@@ -242,7 +245,7 @@ void fill_bank(double film, const BankTable &table, const std::vector<Covered> &
 
 } // namespace
 
-inference::Effect inference_effect(const Effect &effect) {
+inference::ModelledEffect inference_effect(const Effect &effect) {
   const EffectParameter &p = effect.parameter;
   double low = p.amplitude(p.low), high = p.amplitude(p.high);
   if (low > high)
@@ -267,16 +270,18 @@ ExperimentData data_of(const Experiment &experiment, const BankTable &as_given,
   BankTable table = as_given;
   const std::vector<PointRuns> all_points =
       enough(points_of(table, data.not_said), table.spec, data.not_said);
-  const std::vector<Covered> now = covered_by(experiment, table, conditions, data.not_said);
+  const std::vector<CoveredCondition> now =
+      covered_conditions(experiment, table, conditions, data.not_said);
   const std::vector<Further> further = further_measurements(experiment, table, now);
-  std::vector<Covered> all = now;
+  std::vector<CoveredCondition> all = now;
   for (const Further &f : further)
     all.insert(all.end(), f.of.begin(), f.of.end());
   const std::vector<PointRuns> points = complete(all_points, all, data.not_said);
   fill_bank(film_ratio(experiment, full_cell), table, all, points, data.bank);
   inference::ObservableVector measured = measured_of(now, by_pressure(now, points));
-  if (const Transfer t = transfer_of(experiment, full_cell, all, data.not_said); t.change.size()) {
-    for (inference::Run &run : data.bank.runs)
+  if (const FullCellChange t = full_cell_change(experiment, full_cell, all, data.not_said);
+      t.change.size()) {
+    for (inference::BankRun &run : data.bank.runs)
       run.values += t.change;
     const Eigen::Index n = measured.values.size();
     measured.covariance += t.covariance.topLeftCorner(n, n);
@@ -285,7 +290,7 @@ ExperimentData data_of(const Experiment &experiment, const BankTable &as_given,
   set_experiment(measured, now, data, kept);
   data.bank.observables = data.experiment.of;
   set_next(further, points, int(measured.of.size()), data, kept);
-  for (inference::Run &run : data.bank.runs)
+  for (inference::BankRun &run : data.bank.runs)
     run.values = Vector(run.values(kept));
   return data;
 }

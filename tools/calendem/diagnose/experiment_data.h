@@ -3,13 +3,13 @@
 #ifndef CALENDEM_DIAGNOSE_EXPERIMENT_DATA_H
 #define CALENDEM_DIAGNOSE_EXPERIMENT_DATA_H
 
-#include "bank/bank_table.h"
-#include "inference/model.h"
+#include "diagnose/bank/bank_table.h"
+#include "diagnose/inference/model.h"
 
 namespace calendem {
 
-/// How a number is told.
-struct Told {
+/// What pages call a number.
+struct ValueLabel {
   std::string name, unit; ///< of a point of a curve: "displacement at 40 MPa"
   double pressure = 0.0;  ///< MPa: the point's, or the condition's largest
 };
@@ -17,7 +17,7 @@ struct Told {
 struct ExperimentData {
   inference::Bank bank; ///< what each run of the table would show of the experiment, and of `next`
   inference::ObservableVector experiment;
-  std::vector<Told> told;                 ///< of the experiment's numbers
+  std::vector<ValueLabel> labels;         ///< of the experiment's numbers
   std::vector<inference::Candidate> next; ///< measurements to come that the bank can foretell
   std::vector<std::string> not_said;      ///< what is left out or assumed, and why
 };
@@ -36,7 +36,7 @@ ExperimentData data_of(const Experiment &experiment, const BankTable &table,
                        const std::vector<std::string> &conditions, const BankTable &full_cell);
 
 /// The effect's amplitude as a parameter of the inference.
-inference::Effect inference_effect(const Effect &effect);
+inference::ModelledEffect inference_effect(const Effect &effect);
 
 } // namespace calendem
 

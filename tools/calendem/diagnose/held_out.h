@@ -3,7 +3,7 @@
 #ifndef CALENDEM_DIAGNOSE_HELD_OUT_H
 #define CALENDEM_DIAGNOSE_HELD_OUT_H
 
-#include "inference/observable.h"
+#include "diagnose/inference/observable.h"
 
 namespace calendem {
 

@@ -3,7 +3,7 @@
 #ifndef CALENDEM_DIAGNOSE_IMAGES_BESIDE_H
 #define CALENDEM_DIAGNOSE_IMAGES_BESIDE_H
 
-#include "compare/gap.h"
+#include "diagnose/compare/gap.h"
 #include <nlohmann/json.hpp>
 
 namespace calendem {

@@ -1,13 +1,116 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "compare/heat_map.h"
+#include "diagnose/compare/gap_page.h"
+#include "diagnose/inference/which.h"
 #include "diagnose/page.h"
-#include "inference/which.h"
+#include "report/chart.h"
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace calendem {
+
 namespace {
 
 using nlohmann::json;
+
+constexpr double kHalf = 90.0, kMargin = 10.0; // px: half a strip, and what is left beside it
+
+/// The rows of one observable, stage and condition.
+using Block = std::vector<json>;
+
+std::vector<Block> blocks_of(const json &rows) {
+  std::vector<Block> blocks;
+  for (const json &row : rows) {
+    const auto mine = std::find_if(blocks.begin(), blocks.end(), [&](const Block &b) {
+      return b[0]["observable"] == row["observable"] && b[0]["stage"] == row["stage"] &&
+             b[0]["condition"] == row["condition"];
+    });
+    if (mine == blocks.end())
+      blocks.push_back({row});
+    else
+      mine->push_back(row);
+  }
+  return blocks;
+}
+
+/// Places on a strip whose middle is the measured value.
+json strip(const json &r, bool has_best) {
+  const double measured = r["measured"], sd = r["sd_measurement"];
+  const double base = r["base"].get<double>() - measured;
+  const double best = has_best ? r["best"].get<double>() - measured : 0.0;
+  const double reach = std::max({std::fabs(base), std::fabs(best), 2.0 * sd, 1e-300});
+  const auto px = [&](double off) {
+    return fmt::format("{:.1f}", kMargin + kHalf + off / reach * kHalf);
+  };
+  const auto wide = [&](double length) { return fmt::format("{:.1f}", length / reach * kHalf); };
+  return {{"condition", r["condition"]},
+          {"name", r["name"]},
+          {"unit", r["unit"]},
+          {"stage", r["stage"]},
+          {"measured", shown(r["measured"], "{:.4g}")},
+          {"sd", shown(r["sd_measurement"], "{:.2g}")},
+          {"base", shown(r["base"], "{:.4g}")},
+          {"best", has_best ? shown(r["best"], "{:.4g}") : ""},
+          {"middle", px(0.0)},
+          {"low1", px(-sd)},
+          {"low2", px(-2.0 * sd)},
+          {"wide1", wide(2.0 * sd)},
+          {"wide2", wide(4.0 * sd)},
+          {"at_base", px(base)},
+          {"at_best", has_best ? json(px(best)) : json()}};
+}
+
+std::vector<double> column(const Block &rows, const char *key) {
+  std::vector<double> out;
+  for (const json &r : rows)
+    out.push_back(r[key].is_number() ? r[key].get<double>() : std::nan(""));
+  return out;
+}
+
+json chart(const Block &rows, const std::string &best, std::size_t number) {
+  using namespace report;
+  const std::string unit = rows[0]["unit"], name = rows[0]["observable"];
+  Chart c;
+  c.id = fmt::format("curve{}", number);
+  c.title = fmt::format("{}: {}, {}", rows[0]["condition"].get<std::string>(), name,
+                        rows[0]["stage"].get<std::string>());
+  c.from_zero = false;
+  c.x_label = "Pressure, MPa";
+  c.y_label = unit.empty() ? name : name + ", " + (unit == "um" ? "µm" : unit);
+  const auto add = [&](const std::string &legend, const char *key, Symbol symbol) -> Series & {
+    c.series.push_back({});
+    Series &s = c.series.back();
+    s.name = legend;
+    s.x = column(rows, "pressure_MPa");
+    s.y = column(rows, key);
+    s.symbol = symbol;
+    return s;
+  };
+  Series &base = add("base", "base", Symbol::square);
+  base.colour = "#b4481c", base.dash = "7 4";
+  if (best != "none")
+    add(best, "best", Symbol::triangle).colour = "#0b62a8";
+  Series &measured = add("measured ± sd", "measured", Symbol::circle);
+  measured.mark = Mark::points, measured.y_error = column(rows, "sd_measurement");
+  return {{"title", c.title}, {"svg", to_svg(c)}};
+}
+
+} // namespace
+
+json predictions_part(const json &gap) {
+  const std::string best = gap["predictions"]["best"];
+  json strips = json::array(), charts = json::array();
+  for (const Block &rows : blocks_of(gap["predictions"]["observables"]))
+    if (rows.size() > 1)
+      charts.push_back(chart(rows, best, charts.size()));
+    else
+      strips.push_back(strip(rows[0], best != "none"));
+  return {{"best", best},     {"has_best", best != "none"},
+          {"strips", strips}, {"has_strips", !strips.empty()},
+          {"charts", charts}, {"has_charts", !charts.empty()}};
+}
+
+namespace {
 
 constexpr std::size_t kMostBars = 8;
 constexpr double kLeast = 0.005; // probability below which no bar is drawn, the first three aside

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "compare/heat_map.h"
+#include "diagnose/compare/gap_page.h"
 #include "diagnose/page.h"
 #include "report/chart.h"
 #include <algorithm>

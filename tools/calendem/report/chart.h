@@ -5,10 +5,9 @@
 #define CALENDEM_REPORT_CHART_H
 
 #include <array>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 namespace calendem::report {
 
@@ -59,6 +58,28 @@ std::string to_svg_file(const Chart &chart);
 
 /// The same chart as data, for report.json.
 nlohmann::json to_json(const Chart &chart);
+
+// A linear axis: range rounded outwards to ticks of 1, 2 or 5 times a power of ten.
+
+struct Axis {
+  double low = 0, high = 1; ///< in units of the data
+  double step = 0.2;
+
+  std::vector<double> ticks() const;
+  std::string label(double tick) const; ///< as many decimals as the step needs
+  /// Position between `begin` (for low) and `end` (for high).
+  double place(double value, double begin, double end) const;
+};
+
+/// Axis that holds [low, high] with about `count` ticks. A range of no width is widened.
+Axis axis_for(double low, double high, int count);
+
+/// Smallest and largest finite value; `first` false when there is none.
+struct Range {
+  bool any = false;
+  double low = 0, high = 0;
+  void include(double value);
+};
 
 } // namespace calendem::report
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/explorer.h"
 
+#include "report/explorer.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,10 +8,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "report/base64.h"
-#include "report/electrode_picture.h"
-#include "report/wholes.h"
-#include "spec/csv_table.h"
+#include "base/csv_table.h"
+#include "base/encoding.h"
+#include "report/pictures.h"
 
 namespace calendem::report {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "report/run_directory.h"
+#include "measure/run_directory.h"
 
 namespace calendem::report {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/fracture_part.h"
+#include "report/plots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -204,6 +204,15 @@ Chart one_body(const Run &run, bool single) {
   chart.series = {std::move(pressure), std::move(broken)};
   chart.note = "The particle with most broken bonds, in compression: the paper's Figure 5b.";
   return chart;
+}
+
+int studied_body(const Run &run) {
+  const Columns &b = run.fracture.bodies;
+  if (b.empty() || b.at("broken").empty())
+    return 0;
+  const Column &broken = b.at("broken");
+  const auto most = std::max_element(broken.begin(), broken.end());
+  return *most > 0 ? static_cast<int>(b.at("body")[most - broken.begin()]) : 0;
 }
 
 } // namespace calendem::report

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/fracture_pictures.h"
+#include "report/pictures.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
 
-#include "report/fracture_part.h"
-#include "report/scene.h"
+#include "report/plots.h"
 #include "report/tables.h"
-#include "report/wholes.h"
 
 namespace calendem::report {
 namespace {

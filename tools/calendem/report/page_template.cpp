@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/page_template.h"
 
+#include "report/page_template.h"
 #include <stdexcept>
 #include <vector>
 

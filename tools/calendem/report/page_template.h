@@ -8,9 +8,8 @@
 #ifndef CALENDEM_REPORT_PAGE_TEMPLATE_H
 #define CALENDEM_REPORT_PAGE_TEMPLATE_H
 
-#include <string>
-
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace calendem::report {
 
@@ -25,5 +24,24 @@ std::string escaped(const std::string &text);
 std::string in_script(std::string json);
 
 } // namespace calendem::report
+
+namespace calendem {
+
+// Text files of this folder, compiled in by CMakeLists.txt (embedded.cpp.in).
+
+extern const char *const kPageHtml; ///< page.html
+
+} // namespace calendem
+
+namespace calendem::report::embedded {
+
+extern const char *const kPageCss;  ///< page.css
+extern const char *const kExplorer; ///< explorer.js
+extern const char *const kThree;    ///< three.js of the distribution (libjs-three, MIT licence)
+extern const char *const kOrbitControls; ///< its controls
+extern const char *const kTable1;        ///< reference/table1.csv
+extern const char *const kPaperBonds;    ///< reference/paper_bonds.csv
+
+} // namespace calendem::report::embedded
 
 #endif

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/plots.h"
 
+#include "report/plots.h"
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "report/fracture_part.h"
-#include "report/paper_reference.h"
-#include "report/structure_part.h"
-#include "report/validity_part.h"
+#include "report/tables.h"
 
 namespace calendem::report {
 namespace {

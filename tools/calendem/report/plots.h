@@ -4,10 +4,9 @@
 #ifndef CALENDEM_REPORT_PLOTS_H
 #define CALENDEM_REPORT_PLOTS_H
 
-#include <vector>
-
+#include "measure/run_directory.h"
 #include "report/chart.h"
-#include "report/run_directory.h"
+#include <vector>
 
 namespace calendem::report {
 
@@ -15,6 +14,41 @@ std::vector<Chart> plots_of(const std::vector<Run> &runs);
 
 /// Histogram of the bodies' sphericity, from electrode.json; no series when that has none.
 Chart sphericities(const Run &run, bool single);
+
+// Each has no series when the run has not the table it is drawn from.
+
+/// Bodies that are cracked, apart, split against pressure.
+Chart cracked_by_pressure(const std::vector<Run> &runs);
+/// Faces of broken bonds against pressure.
+Chart crack_surface(const std::vector<Run> &runs);
+/// Thresholds of broken bonds against lost connectivity: agreement, false positives and negatives.
+Chart thresholds(const Run &run, bool single);
+/// Largest fragment against broken bonds, a point for every body.
+Chart fragments(const Run &run, bool single);
+/// Broken bonds against depth, a point for every body.
+Chart broken_by_depth(const Run &run, bool single);
+/// Pressure and broken bonds of the studied body against displacement (the paper's Figure 5b).
+Chart one_body(const Run &run, bool single);
+
+/// The body that is studied by itself: the one with most broken bonds (of equals the first); 0:
+/// none.
+int studied_body(const Run &run);
+
+/// Macro porosity through the thickness; no series when no run was measured.
+Chart porosity_profiles(const std::vector<Run> &runs);
+/// Broken share of the bonds in each slice; no series when no bond broke.
+Chart broken_profiles(const std::vector<Run> &runs);
+
+/// {"moments": [names], "rows": [{quantity, cells: [{value, text}]}]}; null when not measured.
+nlohmann::json structure_table(const Run &run);
+
+/// Share of the contact force beyond 0.1, 0.2, 0.3 of the smaller radius, against pressure.
+Chart force_beyond_range(const std::vector<Run> &runs);
+/// Inertial number and kinetic over elastic energy before the release, above 5 MPa.
+Chart inertial_numbers(const std::vector<Run> &runs);
+
+/// {"rows": [{name, cells: [{value, text}]}]} of the contacts at maximum pressure; null: not known.
+nlohmann::json validity_table(const Run &run);
 
 } // namespace calendem::report
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/raster.h"
 
+#include "report/raster.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,8 +10,8 @@
 #include <vtkPNGWriter.h>
 #include <vtkUnsignedCharArray.h>
 
-#include "report/base64.h"
-#include "spec/pi.h"
+#include "base/encoding.h"
+#include "physics/pi.h"
 
 namespace calendem::report {
 namespace {

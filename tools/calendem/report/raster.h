@@ -10,9 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "measure/frames.h"
+
 namespace calendem::report {
 
-using Point = std::array<double, 3>;
 /// The smallest box that holds what it was shown.
 struct Box {
   Point low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};

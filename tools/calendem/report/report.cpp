@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/report.h"
-
+#include "base/encoding.h"
+#include "base/messages.h"
+#include "base/provenance.h"
+#include "measure/run_directory.h"
 #include "report/explorer.h"
-#include "report/file_hash.h"
-#include "report/fracture_part.h"
-#include "report/fracture_pictures.h"
+#include "report/page_template.h"
+#include "report/pictures.h"
 #include "report/plots.h"
-#include "report/structure_part.h"
 #include "report/tables.h"
-#include "report/validity_part.h"
-
-#ifndef CALENDEM_VERSION
-#define CALENDEM_VERSION "unknown"
-#endif
+#include <filesystem>
+#include <fstream>
+#include <iostream>
 
 namespace calendem::report {
+
 namespace {
 
 using nlohmann::json;
@@ -91,10 +91,8 @@ Report make_report(std::vector<Run> runs, const std::string &command) {
     report.runs.push_back(part_of(run));
     report.title += (report.title.empty() ? "" : ", ") + run.name;
   }
-  report.provenance = {{"program", "calendem report"},
-                       {"version", CALENDEM_VERSION},
-                       {"command", command},
-                       {"format", 1}};
+  report.provenance = {
+      {"program", "calendem report"}, {"version", version()}, {"command", command}, {"format", 1}};
   return report;
 }
 
@@ -113,6 +111,148 @@ json to_json(const Report &report) {
           {"comparison", report.comparison},
           {"runs", runs},
           {"charts", charts}};
+}
+
+namespace {
+
+json drawn(const Picture &picture) {
+  constexpr double kEdge = 12; // px between scale bar and the picture's edge
+  const double length = picture.scale_bar_um * picture.pixels_per_um;
+  return {{"moment", picture.moment},
+          {"time", shown(picture.time_us, 2)},
+          {"pressure", shown(picture.pressure_MPa, 1)},
+          {"broken", shown(100 * picture.broken_fraction, 1)},
+          {"width", picture.width},
+          {"height", picture.height},
+          {"total_height", picture.height + 34},
+          {"png", picture.png},
+          {"outlines", picture.outlines},
+          {"bar_um", picture.scale_bar_um},
+          {"bar_start", kEdge},
+          {"bar_end", kEdge + length},
+          {"bar_middle", kEdge + length / 2},
+          {"bar_y", picture.height + 10},
+          {"bar_text_y", picture.height + 28},
+          {"across_faces", picture.across_faces > 0 ? json(picture.across_faces) : json(nullptr)}};
+}
+
+/// The pictures of one subject, as the template wants them; null: none.
+json list_of(const std::vector<Picture> &pictures, const char *subject) {
+  json list = json::array();
+  for (const auto &picture : pictures)
+    if (picture.subject == subject)
+      list.push_back(drawn(picture));
+  return list.empty() ? json(nullptr) : json{{"list", list}};
+}
+
+/// Adds what the page draws but the JSON twin leaves out.
+void add_pictures(const RunPart &part, json &run) {
+  json electrode = json::array(), bonds = json::array();
+  for (const auto &picture : part.pictures)
+    (picture.subject == "bonds" ? bonds : electrode).push_back(drawn(picture));
+  run["electrode_pictures"] = {{"list", electrode}};
+  run["bond_pictures"] = {{"list", bonds}};
+  run["facts_table"] = !part.facts.empty();
+  run["electrode_table"] = !part.electrode.empty();
+  run["has_pictures"] = !part.pictures.empty();
+  run["has_bond_pictures"] = !bonds.empty();
+  run["stage_electrodes"] = list_of(part.stages, "electrode");
+  run["stage_bonds"] = list_of(part.stages, "bonds");
+  run["has_stages"] = !part.stages.empty();
+  run["body_place"] = list_of(part.one_body, "place");
+  run["body_shapes"] = list_of(part.one_body, "shape");
+  run["body_bonds"] = list_of(part.one_body, "bonds");
+  run["has_one_body"] = !part.one_body.empty();
+  run["has_view"] = !part.explorer.is_null();
+  run["view"] = part.explorer.dump();
+}
+
+} // namespace
+
+std::string to_html(const Report &report) {
+  json values = to_json(report);
+  values["css"] = embedded::kPageCss;
+  values["is_unfinished"] = values["status"] == "unfinished";
+  values["several"] = report.runs.size() > 1;
+  values["provenance_rows"] = facts_of(values["provenance"], {});
+  bool any_view = false;
+  for (std::size_t i = 0; i < report.runs.size(); ++i) {
+    add_pictures(report.runs[i], values["runs"][i]);
+    any_view = any_view || !report.runs[i].explorer.is_null();
+  }
+  if (any_view)
+    values["scripts"] = {{"three", embedded::kThree},
+                         {"orbit", embedded::kOrbitControls},
+                         {"explorer", embedded::kExplorer}};
+  for (std::size_t i = 0; i < report.charts.size(); ++i) {
+    json &chart = values["charts"][i];
+    chart.erase("series");
+    chart["svg"] = to_svg(report.charts[i]);
+  }
+  return fill_template(kPageHtml, values);
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void print(const char *kind, const Problem &problem) {
+  std::cerr << "calendem report: " << kind << ": " << problem.file << ": " << problem.what
+            << "\n  what to do: " << problem.remedy << '\n';
+}
+
+bool write(const fs::path &file, const std::string &text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (out)
+    return true;
+  print("error", {file.string(), "cannot be written", "check the folder, its rights and the disk"});
+  return false;
+}
+
+std::string command_line(const std::vector<std::string> &directories, const std::string &page) {
+  std::string command = "calendem report";
+  for (const auto &directory : directories)
+    command += " " + directory;
+  return command + " -o " + page;
+}
+
+} // namespace
+
+int write_report(const std::vector<std::string> &directories, std::string page,
+                 const std::string &figures) {
+  Problems problems;
+  std::vector<Run> runs;
+  for (const auto &directory : directories)
+    runs.push_back(read_run(directory, problems));
+  for (const auto &problem : problems)
+    print("error", problem);
+  if (!problems.empty())
+    return kBadInput;
+  make_names_unique(runs);
+  if (page.empty())
+    page = directories.size() == 1 ? (fs::path(directories[0]) / "report.html").string()
+                                   : "report.html";
+  const Report report = make_report(std::move(runs), command_line(directories, page));
+  for (const auto &run : report.runs) {
+    for (const auto &note : run.notes)
+      print("note", note);
+    if (!run.unfinished.empty())
+      std::cerr << "calendem report: note: " << run.name << " is unfinished (" << run.unfinished
+                << "); the report says so\n";
+  }
+  const fs::path twin = fs::path(page).replace_extension(".json");
+  if (!write(twin, to_json(report).dump(1) + "\n") || !write(page, to_html(report)))
+    return kBadInput;
+  if (!figures.empty())
+    fs::create_directories(figures);
+  for (const Chart &chart : report.charts)
+    if (!figures.empty() && !write(figures + "/" + chart.id + ".svg", to_svg_file(chart)))
+      return kBadInput;
+  std::cout << comparison_text(report.comparison) << "report: " << page
+            << "\ndata:   " << twin.string() << '\n';
+  return kDone;
 }
 
 } // namespace calendem::report

@@ -3,14 +3,12 @@
 #ifndef CALENDEM_REPORT_REPORT_H
 #define CALENDEM_REPORT_REPORT_H
 
+#include "measure/run_directory.h"
+#include "report/chart.h"
+#include "report/pictures.h"
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json.hpp>
-
-#include "report/chart.h"
-#include "report/electrode_picture.h"
-#include "report/run_directory.h"
 
 namespace calendem::report {
 
@@ -39,6 +37,14 @@ Report make_report(std::vector<Run> runs, const std::string &command);
 
 /// The report as data; pictures by their frame file, without pixels.
 nlohmann::json to_json(const Report &report);
+
+/// Writes `page` (HTML), its twin beside it with the ending .json and, if a folder is given, every
+/// plot as `figures`/ID.svg. Exit status of the program:
+/// 0 done, 2 bad input (all mistakes are on stderr and nothing is written).
+int write_report(const std::vector<std::string> &directories, std::string page,
+                 const std::string &figures = "");
+
+std::string to_html(const Report &report);
 
 } // namespace calendem::report
 

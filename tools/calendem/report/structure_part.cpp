@@ -1,23 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/structure_part.h"
-
-#include <cmath>
-#include <fstream>
-#include <iterator>
-
+#include "report/plots.h"
 #include "report/tables.h"
-#include "spec/csv_table.h"
-#include "spec/provenance.h"
+#include <cmath>
 
 namespace calendem::report {
+
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr double kPercent = 100;
-const char *const kColumns[] = {"moment", "z_over_thickness", "porosity_macro", "bonds",
-                                "bonds_broken"};
 
 struct MomentLook {
   const char *moment, *shown, *colour, *dash;
@@ -26,11 +18,6 @@ struct MomentLook {
 const MomentLook kMoments[] = {{"before", "before", "#0064b0", "", Symbol::circle},
                                {"max", "at maximum pressure", "#c8321e", "9 4", Symbol::square},
                                {"after", "after relaxation", "#00845a", "2 3", Symbol::triangle}};
-
-std::string contents(const fs::path &file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 /// One series per run and moment; `value` of a row of structure.csv, NaN: no point.
 template <typename Value> std::vector<Series> series_of(const std::vector<Run> &runs, Value value) {
@@ -94,35 +81,6 @@ std::string bound_of(const json &moment, const std::string &place) {
 
 } // namespace
 
-void read_structure(const fs::path &directory, Run &run) {
-  const fs::path file = directory / "structure.json", profile = directory / "structure.csv";
-  if (!fs::exists(file) || !fs::exists(profile))
-    return;
-  const std::string again = "measure it again: calendem measure " + directory.string();
-  json structure = json::parse(contents(file), nullptr, false);
-  const CsvTable table = CsvTable::parse(contents(profile));
-  bool whole = structure.is_object() && structure.contains("moments") && table.bad_lines().empty();
-  for (const char *column : kColumns)
-    whole = whole && table.has(column);
-  const std::string curve = hash_of_file((directory / "curve.csv").string());
-  if (!whole) {
-    run.notes.push_back({file.string(), "it or structure.csv is cut or damaged", again});
-    return;
-  }
-  if (structure.value("/provenance/curve"_json_pointer, "") != curve) {
-    run.notes.push_back({file.string(), "measured of another curve.csv, left out", again});
-    return;
-  }
-  const auto moment = table.texts("moment");
-  const auto height = table.numbers("z_over_thickness"), macro = table.numbers("porosity_macro"),
-             bonds = table.numbers("bonds"), broken = table.numbers("bonds_broken");
-  for (std::size_t i = 0; i < table.rows(); ++i)
-    run.profile.push_back({moment[i], height[i], macro[i], bonds[i], broken[i]});
-  run.structure = std::move(structure);
-  run.files_read.push_back(file.string());
-  run.files_read.push_back(profile.string());
-}
-
 Chart porosity_profiles(const std::vector<Run> &runs) {
   Chart chart;
   chart.id = "profile-porosity";
@@ -177,6 +135,33 @@ json structure_table(const Run &run) {
       table["rows"].push_back({{"quantity", q.name}, {"cells", cells}});
   }
   return table;
+}
+
+Chart sphericities(const Run &run, bool single) {
+  Chart chart;
+  chart.id = "shape";
+  chart.title = single ? "Shape of the bodies" : "Shape of the bodies: " + run.name;
+  chart.x_label = "Sphericity";
+  chart.y_label = "Bodies";
+  const auto found = run.electrode.find("sphericity_histogram");
+  if (found == run.electrode.end() || !found->is_object())
+    return chart;
+  const double from = found->value("from", 0.0), step = found->value("step", 0.0);
+  const auto count = found->value("count", std::vector<double>());
+  Series bars;
+  bars.mark = Mark::area;
+  bars.colour = "#9ecae8";
+  for (std::size_t k = 0; k < count.size(); ++k)
+    for (const double x : {from + double(k) * step, from + double(k + 1) * step}) {
+      bars.x.push_back(x);
+      bars.y.push_back(count[k]);
+      bars.base.push_back(0.0);
+    }
+  if (!bars.x.empty())
+    chart.series.push_back(std::move(bars));
+  chart.note = "Surface of the sphere of equal volume over the surface of the smooth shape that "
+               "the primaries fill; the first class holds everything below it.";
+  return chart;
 }
 
 } // namespace calendem::report

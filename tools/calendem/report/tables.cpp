@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/tables.h"
-
+#include "base/csv_table.h"
+#include "report/page_template.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fmt/format.h>
 #include <limits>
 #include <regex>
 
-#include <fmt/format.h>
-
-#include "report/paper_reference.h"
-
 namespace calendem::report {
+
 namespace {
 
 using nlohmann::json;
@@ -242,6 +241,27 @@ json facts_of(const json &object, const std::vector<std::string> &left_out) {
   if (object.is_object())
     collect_facts(object, "", left_out, facts);
   return facts;
+}
+
+std::vector<MeasuredPorosity> paper_porosity() {
+  const CsvTable table = CsvTable::parse(embedded::kTable1);
+  const auto pressure = table.numbers("pressure_MPa");
+  const auto porosity = table.numbers("porosity_percent");
+  const auto sd = table.numbers("porosity_sd_percent");
+  std::vector<MeasuredPorosity> points;
+  for (std::size_t i = 0; i < pressure.size(); ++i)
+    points.push_back({pressure[i], porosity[i], sd[i]});
+  return points;
+}
+
+std::vector<PublishedBreaks> paper_breaks() {
+  const CsvTable table = CsvTable::parse(embedded::kPaperBonds);
+  const auto pressure = table.numbers("pressure_MPa");
+  const auto broken = table.numbers("broken_percent");
+  std::vector<PublishedBreaks> points;
+  for (std::size_t i = 0; i < pressure.size(); ++i)
+    points.push_back({pressure[i], broken[i]});
+  return points;
 }
 
 } // namespace calendem::report

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The tables of a report as JSON: headline figures, the comparison with the paper, facts of a run.
+// The tables of a report as JSON: headline figures, the comparison with the paper, facts of a run;
+// and the published figures a run is shown beside.
 #ifndef CALENDEM_REPORT_TABLES_H
 #define CALENDEM_REPORT_TABLES_H
 
+#include "measure/run_directory.h"
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json.hpp>
-
-#include "report/run_directory.h"
 
 namespace calendem::report {
 
@@ -28,6 +27,20 @@ std::string comparison_text(const nlohmann::json &comparison);
 /// Every value in `object`, nested ones with joined names: array of {name, value, unit}. Keys that
 /// are in `left_out` are not listed.
 nlohmann::json facts_of(const nlohmann::json &object, const std::vector<std::string> &left_out);
+
+struct MeasuredPorosity {
+  double pressure_MPa;
+  double porosity_percent; ///< total, after relaxation
+  double sd_percent;
+};
+
+struct PublishedBreaks {
+  double pressure_MPa;
+  double broken_percent; ///< of the initial bonds
+};
+
+std::vector<MeasuredPorosity> paper_porosity();
+std::vector<PublishedBreaks> paper_breaks();
 
 } // namespace calendem::report
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/validity_part.h"
+#include "report/plots.h"
 
 #include <cmath>
 

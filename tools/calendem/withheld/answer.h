@@ -3,6 +3,8 @@
 #ifndef CALENDEM_WITHHELD_ANSWER_H
 #define CALENDEM_WITHHELD_ANSWER_H
 
+#include "diagnose/inference/diagnosis.h"
+#include <map>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,21 @@ void check_handed_out(const std::string &folder);
 /// model, effect and placebo, run again on the highest pressure. Reads nothing but `handed_out`,
 /// the bank and its table. Cases that are answered from the same files are not answered again.
 void answer_round(const AnswerOptions &options);
+
+// Simple ways to name an effect from the same emulators, which a diagnosis must beat.
+
+/// What each baseline names:
+/// - always none;
+/// - largest residual: if a block is beyond the threshold, the effect that puts the largest share
+///   of its signature into the largest block;
+/// - cosine match: if the residual is beyond the 95 % point of chi-squared, the effect whose
+///   signature has the largest cosine with it;
+/// - BIC: the least -2 ln L + k ln n (Schwarz, Ann. Stat. 6 (1978) 461) of none and each effect,
+///   with L at the mode of likelihood times prior.
+/// Residuals are those of the recalibrated base model, signatures those of amplitudes one standard
+/// score to either side of the prior's middle, in the metric in which recalibration is free.
+std::map<std::string, std::string> baselines(const inference::Problem &problem,
+                                             const inference::Diagnosis &diagnosis);
 
 } // namespace calendem
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// calendem withheld make: draws truths, runs them, seals them, hands out what a laboratory would.
+// calendem withheld make: draws truths, runs them, seals them, and hands out what a laboratory
+// would: experiment files with curves and noise, and nothing that a laboratory cannot measure.
 #ifndef CALENDEM_WITHHELD_MAKE_H
 #define CALENDEM_WITHHELD_MAKE_H
 
-#include "withheld/handed_out.h"
+#include "diagnose/compare/gap.h"
+#include "withheld/truths.h"
 #include <optional>
 
 namespace calendem {
@@ -19,10 +21,18 @@ struct MakeOptions {
 /// Throws Failure: 2 bad input, 3 stopped or no run usable. Truths whose runs fail are left out.
 void make_round(const MakeOptions &options);
 
+/// What the press shows at one pressure: a run for each sample. What is handed out is their mean.
+using PressedSamples = std::vector<SimulatedRun>;
+
 /// The part without runs: hands out and seals. `shown`: what the press shows of each truth, empty
 /// where a run is not usable.
 void seal_round(const std::string &folder, const Round &round, const std::vector<Truth> &truths,
                 const std::vector<std::vector<PressedSamples>> &shown, const std::string &secret);
+
+/// Writes experiment.toml, a curve for each pressure and the recipe into `folder`, which is made.
+/// `shown`: of one truth, by the bank's pressures. `seed`: of the noise. `id`: the case's name.
+void hand_out(const std::string &folder, const std::string &id, const Round &round,
+              const Truth &truth, const std::vector<PressedSamples> &shown, std::uint64_t seed);
 
 } // namespace calendem
 

@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/rehearsal.h"
-#include "bank/bank_design.h"
+#include "base/child.h"
+#include "base/messages.h"
+#include "base/provenance.h"
+#include "base/random.h"
+#include "diagnose/bank/bank_design.h"
 #include "diagnose/diagnose.h"
-#include "pack/random.h"
-#include "spec/messages.h"
-#include "spec/output_folder.h"
-#include "spec/provenance.h"
-#include "study/job_pool.h"
-#include "withheld/handed_out.h"
+#include "diagnose/inference/scores.h"
+#include "withheld/make.h"
+#include "withheld/round_file.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <memory>
 
 namespace calendem {
+
 namespace {
 
 constexpr int kFewestPackings = 3;
@@ -152,7 +155,7 @@ public:
   }
 
 private:
-  inference::Settings settings_;
+  inference::DiagnosisSettings settings_;
   std::unique_ptr<inference::Model> model_;
   inference::Problem problem_;
 
@@ -166,14 +169,14 @@ private:
   std::vector<inference::Applied> applied(int effect, Random &random, Rehearsed &r) const {
     if (effect < 0)
       return {};
-    const inference::Effect &e = problem_.effects[std::size_t(effect)];
+    const inference::ModelledEffect &e = problem_.effects[std::size_t(effect)];
     const inference::Vector at = scores(int(e.parameters.size()), random);
     r.effect = e.name;
     r.amplitude = e.parameters[0].prior.value(at[0]);
     return {{effect, at}};
   }
   Rehearsed told_of(const inference::Problem &sample, const Rehearsed &r) const {
-    const inference::Told t = told(*model_, sample, settings_);
+    const inference::Discrimination t = discriminate(*model_, sample, settings_);
     return judged(t.which, t.confounding, r);
   }
 };
@@ -211,6 +214,93 @@ void rehearse(const RehearsalOptions &o) {
   for (const std::string &line : summary_of(cases))
     fmt::print("{}\n", line);
   fmt::print("table: {}/rehearsal.csv\n", o.folder);
+}
+
+namespace {
+
+std::string interval(const std::vector<Rehearsed> &cases,
+                     const std::function<double(const std::vector<int> &)> &statistic) {
+  std::vector<int> packings, all;
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    packings.push_back(cases[k].packing);
+    all.push_back(int(k));
+  }
+  const double value = statistic(all);
+  if (!std::isfinite(value))
+    return "not known";
+  const auto [low, high] = inference::clustered_bootstrap(packings, statistic);
+  return fmt::format("{:.2f} (90 %: {:.2f}–{:.2f})", value, low, high);
+}
+
+using Choice = std::function<bool(const Rehearsed &)>;
+
+/// Of the cases that `among` chooses, the share that `hit` chooses too.
+std::string share(const std::vector<Rehearsed> &cases, const Choice &among, const Choice &hit) {
+  return interval(cases, [&](const std::vector<int> &drawn) {
+    double hits = 0.0, trials = 0.0;
+    for (const int k : drawn)
+      if (among(cases[std::size_t(k)])) {
+        trials += 1.0;
+        hits += hit(cases[std::size_t(k)]);
+      }
+    return trials > 0.0 ? hits / trials : std::nan("");
+  });
+}
+
+std::string unknown_told(const std::vector<Rehearsed> &cases, const Choice &among) {
+  return interval(cases, [&](const std::vector<int> &drawn) {
+    std::vector<double> scores;
+    std::vector<bool> unknown;
+    for (const int k : drawn)
+      if (const Rehearsed &r = cases[std::size_t(k)]; !r.effect.empty() && among(r)) {
+        scores.push_back(r.of_unknown);
+        unknown.push_back(r.left_out);
+      }
+    return inference::auroc(scores, unknown);
+  });
+}
+
+} // namespace
+
+std::vector<std::string> summary_of(const std::vector<Rehearsed> &cases) {
+  const auto count = [&](const Choice &of) {
+    return std::count_if(cases.begin(), cases.end(), of);
+  };
+  const Choice null = [](const Rehearsed &r) { return r.effect.empty(); };
+  const Choice known = [](const Rehearsed &r) { return !r.effect.empty() && !r.left_out; };
+  const Choice gone = [](const Rehearsed &r) { return r.left_out; };
+  const Choice named = [](const Rehearsed &r) { return names_effect(r.claim); };
+  const Choice first = [](const Rehearsed &r) { return r.most_probable == r.truth(); };
+  const Choice right = [](const Rehearsed &r) { return r.claim == r.truth(); };
+  const Choice strong = [&](const Rehearsed &r) { return known(r) && r.above_limit(); };
+  const Choice claimed = [&](const Rehearsed &r) { return known(r) && named(r); };
+  double score = 0.0;
+  for (const Rehearsed &r : cases)
+    score -= known(r) ? std::log(std::max(r.of_truth, 1e-6)) : 0.0;
+  return {fmt::format("{} samples of the base model: claimed to be none {}, to have an effect {}",
+                      count(null), share(cases, null, right), share(cases, null, named)),
+          fmt::format("{} samples with an effect, {} above its limit: of these named first {}",
+                      count(known), count(strong), share(cases, strong, first)),
+          fmt::format("effects claimed in {} of them: right {}; mean -ln of the truth's "
+                      "probability {:.2f}",
+                      count(claimed), share(cases, claimed, right),
+                      score / std::max<double>(1.0, double(count(known)))),
+          fmt::format("the same without their effect: claimed to be unknown {}, to be another {}",
+                      share(cases, gone, right), share(cases, gone, named)),
+          fmt::format("unknown told from known, area under the ROC curve: {}; above the limits {}",
+                      unknown_told(cases, [](const Rehearsed &) { return true; }),
+                      unknown_told(cases, [](const Rehearsed &r) { return r.above_limit(); }))};
+}
+
+std::string table_of(const std::vector<Rehearsed> &cases) {
+  std::string out = "effect,base_point,packing,left_out,amplitude,limit_against_none,most_probable,"
+                    "its_probability,truths_probability,unknowns_probability,claim,adequacy_p\n";
+  for (const Rehearsed &r : cases)
+    out +=
+        fmt::format("{},{},{},{},{:.5g},{:.5g},{},{:.4g},{:.4g},{:.4g},{},{:.4g}\n", r.effect,
+                    r.base_point, r.packing, int(r.left_out), r.amplitude, r.limit, r.most_probable,
+                    r.its_probability, r.of_truth, r.of_unknown, r.claim, r.adequacy_p);
+  return out;
 }
 
 } // namespace calendem

@@ -24,7 +24,9 @@
 #ifndef CALENDEM_WITHHELD_ROUND_FILE_H
 #define CALENDEM_WITHHELD_ROUND_FILE_H
 
-#include "bank/bank_spec.h"
+#include "diagnose/bank/bank_spec.h"
+#include <string>
+#include <vector>
 
 namespace calendem {
 
@@ -53,6 +55,27 @@ std::string joined(const std::vector<std::string> &names);
 
 /// The claim of a diagnosis is an effect, a pair or a fault of the press.
 bool names_effect(const std::string &claim);
+
+// What only the maker of truths can do: changes that are no effect of the table, so that no
+// diagnosis can name them, and other numerics.
+
+struct ChangedKey {
+  std::string key;   ///< "case.…" or "recipe.…"
+  std::string value; ///< empty: what stands there times `factor`
+  double factor = 1.0;
+};
+
+struct HiddenChange {
+  std::string name, what;
+  bool numerics = false; ///< the physics is the same: the right answer is not changed by it
+  std::vector<ChangedKey> keys;
+  double displacement_factor = 1.0; ///< of what the press shows
+};
+
+const std::vector<HiddenChange> &hidden_changes();
+
+/// nullptr: there is none of that name.
+const HiddenChange *find_hidden(const std::string &name);
 
 } // namespace calendem
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/sealing.h"
-#include "spec/messages.h"
+#include "base/messages.h"
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>

@@ -3,14 +3,12 @@
 #ifndef CALENDEM_WITHHELD_SEALING_H
 #define CALENDEM_WITHHELD_SEALING_H
 
-#include "report/file_hash.h"
+#include "base/encoding.h"
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace calendem {
-
-using report::sha256;
 
 /// Of the files of a folder (no folders in it), by name and bytes, in the order of their names.
 /// Throws Failure(2) for anything that is no plain file: a link may lead elsewhere.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/truths.h"
-#include "bank/bank_design.h"
-#include "pack/random.h"
-#include "spec/case.h"
-#include "withheld/hidden_changes.h"
+#include "base/case.h"
+#include "base/random.h"
+#include "diagnose/bank/bank_design.h"
+#include "withheld/round_file.h"
 #include "withheld/sealing.h"
 #include <algorithm>
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #ifndef CALENDEM_WITHHELD_TRUTHS_H
 #define CALENDEM_WITHHELD_TRUTHS_H
 
-#include "study/study_file.h"
+#include "simulate/study_file.h"
 #include "withheld/round_file.h"
 #include <nlohmann/json.hpp>
 

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// fix bond/bpm: binder bridges, their settings, creation and counts.
+#include "comm.h"
+#include "error.h"
+#include "fix_bond_bpm.h"
+#include "modify.h"
+#include "mpi_liggghts.h"
+#include "registry/effect.h"
+#include "update.h"
+#include "wall_bridges.h"
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using calendem::BinderBridges;
+using calendem::BridgeKind;
+
+int FixBondBpm::parse_bridges(int narg, char **arg) {
+  const int words = 9;
+  if (narg < words)
+    error->fix_error(FLERR, this,
+                     "'bridges' needs 8 numbers: modulus, Poisson's ratio, radius ratio, gap, "
+                     "strengths to AM, CBD and the collector, shear over tensile strength");
+  calendem::BondMaterial &m = bridge_settings_.material;
+  m.youngs_modulus = positive("bridges: modulus", arg[1], false);
+  const double poisson = positive("bridges: Poisson's ratio", arg[2], true);
+  m.radius_ratio = positive("bridges: radius ratio", arg[3], false);
+  bridges_.gap = positive("bridges: gap", arg[4], true);
+  bridges_.tensile[int(BridgeKind::AmCbd)] = positive("bridges: strength to AM", arg[5], true);
+  bridges_.tensile[int(BridgeKind::CbdCbd)] = positive("bridges: strength to CBD", arg[6], true);
+  bridges_.tensile[int(BridgeKind::CbdCollector)] =
+      positive("bridges: strength to the collector", arg[7], true);
+  bridges_.shear_ratio = positive("bridges: shear over tensile strength", arg[8], false);
+  m.shear_modulus = calendem::shear_modulus(m.youngs_modulus, poisson);
+  m.damping = settings_.material.damping;
+  bridge_settings_.strength = {1.0, bridges_.shear_ratio};
+  check_bridges(poisson);
+  return words;
+}
+
+void FixBondBpm::check_bridges(double poisson) {
+  const double E = bridge_settings_.material.youngs_modulus;
+  check_modulus("the modulus of 'bridges'", E);
+  if (poisson > 0.5)
+    error->fix_error(FLERR, this, "Poisson's ratio of 'bridges' must be between 0 and 0.5");
+  if (bridge_settings_.material.radius_ratio > 1.5)
+    error->fix_error(FLERR, this, "the radius ratio of 'bridges' must be between 0 and 1.5");
+  char message[300];
+  snprintf(message, sizeof message, "the gap of 'bridges' is %g um; at most %g is allowed",
+           bridges_.gap, BinderBridges::kMostGap);
+  if (bridges_.gap > BinderBridges::kMostGap)
+    error->fix_error(FLERR, this, message);
+  for (const double tensile : bridges_.tensile) {
+    snprintf(message, sizeof message,
+             "a tensile strength of 'bridges' is %g kPa, %.3g of their modulus; at most %g is "
+             "allowed, or they stretch too far before they break. Lower it or raise the modulus",
+             tensile, tensile / E, BinderBridges::kMostStrain);
+    if (tensile > BinderBridges::kMostStrain * E)
+      error->fix_error(FLERR, this, message);
+  }
+}
+
+void FixBondBpm::check_radii() {
+  if (bridges_.on() && modify->n_fixes_style("cbd/collapse") > 0)
+    error->fix_error(FLERR, this,
+                     "'bridges' and fix cbd/collapse exclude each other: a bridge keeps its length "
+                     "while its spheres would shrink");
+}
+
+BridgeKind FixBondBpm::kind_of_bridge(int i, int j) const {
+  const int am = int(calendem::Phase::Am), cbd = int(calendem::Phase::Cbd);
+  const int a = atom->type[i], b = atom->type[j];
+  if (a == cbd && b == cbd)
+    return BridgeKind::CbdCbd;
+  return (a == am && b == cbd) || (a == cbd && b == am) ? BridgeKind::AmCbd : BridgeKind::None;
+}
+
+void FixBondBpm::bridge(int i, int j, double r, BondHistory &bond) const {
+  const double tensile = bridges_.tensile_of(kind_of_bridge(i, j));
+  if (bond.state() == kNeverBonded && tensile > 0.0 &&
+      r <= atom->radius[i] + atom->radius[j] + bridges_.gap)
+    bond.create(r, tensile, kBridge);
+}
+
+// Between the spheres of this rank.
+void FixBondBpm::count_bridges(bigint *of_kind) {
+  std::fill_n(of_kind, calendem::kBridgeKinds, 0);
+  for_each_acting_copy([&](int i, int j, const BondHistory &bond) {
+    if (bond.state() == kBridge && decides(i, j))
+      ++of_kind[int(kind_of_bridge(i, j))];
+  });
+}
+
+void FixBondBpm::count_bridges_made() {
+  bigint mine[calendem::kBridgeKinds];
+  count_bridges(mine);
+  MPI_Allreduce(mine, bridges_made_, calendem::kBridgeKinds, MPI_LMP_BIGINT, MPI_SUM, world);
+}
+
+void FixBondBpm::bridge_breaks_on_wall(int i, double energy) {
+  BreakEvent e = {};
+  e.time = update->ntimestep * update->dt;
+  e.tag_high = static_cast<double>(atom->tag[i]);
+  e.body = -1.0;
+  e.mode = static_cast<double>(BridgeKind::CbdCollector);
+  e.energy = energy;
+  mine_.push_back(e);
+}
+
+/// Intact pairs, by what was made and what is known to have broken.
+bigint FixBondBpm::acting_pairs() const {
+  bigint pairs = initial_ - broken();
+  for (const BridgeKind kind : {BridgeKind::AmCbd, BridgeKind::CbdCbd})
+    pairs += bridges_made_[int(kind)] - bridges_broken_[int(kind)];
+  return pairs;
+}
+
+void FixBondBpm::check_bridges_add_up() {
+  bigint mine[calendem::kBridgeKinds], intact[calendem::kBridgeKinds];
+  count_bridges(mine);
+  if (const WallBridges *wall = WallBridges::find(lmp))
+    mine[int(BridgeKind::CbdCollector)] = wall->intact();
+  MPI_Allreduce(mine, intact, calendem::kBridgeKinds, MPI_LMP_BIGINT, MPI_SUM, world);
+  for (int k = 0; k < calendem::kBridgeKinds; ++k) {
+    char message[256];
+    snprintf(message, sizeof message,
+             "binder bridges do not add up: " BIGINT_FORMAT " made, " BIGINT_FORMAT
+             " intact, " BIGINT_FORMAT " broken. One vanished without a break",
+             bridges_made_[k], intact[k], bridges_broken_[k]);
+    if (intact[k] + bridges_broken_[k] != bridges_made_[k])
+      error->fix_error(FLERR, this, message);
+  }
+}
+
+double FixBondBpm::bridge_vector(int n) {
+  if (n == 0)
+    check_bridges_add_up();
+  if (n < calendem::kBridgeKinds)
+    return bridges_made_[n];
+  if (n < 2 * calendem::kBridgeKinds)
+    return bridges_broken_[n - calendem::kBridgeKinds];
+  if (n == 2 * calendem::kBridgeKinds + 1)
+    return bridge_energy_lost_;
+  const WallBridges *wall = WallBridges::find(lmp);
+  double mine = wall ? wall->strain_energy() : 0.0, all = 0.0;
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all + strain_energy_of(kBridge);
+}

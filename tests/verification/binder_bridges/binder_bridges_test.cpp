@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Requirement, formulas and tolerances: README.md of this folder.
+#include <cmath>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "physics/binder_bridge.h"
+#include "physics/hertz_contact.h"
+#include "physics/sjkr_cohesion.h"
+#include "run_case.h"
+
+using namespace calendem;
+
+namespace {
+
+// um, kPa, pg/um3
+constexpr double kAm = 0.795, kCbd = 0.658, kGap = 0.004;
+constexpr double E = 5e5, G = E / 2.6, kLambda = 0.5, kRatio = 2.0, dt = 1e-4;
+constexpr double kSteps = 1279.53; // until the break: well away from a whole number
+
+struct Sphere {
+  int type;
+  Vec3 x, v = {}, spin = {};
+  int body = 0;
+};
+
+/// atoms.data, bodies.map and start.in; types 1 AM, 2 CBD.
+Files files_of(const std::vector<Sphere> &spheres, double side, const std::string &start) {
+  std::ostringstream data, map, set;
+  for (std::ostringstream *s : {&data, &map, &set})
+    s->precision(17);
+  data << "verification case\n\n"
+       << spheres.size() << " atoms\n3 atom types\n0 " << side << " xlo xhi\n0 " << side
+       << " ylo yhi\n0 20 zlo zhi\n\nAtoms\n\n";
+  map << "# tag body\n";
+  int tag = 0;
+  for (const Sphere &s : spheres) {
+    const bool am = s.type == 1;
+    data << ++tag << " " << s.type << " " << 2.0 * (am ? kAm : kCbd) << " " << (am ? 4.65 : 0.915)
+         << " " << s.x.x << " " << s.x.y << " " << s.x.z << "\n";
+    if (s.body > 0)
+      map << tag << " " << s.body << "\n";
+    if (norm(s.v) + norm(s.spin) > 0.0)
+      set << "set atom " << tag << " vx " << s.v.x << " vy " << s.v.y << " vz " << s.v.z
+          << " omegax " << s.spin.x << " omegay " << s.spin.y << " omegaz " << s.spin.z << "\n";
+  }
+  return {{"atoms.data", data.str()}, {"bodies.map", map.str()}, {"start.in", set.str() + start}};
+}
+
+/// What a bridge joins a CBD sphere to.
+struct Joined {
+  const char *name;       // of its columns, and of its strength
+  double strength, other; // kPa; radius, 0: the collector
+  double length() const { return kCbd + other + kGap; }
+};
+const Joined kJoined[] = {{"am", 1e4, kAm}, {"cbd", 5e3, kCbd}, {"wall", 2e3, 0.0}};
+const BondSection kSection(kLambda *kCbd); // the CBD sphere is the smaller one everywhere
+
+/// The CBD sphere leaves along the line, or is moved across it, at this speed.
+CaseRun move(const Joined &to, double along, double across, Settings settings = {},
+             double length = 0.0) {
+  const double l = length > 0.0 ? length : to.length();
+  std::vector<Sphere> spheres = {{2, {5, 5, to.other > 0.0 ? 10 : l}}};
+  if (to.other > 0.0)
+    spheres.push_back({to.other == kAm ? 1 : 2, {5 + l, 5, 10}});
+  spheres.push_back({1, {2, 2, 15}}); // the host wants a sphere of type 1
+  const Vec3 v = to.other > 0.0 ? Vec3{-along, across, 0} : Vec3{0, across, along};
+  const std::string speed = number(v.x) + " " + number(v.y) + " " + number(v.z);
+  settings.insert({{"ced", "0"}, {"dt", number(dt)}});
+  return CaseRun("binder_bridges/in.bridges", settings, 1,
+                 files_of(spheres, 10,
+                          "group moved id 1\nvelocity moved set " + speed +
+                              " units box\nfix mv moved move linear " + speed + " units box\n"));
+}
+
+/// Broken in the step of the closed form, counted as its kind alone.
+void expect_break(const CaseRun &run, const Joined &to, int step) {
+  for (const Row &r : run.rows("curve.csv")) {
+    const bool broken = r.at("step") >= step;
+    for (const Joined &any : kJoined) {
+      const bool own = &any == &to || std::string(any.name) == to.name;
+      EXPECT_EQ(r.at(std::string("made_") + any.name), own ? 1.0 : 0.0);
+      EXPECT_EQ(r.at(std::string("broken_") + any.name), own && broken ? 1.0 : 0.0)
+          << any.name << " at step " << r.at("step");
+    }
+    EXPECT_EQ(r.at("bonds") + r.at("bonds_broken"), 0.0);
+  }
+  EXPECT_EQ(run.text("breaks.csv").find('\n'), run.text("breaks.csv").size() - 1);
+}
+
+/// Largest difference of the force on the moved sphere from `law(way)`, and of the stored energy
+/// from `energy(way)`, of the largest, before the break; 0 after it.
+struct Errors {
+  double force = 0.0, energy = 0.0;
+};
+template <class Law, class Energy>
+Errors errors(const CaseRun &run, double speed, int step, Law law, Energy energy) {
+  Errors worst;
+  double most = 0.0, most_energy = 0.0;
+  int rows = 0;
+  for (const Row &r : run.rows("curve.csv")) {
+    const double way = speed * r.at("step") * dt;
+    const bool acts = r.at("step") <= step, stored = r.at("step") < step;
+    const Vec3 expected = acts ? law(way) : Vec3{};
+    worst.force = std::fmax(worst.force, norm(Vec3{r.at("fx"), r.at("fy"), r.at("fz")} - expected));
+    worst.energy =
+        std::fmax(worst.energy, std::fabs(r.at("strain") - (stored ? energy(way) : 0.0)));
+    most = std::fmax(most, norm(expected));
+    most_energy = std::fmax(most_energy, r.at("strain"));
+    rows += acts;
+    if (!stored) {
+      EXPECT_NEAR(r.at("lost") / energy(speed * step * dt), 1.0, 1e-6);
+    }
+  }
+  EXPECT_GT(rows, 100) << run.why();
+  return {worst.force / most, worst.energy / most_energy};
+}
+
+} // namespace
+
+TEST(VerificationBinderBridges, PulledToFailure) {
+  for (const Joined &to : kJoined) {
+    const double l = to.length(), k = E * kSection.area / l;
+    const double v = to.strength * l / E / (kSteps * dt);
+    const CaseRun run = move(to, v, 0.0);
+    ASSERT_TRUE(run.finished()) << run.why();
+    const Vec3 back = to.other > 0.0 ? Vec3{1, 0, 0} : Vec3{0, 0, -1};
+    const Errors e = errors(
+        run, v, 1280, [&](double d) { return k * d * back; },
+        [&](double d) { return 0.5 * k * d * d; });
+    std::printf("%s pulled: force to %.1e, energy to %.1e\n", to.name, e.force, e.energy);
+    EXPECT_LT(e.force, 1e-6);
+    EXPECT_LT(e.energy, 1e-6);
+    expect_break(run, to, 1280);
+    if (to.other > 0.0)
+      continue;
+    for (const Row &r : run.rows("curve.csv")) // the collector is pulled as the sphere is
+      EXPECT_NEAR(r.at("load"), r.at("fz"), 1e-6 * k * v * kSteps * dt);
+  }
+}
+
+TEST(VerificationBinderBridges, ShearedToFailure) {
+  for (const Joined &to : kJoined) {
+    const double l = to.length(), kn = E * kSection.area / l, kt = G * kSection.area / l;
+    const double v = l * std::sinh(kRatio * to.strength / G) / (kSteps * dt);
+    const CaseRun run = move(to, 0.0, v);
+    ASSERT_TRUE(run.finished()) << run.why();
+    const Vec3 away = to.other > 0.0 ? Vec3{-1, 0, 0} : Vec3{0, 0, 1}, side = {0, 1, 0};
+    const auto shear = [&](double s) { return kt * l * std::asinh(s / l); };
+    const auto tension = [&](double s) { return kn * (std::hypot(l, s) - l); };
+    const Errors e = errors(
+        run, v, 1280,
+        [&](double s) {
+          const double r = std::hypot(l, s);
+          const Vec3 n = (1.0 / r) * (l * away + s * side),
+                     across = (1.0 / r) * (l * side - s * away);
+          return -tension(s) * n - shear(s) * across;
+        },
+        [&](double s) {
+          return 0.5 * (std::pow(tension(s), 2) / kn + std::pow(shear(s), 2) / kt);
+        });
+    std::printf("%s sheared: force to %.1e, energy to %.1e\n", to.name, e.force, e.energy);
+    EXPECT_LT(e.force, 1e-6);
+    EXPECT_LT(e.energy, 1e-6);
+    expect_break(run, to, 1280);
+    if (to.other > 0.0)
+      continue;
+    for (const Row &r : run.rows("curve.csv")) { // half of the height is the shear's arm
+      const double s = v * r.at("step") * dt;
+      const double moment = r.at("step") <= 1280 ? 0.5 * std::hypot(l, s) * shear(s) : 0.0;
+      EXPECT_NEAR(std::fabs(r.at("tx")), moment, 1e-6 * l * shear(v * kSteps * dt));
+    }
+  }
+}
+
+TEST(VerificationBinderBridges, NoneBeyondTheGapOrWithoutStrength) {
+  for (const Joined &to : kJoined) {
+    const double room = kCbd + to.other;
+    for (const double gap : {0.0199, 0.0201}) {
+      const CaseRun run = move(to, 0.0, 0.0, {{"steps", "600"}}, room + gap);
+      ASSERT_TRUE(run.finished()) << run.why();
+      EXPECT_EQ(run.rows("curve.csv").back().at(std::string("made_") + to.name),
+                gap < 0.02 ? 1.0 : 0.0);
+    }
+    const CaseRun none = move(to, 0.0, 0.0, {{"steps", "600"}, {to.name, "0"}});
+    ASSERT_TRUE(none.finished()) << none.why();
+    EXPECT_EQ(none.rows("curve.csv").back().at(std::string("made_") + to.name), 0.0);
+  }
+}
+
+// A pair that overlaps when it is joined: its forces then are those without a bridge; afterwards
+// Hertz and SJKR go on beside it, and alone when it has broken.
+TEST(VerificationBinderBridges, TheContactGoesOnBesideIt) {
+  const Joined &to = kJoined[1];
+  const double overlap = 0.05, l = 2 * kCbd - overlap, ced = 1e4, k = E * kSection.area / l;
+  const double E_eff = effective_modulus(2e6, 0.3, 2e6, 0.3), R_eff = effective_radius(kCbd, kCbd);
+  const auto contact = [&](double d) { // on sphere 1, which leaves along -x
+    return sjkr_force(ced, l + d, kCbd, kCbd) - hertz_force(E_eff, R_eff, overlap - d);
+  };
+  const Settings with = {{"ced", number(ced)}, {"restitution", "1"}, {"friction", "0"}};
+  Settings without = with;
+  without["bridged"] = "0";
+  const CaseRun held = move(to, 0.0, 0.0, with, l), plain = move(to, 0.0, 0.0, without, l);
+  ASSERT_TRUE(held.finished() && plain.finished()) << held.why() << plain.why();
+  for (size_t n = 0; n < held.rows("curve.csv").size(); n += 50)
+    EXPECT_EQ(held.rows("curve.csv")[n].at("fx"), plain.rows("curve.csv")[n].at("fx"));
+  const double v = to.strength * l / E / (kSteps * dt);
+  const CaseRun run = move(to, v, 0.0, with, l);
+  ASSERT_TRUE(run.finished()) << run.why();
+  double worst = 0.0;
+  for (const Row &r : run.rows("curve.csv")) {
+    const double d = v * r.at("step") * dt;
+    const double expected = contact(d) + (r.at("step") <= 1280 ? k * d : 0.0);
+    worst = std::fmax(worst, std::fabs(r.at("fx") - expected));
+  }
+  std::printf("contact beside: force to %.1e\n", worst / (k * v * kSteps * dt));
+  EXPECT_LT(worst, 1e-6 * k * v * kSteps * dt);
+  expect_break(run, to, 1280);
+}
+
+namespace {
+
+constexpr double kFilmStep = 1e-5, kFilmModulus = 2e7; // us, kPa
+const char *const kIntegrate = "fix integrate all nve/sphere\n";
+
+double noise(int n) { // reproducible, in (-1, 1)
+  const double x = std::sin(12.9898 * n + 4.1) * 43758.5453;
+  return 2.0 * (x - std::floor(x)) - 1.0;
+}
+
+/// On each of 16 sites, which faces of the cell and borders of ranks cut: two CBD spheres on the
+/// collector, a body of two AM spheres that one of them holds, and CBD on top; all thrown.
+Files film() {
+  std::vector<Sphere> all;
+  const double side = 16.0, low = kCbd + kGap, half = kCbd + 0.5 * kGap;
+  int n = 0, body = 0;
+  for (int site = 0; site < 16; ++site) {
+    const double x = 4.0 * (site % 4), y = 4.0 * (site / 4), z = low + kCbd + kAm + kGap;
+    ++body;
+    for (Sphere s : {Sphere{2, {x + half, y, low}},
+                     {2, {x - half, y, low}},
+                     {1, {x + half, y, z}},
+                     {1, {x + half, y, z + 1.28}},
+                     {2, {x + half, y, z + 1.28 + kAm + kCbd + kGap}}}) {
+      s.body = s.type == 1 ? body : 0;
+      s.x.x -= side * std::floor(s.x.x / side);
+      const double speed = s.type == 1 ? 0.6 : 4.0;
+      s.v = speed * Vec3{noise(n + 1), noise(n + 2), noise(n + 3)};
+      s.spin = Vec3{noise(n + 4), noise(n + 5), noise(n + 6)};
+      n += 6;
+      all.push_back(s);
+    }
+  }
+  return files_of(all, side, kIntegrate);
+}
+
+CaseRun throw_film(Settings settings, int ranks = 1, Files files = film()) {
+  const Settings all = {{"dt", number(kFilmStep)},
+                        {"ced", "1e3"},
+                        {"Eb", number(kFilmModulus)},
+                        {"Ey", number(kFilmModulus)},
+                        {"damping", "0.02"},
+                        {"restitution", "0.5"},
+                        {"am", "4e3"},
+                        {"cbd", "3e3"},
+                        {"steps", "3000"},
+                        {"half", "1000"},
+                        {"px", "1"},
+                        {"py", "1"}};
+  settings.insert(all.begin(), all.end());
+  CaseRun run("binder_bridges/in.bridges", settings, ranks, files);
+  EXPECT_TRUE(run.finished()) << run.why();
+  return run;
+}
+
+Row last_row(const CaseRun &run) {
+  const std::vector<Row> rows = run.rows("curve.csv");
+  return rows.empty() ? Row() : rows.back();
+}
+
+std::vector<double> numbers(const std::string &state) {
+  std::istringstream in(state.substr(state.find("omegaz") + 6));
+  return {std::istream_iterator<double>(in), {}};
+}
+
+} // namespace
+
+// First law: what the bridges hold, what breaks have lost, and the rest of the ledger.
+TEST(VerificationBinderBridges, LedgerThroughBreaks) {
+  const std::vector<Row> rows = throw_film({}).rows("curve.csv");
+  ASSERT_GT(rows.size(), 100u);
+  const auto total = [](const Row &r) {
+    return r.at("kinetic") + r.at("strain") + r.at("lost") + r.at("rest");
+  };
+  double worst = 0.0, strain = 0.0;
+  for (const Row &r : rows) {
+    worst = std::fmax(worst, std::fabs(total(r) - total(rows.front())));
+    strain = std::fmax(strain, r.at("strain"));
+  }
+  const Row &end = rows.back();
+  std::printf("film: %g to AM, %g to CBD, %g to the collector broken of %g, %g, %g; ledger to %.1e "
+              "of %.4g fJ, strain up to %.3g, lost %.3g of it\n",
+              end.at("broken_am"), end.at("broken_cbd"), end.at("broken_wall"), end.at("made_am"),
+              end.at("made_cbd"), end.at("made_wall"), worst / total(rows.front()),
+              total(rows.front()), strain / total(rows.front()),
+              end.at("lost") / total(rows.front()));
+  EXPECT_EQ(end.at("made_am"), 32);
+  EXPECT_EQ(end.at("made_cbd"), 16);
+  EXPECT_EQ(end.at("made_wall"), 32);
+  EXPECT_EQ(end.at("bonds"), 16);
+  EXPECT_EQ(end.at("bonds_broken"), 0);
+  for (const Joined &any : kJoined)
+    EXPECT_GT(end.at(std::string("broken_") + any.name), 2.0) << any.name;
+  // the fastest are the bonds inside the bodies: Verlet's energy swings by (omega dt)^2 / 16
+  const double mass = 0.5 * 4.0 / 3.0 * kPi * kAm * kAm * kAm * 4.65;
+  const double omega_squared = kFilmModulus * kPi * kAm * kAm / 1.28 / mass;
+  const double tolerance = omega_squared * kFilmStep * kFilmStep / 16.0;
+  std::printf("tolerance %.1e\n", tolerance);
+  EXPECT_GT(end.at("lost"), 100 * tolerance * total(rows.front()));
+  EXPECT_LT(worst, tolerance * total(rows.front()));
+}
+
+TEST(VerificationBinderBridges, SameBitsOnRanksAndAfterARestart) {
+  const CaseRun one = throw_film({});
+  for (const auto &[px, py] : {std::pair(2, 1), {1, 2}, {2, 2}}) {
+    const CaseRun more = throw_film({{"px", number(px)}, {"py", number(py)}}, px * py);
+    EXPECT_EQ(more.text("final.txt"), one.text("final.txt")) << px << " x " << py;
+  }
+  std::ifstream in(one.folder() / "half.restart", std::ios::binary);
+  const Files half = {{"half.restart", {std::istreambuf_iterator<char>(in), {}}},
+                      {"bodies.map", one.text("bodies.map")},
+                      {"start.in", kIntegrate}};
+  const CaseRun on = throw_film({{"restart", "1"}}, 1, half),
+                two = throw_film({{"restart", "1"}, {"px", "2"}}, 2, half);
+  EXPECT_EQ(on.text("final.txt"), one.text("final.txt"));
+  EXPECT_EQ(two.text("final.txt"), one.text("final.txt"));
+  const Row end = last_row(one), end_on = last_row(on);
+  for (const auto &[column, value] : end)
+    EXPECT_EQ(end_on.at(column), value) << column;
+}
+
+TEST(VerificationBinderBridges, OnePassGivesTheHostsForces) {
+  const CaseRun one = throw_film({}), host = throw_film({{"fused", "off"}});
+  const std::vector<double> a = numbers(one.text("final.txt")), b = numbers(host.text("final.txt"));
+  ASSERT_EQ(a.size(), b.size());
+  double apart = 0.0;
+  for (size_t n = 0; n < a.size(); n += 10)
+    for (int k = 1; k < 4; ++k)
+      apart = std::fmax(apart, std::fabs(a[n + k] - b[n + k]));
+  std::printf("host's loop: places differ by %.1e um\n", apart);
+  EXPECT_LT(apart, 1e-9);
+  const std::vector<Row> p = one.rows("curve.csv"), q = host.rows("curve.csv");
+  for (const char *column : {"broken_am", "broken_cbd", "broken_wall"})
+    EXPECT_EQ(p.back().at(column), q.back().at(column));
+  for (const auto &[column, value] : q.front())
+    EXPECT_NEAR(p.front().at(column), value, 1e-12 * std::fabs(value)) << column;
+}
+
+TEST(VerificationBinderBridges, ValuesOutOfRangeStop) {
+  const std::pair<Settings, const char *> cases[] = {
+      {{{"cbd", "2e4"}}, "stretch too far before they break"},
+      {{{"gap", "0.06"}}, "at most 0.05 is allowed"},
+      {{{"ratio", "0"}}, "must be a finite number > 0"}};
+  for (const auto &[settings, words] : cases) {
+    const CaseRun run = move(kJoined[1], 0.0, 0.0, settings);
+    EXPECT_FALSE(run.finished());
+    EXPECT_NE(run.why().find(words), std::string::npos) << run.why();
+  }
+}

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Requirement, formulas and tolerances: README.md of this folder.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "physics/hertz_contact.h"
+#include "spheres.h"
+
+using namespace calendem;
+
+namespace {
+
+constexpr double kSpacing = 1.28, R = 0.795, kSpeed = 0.5, kStep = 8e-5, kLoad = 1000.0;
+constexpr int kSpheres = 4; // of a row
+const double kLattice = kSpacing / (2.0 * R);
+
+Settings settings(double meet) {
+  return {{"meet", number(meet)}, {"dt", number(kStep)}, {"friction", "0"}, {"ced", "0"}};
+}
+
+// The upper row, of that body, at that height.
+Files two_rows(int body = 1, double height = kSpacing) {
+  std::vector<BodySphere> rows;
+  for (const bool upper : {false, true})
+    for (int n = 0; n < kSpheres; ++n)
+      rows.push_back({{(n + 0.25) * kSpacing, 0, upper ? height : 0.0}, R, upper ? body : 1});
+  return files_of(rows, {0, -5, -5}, {kSpheres * kSpacing, 5, 5});
+}
+
+// Height of a sphere that rests, `aside` from its top, on one that it meets at `distance`: the load
+// is the vertical part of Hertz' force. 0: it does not reach.
+double resting(double distance, double aside) {
+  const double E = effective_modulus(2e8, 0.3, 2e8, 0.3), R_eff = effective_radius(R, R);
+  double overlap = 0.0, height = 0.0;
+  for (int n = 0; n < 50; ++n) { // a contraction: the height hardly depends on the overlap
+    const double r = distance - overlap, square = r * r - aside * aside;
+    if (square <= 0.0)
+      return 0.0;
+    height = std::sqrt(square);
+    overlap = hertz_overlap(E, R_eff, kLoad * r / height);
+  }
+  return height;
+}
+
+// Of a row that has slid by `way`, over the spheres of the other; the one below it at first was
+// bonded.
+double height(double way, double first, double later) {
+  double highest = 0.0;
+  for (int n = -1; n <= 4; ++n)
+    highest = std::max(highest, resting(n == 0 ? first : later, way - n * kSpacing));
+  return highest;
+}
+
+// Distance of `way` from the cusps, where the row passes from one sphere to the next.
+double from_cusp(double way, double first, double later) {
+  const double from_first_on =
+      (kSpacing * kSpacing + first * first - later * later) / (2 * kSpacing);
+  double nearest = std::fabs(way - from_first_on);
+  for (const double cusp : {1.5, 2.5})
+    nearest = std::min(nearest, std::fabs(way - cusp * kSpacing));
+  return nearest;
+}
+
+struct Slip {
+  double worst = 0.0;  ///< largest difference of height from the closed form, away from cusps [um]
+  double mean = 0.0;   ///< height over the second spacing [um]
+  double at_one = 0.0; ///< height after one spacing [um]
+};
+
+Slip slip(double first, double later, const std::vector<Row> &rows) {
+  Slip s;
+  int counted = 0;
+  for (const Row &row : rows) {
+    const double way = row.at("step") * kStep * kSpeed, found = row.at("height");
+    if (way >= 0.02 && from_cusp(way, first, later) > 0.02)
+      s.worst = std::fmax(s.worst, std::fabs(found - height(way, first, later)));
+    if (way > kSpacing && ++counted)
+      s.mean += found;
+    if (std::fabs(way - kSpacing) < 1e-9)
+      s.at_one = found;
+  }
+  s.mean /= counted;
+  return s;
+}
+
+// Mean over a spacing of rigid spheres that meet at `distance`.
+double rigid_mean(double distance) {
+  const double half = 0.5 * kSpacing, h = std::sqrt(distance * distance - half * half);
+  return 0.5 * (h + distance * distance / half * std::asin(half / distance));
+}
+
+void expect_closed_form(const CaseRun &run, double first, double later) {
+  ASSERT_TRUE(run.finished()) << run.why();
+  const std::vector<Row> rows = run.rows("curve.csv");
+  ASSERT_EQ(rows.size(), 160u);
+  const Slip s = slip(first, later, rows);
+  std::printf(
+      "meeting at %.2f um: height %.1e um off; after one spacing %.4f, mean over the second "
+      "%.4f um above the lattice\n",
+      later, s.worst, s.at_one - kSpacing, s.mean - kSpacing);
+  EXPECT_LT(s.worst, 1e-5);
+  EXPECT_NEAR(s.mean, rigid_mean(later), 2e-3);
+}
+
+} // namespace
+
+TEST(VerificationSlip, RowsMeetAtTheSumOfRadii) {
+  const CaseRun run("slip/in.slip", settings(1.0), 1, two_rows());
+  expect_closed_form(run, kSpacing, 2.0 * R);
+}
+
+TEST(VerificationSlip, RowsMeetAtTheLattice) {
+  const CaseRun run("slip/in.slip", settings(kLattice), 1, two_rows());
+  expect_closed_form(run, kSpacing, kSpacing);
+}
+
+TEST(VerificationSlip, RowsOfTwoBodiesMeetAtTheSumOfRadii) {
+  const CaseRun run("slip/in.slip", settings(kLattice), 1, two_rows(2, 2.0 * R));
+  expect_closed_form(run, 2.0 * R, 2.0 * R);
+}
+
+// Contacts that meet at the lattice follow their law, in the plugin's loop over pairs as in the
+// host's.
+TEST(VerificationSlip, TheHostsLoopGivesTheSame) {
+  std::set<double> ends;
+  for (const char *law : {"none", "yield", "relaxed"}) {
+    Settings s = settings(kLattice);
+    s["rest"] = "8000";
+    s["contact"] = law == std::string("none") ? "hertz" : "hertz_effects";
+    s[law] = law == std::string("yield") ? "1e6" : "0.4";
+    s["fused"] = "on";
+    const CaseRun one("slip/in.slip", s, 1, two_rows());
+    s["fused"] = "off";
+    const CaseRun host("slip/in.slip", s, 1, two_rows());
+    ASSERT_TRUE(one.finished() && host.finished()) << one.why() << host.why();
+    const double end = one.rows("curve.csv").back().at("height");
+    EXPECT_NEAR(end, host.rows("curve.csv").back().at("height"), 1e-9) << law;
+    EXPECT_TRUE(ends.insert(std::round(1e6 * end)).second) << law << " does not act";
+  }
+}
+
+// Spheres that have come apart, but are still in each other's reach, meet as new ones do.
+TEST(VerificationSlip, PartedSpheresMeetAsNewOnes) {
+  for (const auto &[meet, way] : {std::pair{1.0, 0.75}, std::pair{kLattice, 1.1}}) {
+    Settings s = settings(meet);
+    s["half"] = s["rest"] = std::to_string(std::lround(way / (kSpeed * kStep)));
+    s["back"] = "1";
+    const CaseRun run("slip/in.slip", s, 1, two_rows());
+    ASSERT_TRUE(run.finished()) << run.why();
+    const double distance = std::hypot(way, height(way, kSpacing, 2.0 * R * meet));
+    EXPECT_GT(distance, 2.0 * R);
+    EXPECT_LT(distance, 1.1 * 2.0 * R) << "their history would be lost";
+    const Row end = run.rows("curve.csv").back();
+    const double left = 2.0 * way - end.at("step") * kStep * kSpeed;
+    EXPECT_NEAR(end.at("height"), resting(2.0 * R * meet, left), 1e-5) << meet;
+  }
+}
+
+TEST(VerificationSlip, SameBitsOnTwoRanksAndAfterARestart) {
+  Settings s = settings(kLattice);
+  const CaseRun one("slip/in.slip", s, 1, two_rows());
+  ASSERT_TRUE(one.finished()) << one.why();
+  const std::string state = one.text("final.txt");
+  s["px"] = "2";
+  const CaseRun two("slip/in.slip", s, 2, two_rows());
+  EXPECT_EQ(two.text("final.txt"), state) << two.why();
+  EXPECT_EQ(two.text("curve.csv"), one.text("curve.csv"));
+  s["from"] = "1";
+  Files files = two_rows();
+  files["half.restart"] = one.text("half.restart");
+  files["breaks.csv"] = one.text("breaks.csv");
+  s["px"] = "1";
+  EXPECT_EQ(CaseRun("slip/in.slip", s, 1, files).text("final.txt"), state);
+  s["px"] = "2";
+  EXPECT_EQ(CaseRun("slip/in.slip", s, 2, files).text("final.txt"), state);
+}

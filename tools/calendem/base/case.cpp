@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/case.h"
+#include "physics/hertz_contact.h"
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <iterator>
+
+namespace calendem {
+namespace {
+
+const char *name_of(Phase phase) {
+  static const char *const names[] = {"am", "cbd", "collector", "platen"};
+  return names[int(phase) - int(Phase::Am)];
+}
+
+bool cohesive(Phase phase) { return phase == Phase::Am || phase == Phase::Cbd; }
+
+std::vector<std::string> keys_of(Phase phase) {
+  const std::string at = fmt::format("material.{}.", name_of(phase));
+  std::vector<std::string> keys = {at + "youngs_modulus_GPa", at + "poisson"};
+  if (cohesive(phase))
+    keys.push_back(at + "ced_J_m3");
+  return keys;
+}
+
+bool sound(const Settings &s, const std::vector<std::string> &keys) {
+  return std::all_of(keys.begin(), keys.end(), [&](const std::string &k) { return s.sound({k}); });
+}
+
+PhasePair pair_of(const Settings &s, Phase a, Phase b) {
+  const auto of = [&](Phase phase, const char *key) {
+    return s.number(fmt::format("material.{}.{}", name_of(phase), key));
+  };
+  PhasePair pair = {0.0, effective_modulus(1e6 * of(a, "youngs_modulus_GPa"), of(a, "poisson"),
+                                           1e6 * of(b, "youngs_modulus_GPa"), of(b, "poisson"))};
+  if (cohesive(a) && cohesive(b))
+    pair.cohesion = 1e-3 * std::sqrt(of(a, "ced_J_m3") * of(b, "ced_J_m3"));
+  return pair;
+}
+
+// AM against CBD is allowed more: the paper's own values give 0.07.
+void check_collapse(const Settings &s, Phase first, Phase second, double limit,
+                    Mistakes &mistakes) {
+  if (!sound(s, keys_of(first)) || !sound(s, keys_of(second)))
+    return;
+  const std::string a = name_of(first), b = name_of(second);
+  const std::string at_a = "material." + a + ".", at_b = "material." + b + ".";
+  const PhasePair pair = pair_of(s, first, second);
+  const double overlap = sjkr_equilibrium_overlap(pair.cohesion, pair.modulus, 0.5);
+  if (overlap > limit)
+    mistakes.add(
+        std::max(s.line(at_a + "ced_J_m3"), s.line(at_b + "ced_J_m3")),
+        fmt::format("cohesion would collapse the packing: it pulls {} spheres into each other by "
+                    "{:.3g} of their radius, at most {} is allowed. The overlap scales as "
+                    "(CED/E)^2: lower ced_J_m3 ({}) or raise youngs_modulus_GPa ({}).",
+                    a == b ? a : a + " and " + b, overlap, limit,
+                    a == b ? s.text(at_a + "ced_J_m3")
+                           : s.text(at_a + "ced_J_m3") + " and " + s.text(at_b + "ced_J_m3"),
+                    a == b ? s.text(at_a + "youngs_modulus_GPa")
+                           : s.text(at_a + "youngs_modulus_GPa") + " and " +
+                                 s.text(at_b + "youngs_modulus_GPa")));
+}
+
+// What cohesion and modulus of the phases leave to the strength of a contact law between them.
+void check_contact(const Settings &s, const Effect &e, Phase a, Phase b, Mistakes &mistakes) {
+  const Key &key = e.settings.front();
+  if (!s.sound({key.name}) || !sound(s, keys_of(a)) || !sound(s, keys_of(b)))
+    return;
+  const double factor = script_units(key.unit), value = factor * s.number(key.name);
+  const ContactLimits limits = e.contact.law->limits(pair_of(s, a, b));
+  if (value <= 0.0 || (value >= limits.least && value <= limits.most))
+    return;
+  const bool low = value < limits.least;
+  const std::string unit = key.unit == "fraction" ? "" : " " + key.unit;
+  mistakes.add(s.line(key.name),
+               fmt::format("{} is {}{}, too {} for {} and {} spheres: {}. Give 0 (off) or {} "
+                           "{:.3g}{}.",
+                           key.name, s.text(key.name), unit, low ? "low" : "high",
+                           name_of(std::min(a, b)), name_of(std::max(a, b)), limits.why,
+                           low ? "at least" : "at most",
+                           (low ? limits.least : limits.most) / factor, unit));
+}
+
+// A property that may be only some part of the effective modulus.
+void check_part_of_modulus(const Settings &s, const Effect &e, Phase a, Phase b,
+                           Mistakes &mistakes) {
+  for (std::size_t k = 0; k < e.settings.size(); ++k) {
+    const Key &key = e.settings[k];
+    const double part = e.contact.law->properties.at(k).of_modulus;
+    if (!s.sound({key.name}) || !sound(s, keys_of(a)) || !sound(s, keys_of(b)))
+      continue;
+    const double most = part * pair_of(s, a, b).modulus / script_units(key.unit);
+    if (s.number(key.name) > most)
+      mistakes.add(s.line(key.name),
+                   fmt::format("{} is {} {}: between {} and {} spheres at most {} of the effective "
+                               "modulus is allowed. Give at most {:.3g}.",
+                               key.name, s.text(key.name), key.unit, name_of(a), name_of(b), part,
+                               most));
+  }
+}
+
+double units_of(const std::string &name) {
+  const auto &keys = case_keys();
+  return script_units(
+      std::find_if(keys.begin(), keys.end(), [&](const Key &k) { return k.name == name; })->unit);
+}
+
+void check_relation(const Settings &s, const Relation &r, Mistakes &mistakes) {
+  if (!s.sound({r.key, r.other}))
+    return;
+  const double value = s.number(r.key), other = s.number(r.other);
+  const double most = r.part * other * units_of(r.other) / units_of(r.key);
+  if (r.is == Relation::Is::AtMost && value > most)
+    mistakes.add(s.line(r.key),
+                 fmt::format("{} is {}, above {}{} = {}: {}. Give at most {:g}.", r.key,
+                             s.text(r.key), r.part == 1.0 ? "" : fmt::format("{:g} of ", r.part),
+                             r.other, s.text(r.other), r.why, most));
+  if (r.is == Relation::Is::NotBoth && value > 0.0 && other > 0.0)
+    mistakes.add(s.line(r.key), fmt::format("{} is {} and {} is {}: {}. Set one of them to 0.",
+                                            r.key, s.text(r.key), r.other, s.text(r.other), r.why));
+}
+
+// A contact follows one law.
+void check_one_law(const Settings &s, const Effect &e, const Effect &f, Mistakes &mistakes) {
+  if (!e.contact.law || !f.contact.law || e.contact.law == f.contact.law)
+    return;
+  const std::string &a = e.settings.front().name, &b = f.settings.front().name;
+  const auto &others = f.contact.between;
+  const bool meet = std::any_of(
+      e.contact.between.begin(), e.contact.between.end(), [&](const std::pair<Phase, Phase> &p) {
+        return std::count(others.begin(), others.end(), p) +
+                   std::count(others.begin(), others.end(), std::pair(p.second, p.first)) >
+               0;
+      });
+  if (meet)
+    check_relation(s, {b, Relation::Is::NotBoth, a, "a contact follows one law"}, mistakes);
+}
+
+void check_effect(const Settings &s, const Effect &e, Mistakes &mistakes) {
+  for (const auto &[a, b] : e.contact.between) {
+    check_contact(s, e, a, b, mistakes);
+    check_part_of_modulus(s, e, a, b, mistakes);
+  }
+  for (const Relation &r : e.relations)
+    check_relation(s, r, mistakes);
+}
+
+void check_target(const Settings &s, Mistakes &mistakes) {
+  const std::string control = s.text("platen.control");
+  if (control == "pressure" || !s.sound({"platen.control", "platen." + control + "_um"}))
+    return;
+  const std::string key = "platen." + control + "_um";
+  if (s.number(key) <= 0.0)
+    mistakes.add(s.line("platen.control"),
+                 fmt::format("platen.control is \"{}\" but {} is {}; give a value > 0 um.", control,
+                             key, s.number(key)));
+}
+
+/// What a roll cannot do, or is told in another way.
+void check_roll(const Settings &s, Mistakes &mistakes) {
+  const std::string load = "roll.line_load_N_mm";
+  if (!s.sound({"platen.control"}))
+    return;
+  if (s.text("platen.control") != "roll_gap") {
+    if (s.sound({load}) && s.number(load) > 0.0)
+      mistakes.add(
+          s.line(load),
+          fmt::format("{} is {} and platen.control is \"{}\": only a roll has a line load. "
+                      "Give control = \"roll_gap\", or a line load of 0.",
+                      load, s.text(load), s.text("platen.control")));
+    return;
+  }
+  const std::string first = "roll.first_gap_um", gap = "platen.roll_gap_um";
+  if (s.sound({first, gap}) && s.number(first) > 0.0 && s.number(first) < s.number(gap))
+    mistakes.add(s.line(first),
+                 fmt::format("{} is {}, below {} = {}: passes go from a wider gap to a narrower "
+                             "one. Give at least that, or 0: the same gap in all passes.",
+                             first, s.text(first), gap, s.text(gap)));
+  for (const auto &[key, why] :
+       {std::pair("platen.dwell_us", "a roll does not stand still in the nip"),
+        std::pair("effects.machine_compliance.um_per_MPa",
+                  "platen.roll_gap_um is the gap of the loaded rolls, frame and all")})
+    if (s.sound({key}) && s.number(key) > 0.0)
+      mistakes.add(s.line(key), fmt::format("{} is {} and platen.control is \"roll_gap\": {}. "
+                                            "Give 0.",
+                                            key, s.text(key), why));
+}
+
+const char *const kSpeeds[] = {"platen.speed_m_s", "platen.touch_speed_m_s",
+                               "platen.release_speed_m_s"};
+
+/// The key of the platen's highest speed.
+std::string highest_speed(const Settings &s) {
+  return *std::max_element(std::begin(kSpeeds), std::end(kSpeeds),
+                           [&](const char *a, const char *b) { return s.number(a) < s.number(b); });
+}
+
+void check_window(const Settings &s, Mistakes &mistakes) {
+  const std::string key = "numerics.average_us";
+  if (!s.sound({key, kSpeeds[0], kSpeeds[1], kSpeeds[2]}))
+    return;
+  const std::string speed = highest_speed(s);
+  const double travel = s.number(key) * s.number(speed);
+  if (travel > kAverageTravel * (1.0 + 1e-9))
+    mistakes.add(s.line(key),
+                 fmt::format("{} is {}: in that time the platen moves {:.3g} um at {} = {} m/s, at "
+                             "most {} um is allowed, or pressure and gap are averaged over a bend "
+                             "of the curve. Give at most {:.3g} us, or 0, which is just that; or "
+                             "lower the speed.",
+                             key, s.text(key), travel, speed, s.text(speed), kAverageTravel,
+                             kAverageTravel / s.number(speed)));
+}
+
+} // namespace
+
+double averaging_window(const Settings &s) {
+  const double given = s.number("numerics.average_us");
+  return given > 0.0 ? given : kAverageTravel / s.number(highest_speed(s));
+}
+
+PressInstruments instruments_of(const Settings &s) {
+  PressInstruments press;
+  for (const Effect &e : effects())
+    if (e.shown)
+      press.*e.shown = s.number(e.parameter.keys.front());
+  return press;
+}
+
+void check_case(const Settings &s, Mistakes &mistakes) {
+  check_collapse(s, Phase::Am, Phase::Am, 0.1, mistakes);
+  check_collapse(s, Phase::Cbd, Phase::Cbd, 0.1, mistakes);
+  check_collapse(s, Phase::Am, Phase::Cbd, 0.2, mistakes);
+  for (const Effect &e : effects()) {
+    check_effect(s, e, mistakes);
+    for (const Effect &f : effects())
+      if (&e < &f)
+        check_one_law(s, e, f, mistakes);
+  }
+  check_target(s, mistakes);
+  check_roll(s, mistakes);
+  check_window(s, mistakes);
+}
+
+Settings read_case(const std::string &file) {
+  namespace fs = std::filesystem;
+  Mistakes mistakes(file);
+  Settings s = read_toml(file, FileKind::Case, case_keys(), mistakes);
+  check_case(s, mistakes);
+  mistakes.stop_if_any();
+  const fs::path electrode = s.text("electrode");
+  s.set("electrode",
+        (electrode.is_absolute() ? electrode : fs::absolute(file).parent_path() / electrode)
+            .lexically_normal()
+            .string());
+  return s;
+}
+
+} // namespace calendem

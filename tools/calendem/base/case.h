@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A calendering case (case.toml): what `calendem run` simulates. Its keys are the rows of
+// registry/settings.h.
+#ifndef CALENDEM_BASE_CASE_H
+#define CALENDEM_BASE_CASE_H
+
+#include "base/toml_reader.h"
+#include "registry/settings.h"
+
+namespace calendem {
+
+/// Most that the platen may move in the averaging window [um]: on release a tenth of a micrometre
+/// is little against the way on which the pressure falls.
+inline constexpr double kAverageTravel = 0.1;
+
+/// Window over which pressure and gap are averaged [us].
+double averaging_window(const Settings &settings);
+
+/// What the press shows [MPa, um].
+PressInstruments instruments_of(const Settings &settings);
+
+/// What the settings contradict, beyond what each key may hold.
+void check_case(const Settings &settings, Mistakes &mistakes);
+
+/// Throws Failure(2) with every mistake of the file. `electrode` is made absolute, relative to the
+/// file.
+Settings read_case(const std::string &file);
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A comma-separated table with a header line; lines that begin with '#' are comments,
+// a byte-order mark is skipped. Cells are kept as text, numbers are made on request (an empty or
+// unreadable cell is NaN). No quoting: none of the project's tables needs it.
+#ifndef CALENDEM_BASE_CSV_TABLE_H
+#define CALENDEM_BASE_CSV_TABLE_H
+
+#include <string>
+#include <vector>
+
+namespace calendem {
+
+class CsvTable {
+public:
+  /// Reads the table from `text`. Rows whose number of cells differs from the header's are not
+  /// kept; their line numbers (from 1) are in `bad_lines()`.
+  static CsvTable parse(const std::string &text);
+
+  bool has(const std::string &column) const;
+  std::vector<double> numbers(const std::string &column) const;
+  std::vector<std::string> texts(const std::string &column) const;
+  const std::vector<std::string> &header() const { return header_; }
+  std::size_t rows() const { return rows_.size(); }
+  const std::vector<int> &bad_lines() const { return bad_lines_; }
+  int last_line() const { return last_line_; }
+
+private:
+  int index_of(const std::string &column) const;
+
+  std::vector<std::string> header_;
+  std::vector<std::vector<std::string>> rows_;
+  std::vector<int> bad_lines_;
+  int last_line_ = 0;
+};
+
+} // namespace calendem
+
+#endif

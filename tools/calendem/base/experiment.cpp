@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/experiment.h"
+#include "base/csv_table.h"
+#include "base/experiment_keys.h"
+#include "physics/pi.h"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+
+namespace calendem {
+
+double sample_area_cm2(const Experiment &e) {
+  return kPi / 400.0 * e.sample_diameter_mm * e.sample_diameter_mm;
+}
+
+double foil_mg_cm2(const Experiment &e) {
+  return 0.1 * e.foil_thickness_um * e.foil_density_g_cm3; // um g/cm3 -> mg/cm2
+}
+
+double coating_thickness_um(const Experiment &e, const Measured &thickness) {
+  return thickness.value - (thickness.includes_foil ? e.foil_thickness_um : 0.0);
+}
+
+double coating_loading_mg_cm2(const Experiment &e, const Measured &mass) {
+  return mass.value / sample_area_cm2(e) - (mass.includes_foil ? foil_mg_cm2(e) : 0.0);
+}
+
+double solid_thickness_um(const Experiment &e, double loading_mg_cm2) {
+  return 10.0 * loading_mg_cm2 *
+         (e.recipe.am_weight / e.recipe.am_density +
+          (1.0 - e.recipe.am_weight) / e.recipe.cbd_solid_density);
+}
+
+const std::vector<Key> &head_keys() {
+  static const std::vector<Key> keys = {
+      {"name", "", "", 0, 0, "", "a name for reports", "", true},
+      {"electrode", "", "", 0, 0, "", "recipe of the electrode before calendering", "", true},
+      {"sample_diameter_mm", "", "0", 1e-3, 1000, "mm", "of the punched disc"},
+      {"foil_thickness_um", "", "0", 1, 100, "um", "of the current collector"},
+      {"foil_density_g_cm3", "", "0", 0.5, 20, "g/cm3", "aluminium 2.70, copper 8.96"},
+      {"labels_pore", "", "0", -1e9, 1e9, "", "label of pores in the label images", "", false,
+       true},
+      {"labels_cbd", "", "-", -1e9, 1e9, "", "label of CBD in them; without: all is AM", "", false,
+       true},
+      {"labels_voxel_um", "", "0", 1e-3, 10, "um", "their voxel size, if not as they state"},
+  };
+  return keys;
+}
+
+const std::vector<Key> &condition_keys() {
+  static const std::vector<Key> keys = {
+      {"id", "", "", 0, 0, "", "name of the condition, as in split", "", true},
+      {"control", "", "", 0, 0, "", "what the calender was set to",
+       "pressure|displacement|thickness|roll_gap"},
+      {"curve", "", "-", 0, 0, "",
+       "CSV: displacement_um,pressure_MPa[,stage]; stage: loading, dwell, unloading", "", true},
+      {"labels_before", "", "-", 0, 0, "",
+       "label image before calendering, z from the collector up", "", true},
+      {"labels_after", "", "-", 0, 0, "", "label image after calendering", "", true},
+      {"dwell_s", "", "0", 0, 1e6, "s", "time at the target"},
+      {"curve_sd_um", "", "0", 0, 100, "um", "of the curve's displacements, independent"},
+  };
+  return keys;
+}
+
+const std::vector<Quantity> &quantities() {
+  static const std::vector<Quantity> list = {
+      {{"roll_gap_um", "", "-", 0, 1000, "um", "between the rolls"}, &Condition::roll_gap_um},
+      {{"displacement_um", "", "-", 0.01, 1000, "um", "of the platen, from first touch"},
+       &Condition::displacement_um},
+      {{"thickness_at_max_um", "", "-", 1, 1000, "um", "of the loaded coating, without foil"},
+       &Condition::thickness_at_max_um},
+      {{"max_pressure_MPa", "", "-", 0.1, 2000, "MPa", "at the maximum"},
+       &Condition::max_pressure_MPa},
+      {{"loading_mg_cm2", "", "-", 0.5, 100, "mg/cm2", "of this sample, without foil"},
+       &Condition::loading_mg_cm2},
+      {{"porosity_before_percent", "", "-", 1, 90, "%", "total, of this sample, not pressed yet"},
+       &Condition::porosity_before_percent},
+      {{"porosity_after_percent", "", "-", 1, 90, "%", "total, after calendering"},
+       &Condition::porosity_after_percent},
+      {{"thickness_after_um", "", "-", 1, 1000, "um", "after calendering"},
+       &Condition::thickness_after_um},
+      {{"mass_mg", "", "-", 0.01, 1e5, "mg", "of the sample"}, &Condition::mass_mg},
+      {{"cracked_bodies_fraction", "", "-", 0, 1, "fraction", "of secondary particles"},
+       &Condition::cracked_bodies_fraction},
+  };
+  return list;
+}
+
+std::string list_of_experiment_keys() {
+  std::string text = "Keys of an experiment file: name, unit, range, meaning\n";
+  const auto rows = [&](const char *table, const std::vector<Key> &keys) {
+    text += fmt::format(" {}\n", table);
+    for (const Key &k : keys)
+      text += fmt::format("  {:<26} {:<8} {:<14} {}\n", k.name, k.unit,
+                          k.text || !k.choices.empty() ? "text"
+                                                       : fmt::format("{:g}..{:g}", k.low, k.high),
+                          k.choices.empty() ? k.meaning : k.choices);
+  };
+  rows("[experiment]", head_keys());
+  text += "  split                                      { train = [ids], test = [ids] }\n";
+  rows("[[condition]]", condition_keys());
+  std::vector<Key> measured;
+  for (const Quantity &q : quantities())
+    measured.push_back(q.key);
+  rows(
+      "[[condition]], a number or { value, sd } or { value, sd_relative }; mass and thickness also "
+      "includes_foil (default: a mass does, a thickness does not)",
+      measured);
+  return text;
+}
+
+void check_foil(const Experiment &e, const Condition &c, const std::string &who, int line,
+                Mistakes &mistakes) {
+  const bool on_thickness = c.thickness_after_um && c.thickness_after_um->includes_foil;
+  const bool on_mass = c.mass_mg && c.mass_mg->includes_foil;
+  std::vector<std::string> missing;
+  if (c.mass_mg && e.sample_diameter_mm == 0.0)
+    missing.push_back("sample_diameter_mm");
+  if ((on_thickness || on_mass) && e.foil_thickness_um == 0.0)
+    missing.push_back("foil_thickness_um");
+  if (on_mass && e.foil_density_g_cm3 == 0.0)
+    missing.push_back("foil_density_g_cm3");
+  if (!missing.empty()) {
+    mistakes.add(line, fmt::format("{} gives a mass, or a thickness with foil: [experiment] must "
+                                   "have {}.",
+                                   who, fmt::join(missing, ", ")));
+    return;
+  }
+  if (on_thickness && coating_thickness_um(e, *c.thickness_after_um) <= 0.0)
+    mistakes.add(line, fmt::format("{}: thickness_after_um = {} includes a foil of {} um: nothing "
+                                   "is left for the coating.",
+                                   who, c.thickness_after_um->value, e.foil_thickness_um));
+  if (on_mass && coating_loading_mg_cm2(e, *c.mass_mg) <= 0.0)
+    mistakes.add(line, fmt::format("{}: mass_mg = {} is less than that of the foil ({:.2f} mg).",
+                                   who, c.mass_mg->value, foil_mg_cm2(e) * sample_area_cm2(e)));
+}
+
+namespace {
+
+/// Columns and numbers; false if the rest cannot be checked.
+bool check_columns(const std::string &path, const CsvTable &table, int line, Mistakes &mistakes) {
+  const int before = mistakes.count();
+  const std::string first = fmt::format("{}", fmt::join(table.header(), ","));
+  if (!table.has("displacement_um") && first.find_first_of(";\t") != std::string::npos) {
+    mistakes.add(line, fmt::format("'{}': its first line is '{}'. Columns are separated by commas, "
+                                   "decimals by points: save it as CSV with these.",
+                                   path, first));
+    return false;
+  }
+  for (const char *column : {"displacement_um", "pressure_MPa"}) {
+    if (!table.has(column)) {
+      mistakes.add(
+          line, fmt::format("'{}' has no column '{}' in its first line: {}", path, column, first));
+      continue;
+    }
+    const std::vector<double> values = table.numbers(column);
+    const auto wrong =
+        std::find_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
+    if (wrong != values.end())
+      mistakes.add(line, fmt::format("'{}': {} of row {} is no finite number. Correct the row or "
+                                     "take it out.",
+                                     path, column, wrong - values.begin() + 1));
+  }
+  if (!table.bad_lines().empty())
+    mistakes.add(line, fmt::format("'{}': line {} has another number of columns than the first "
+                                   "line. Correct the line, or copy the file again if it is cut.",
+                                   path, table.bad_lines().front()));
+  if (table.rows() < 2)
+    mistakes.add(line, fmt::format("'{}' has {} rows below its first line; a curve has at least 2.",
+                                   path, table.rows()));
+  return mistakes.count() == before;
+}
+
+void check_stages(const std::string &path, const CsvTable &table, int line, Mistakes &mistakes) {
+  const std::vector<std::string> known = {"loading",   "compression", "dwell",
+                                          "unloading", "relaxation",  "hold"};
+  const std::vector<std::string> stages = table.texts("stage");
+  const auto wrong = std::find_if(stages.begin(), stages.end(), [&](const std::string &s) {
+    return std::find(known.begin(), known.end(), s) == known.end();
+  });
+  const bool loads = std::any_of(stages.begin(), stages.end(), [](const std::string &s) {
+    return s == "loading" || s == "compression";
+  });
+  if (wrong != stages.end())
+    mistakes.add(line, fmt::format("'{}': stage of row {} is '{}'; allowed are {}.", path,
+                                   wrong - stages.begin() + 1, *wrong, fmt::join(known, ", ")));
+  else if (!stages.empty() && !loads)
+    mistakes.add(
+        line, fmt::format("'{}': no row has the stage loading: only loading is compared.", path));
+}
+
+/// A curve in another unit is off by a power of ten: far beyond what the rest of the file allows.
+void check_units(const std::string &path, const CsvTable &table, const Experiment &e,
+                 const Condition &c, int line, Mistakes &mistakes) {
+  constexpr double kOff = 3.0;        // factor between the curve's largest pressure and the stated
+  constexpr double kLeastWay = 0.005; // of the film's thickness
+  const auto largest = [&](const char *column) {
+    const std::vector<double> v = table.numbers(column);
+    return *std::max_element(v.begin(), v.end());
+  };
+  const double p = largest("pressure_MPa"), d = largest("displacement_um");
+  if (c.max_pressure_MPa &&
+      (p > kOff * c.max_pressure_MPa->value || p * kOff < c.max_pressure_MPa->value))
+    mistakes.add(line, fmt::format("'{}': pressure_MPa goes to {:g}, max_pressure_MPa is {:g}. Is "
+                                   "the column in MPa, and the curve this condition's?",
+                                   path, p, c.max_pressure_MPa->value));
+  if (e.recipe.file.empty()) // it has mistakes of its own
+    return;
+  const double film = e.recipe.thickness();
+  if (d >= film || d < kLeastWay * film)
+    mistakes.add(line,
+                 fmt::format("'{}': displacement_um goes to {:g}; the film of the recipe is "
+                             "{:.1f} um thick. Is the column in um, counted from first touch?",
+                             path, d, film));
+}
+
+} // namespace
+
+void check_curve(const Experiment &e, const Condition &c, int line, Mistakes &mistakes) {
+  std::ifstream in(c.curve, std::ios::binary);
+  const auto table =
+      CsvTable::parse({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+  if (!check_columns(c.curve, table, line, mistakes))
+    return;
+  check_stages(c.curve, table, line, mistakes);
+  check_units(c.curve, table, e, c, line, mistakes);
+}
+
+} // namespace calendem

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// An experiment file: what was measured on a calendered electrode, with its uncertainty, and how it
+// was calendered. Keys, units and ranges are the tables of experiment_keys.cpp, shown by `calendem
+// validate --help`; experiment_reader.cpp reads the file, experiment_checks.cpp what hangs together
+// in it.
+#ifndef CALENDEM_BASE_EXPERIMENT_H
+#define CALENDEM_BASE_EXPERIMENT_H
+
+#include "base/recipe.h"
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace calendem {
+
+/// A measured value. In the file a number, or { value, sd } or { value, sd_relative }.
+struct Measured {
+  double value = 0.0;
+  double sd = 0.0; ///< standard deviation in the unit of the value; 0: not given
+  bool includes_foil =
+      false; ///< mass and thickness only; default: a mass does, a thickness does not
+};
+
+/// One pressed sample. Units are in the names; fractions 0-1.
+struct Condition {
+  std::string id;
+  std::string control; ///< pressure, displacement, thickness or roll_gap
+  std::optional<Measured> roll_gap_um, displacement_um, thickness_at_max_um, max_pressure_MPa,
+      loading_mg_cm2, porosity_before_percent, porosity_after_percent, thickness_after_um, mass_mg,
+      cracked_bodies_fraction;
+  std::string curve;                       ///< absolute path of a CSV file, empty if none
+  double curve_sd_um = 0.0;                ///< of each displacement of the curve; 0: not given
+  std::string labels_before, labels_after; ///< absolute paths of label images, or empty
+  double dwell_s = 0.0;
+};
+
+struct Experiment {
+  std::string name;
+  std::string electrode; ///< absolute path of the recipe
+  Recipe recipe;
+  double sample_diameter_mm = 0.0; ///< 0: not given; so are the foil's
+  double foil_thickness_um = 0.0;
+  double foil_density_g_cm3 = 0.0;
+  int labels_pore = 0;           ///< label of the pores in the label images
+  std::optional<int> labels_cbd; ///< none: the images show no CBD
+  double labels_voxel_um = 0.0;  ///< 0: as the images state
+  std::vector<Condition> conditions;
+  std::vector<std::string> train, test; ///< ids
+};
+
+/// Throws Failure(2) with every mistake of the file and of the recipe that it names.
+Experiment read_experiment(const std::string &file);
+
+/// Of the coating alone, from a thickness or a mass that may include the foil.
+double coating_thickness_um(const Experiment &e, const Measured &thickness);
+double coating_loading_mg_cm2(const Experiment &e, const Measured &mass);
+/// Of the coating without pores, with the recipe's composition and densities.
+double solid_thickness_um(const Experiment &e, double loading_mg_cm2);
+
+double sample_area_cm2(const Experiment &e);
+double foil_mg_cm2(const Experiment &e);
+
+/// Every key with unit, range and meaning, for --help.
+std::string list_of_experiment_keys();
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/experiment_keys.h"
+#include "base/table_reader.h"
+#include "base/toml_file.h"
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace calendem {
+namespace fs = std::filesystem;
+namespace {
+
+/// Reads one file; every message goes to `mistakes`.
+class ExperimentReader : TableReader {
+public:
+  using TableReader::TableReader;
+
+  Experiment read(const TomlFile &file) {
+    tell_unknown(file.root, {"experiment", "condition"});
+    const toml::table *head = file.root["experiment"].as_table();
+    if (head)
+      read_head(*head);
+    else if (whole_)
+      mistakes_.add(0, "there is no table [experiment].");
+    const toml::array *list = file.root["condition"].as_array();
+    if (!list || list->empty())
+      mistakes_.add(0, "there is no [[condition]]: an experiment needs at least one.");
+    else
+      for (const toml::node &node : *list)
+        read_condition(node);
+    if (head && list)
+      read_split(*head);
+    return e_;
+  }
+
+private:
+  Experiment e_;
+
+  /// Absolute path of a file that must exist; empty if it is not given.
+  std::string existing(const toml::table &t, const Key &key) {
+    const std::string path = this->path(t, key);
+    if (path.empty())
+      return "";
+    const std::string name = **t.get(key.name)->as_string();
+    std::error_code none;
+    const bool image = key.name.rfind("labels_", 0) == 0;
+    if (image && path.find('%') != std::string::npos) // slices: who reads them looks for them
+      return path;
+    if (!fs::exists(path, none))
+      mistakes_.add(line_of(*t.get(key.name)),
+                    fmt::format("{} = \"{}\": there is no file '{}'. Paths are relative to this "
+                                "file.",
+                                key.name, name, path));
+    else if (fs::is_directory(path, none))
+      mistakes_.add(line_of(*t.get(key.name)),
+                    fmt::format("{} = \"{}\" is a folder; a file is wanted.", key.name, name));
+    else
+      return path;
+    return "";
+  }
+
+  void read_head(const toml::table &head) {
+    std::vector<std::string> known = {"split"};
+    for (const Key &key : head_keys())
+      known.push_back(key.name);
+    tell_unknown(head, known, "experiment.");
+    e_.name = text(head, head_keys()[0]);
+    e_.electrode = existing(head, head_keys()[1]);
+    e_.sample_diameter_mm = number(head, head_keys()[2]);
+    e_.foil_thickness_um = number(head, head_keys()[3]);
+    e_.foil_density_g_cm3 = number(head, head_keys()[4]);
+    e_.labels_pore = static_cast<int>(number(head, head_keys()[5]));
+    if (head.contains(head_keys()[6].name))
+      e_.labels_cbd = static_cast<int>(number(head, head_keys()[6]));
+    e_.labels_voxel_um = number(head, head_keys()[7]);
+    if (e_.labels_cbd == e_.labels_pore)
+      mistakes_.add(line_of(*head.get("labels_cbd")),
+                    fmt::format("labels_cbd and labels_pore are both {}: the label of CBD is that "
+                                "of its voxels alone. Leave labels_cbd out if the images show no "
+                                "CBD.",
+                                e_.labels_pore));
+    if (!e_.electrode.empty())
+      try {
+        e_.recipe = read_recipe(e_.electrode);
+      } catch (const Failure &f) {
+        mistakes_.add(line_of(*head.get("electrode")),
+                      fmt::format("the recipe has mistakes of its own:\n{}", f.what()));
+      }
+  }
+
+  void read_condition(const toml::node &node) {
+    const toml::table *t = node.as_table();
+    if (!t) {
+      mistakes_.add(line_of(node), "write a condition as a table: [[condition]].");
+      return;
+    }
+    std::vector<std::string> known;
+    for (const Key &key : condition_keys())
+      known.push_back(key.name);
+    for (const Quantity &q : quantities())
+      known.push_back(q.key.name);
+    tell_unknown(*t, known, "condition.");
+    Condition c;
+    c.id = text(*t, condition_keys()[0]);
+    c.control = text(*t, condition_keys()[1]);
+    c.curve = existing(*t, condition_keys()[2]);
+    c.labels_before = existing(*t, condition_keys()[3]);
+    c.labels_after = existing(*t, condition_keys()[4]);
+    c.dwell_s = number(*t, condition_keys()[5]);
+    c.curve_sd_um = number(*t, condition_keys()[6]);
+    for (const Quantity &q : quantities())
+      if (const toml::node *value = t->get(q.key.name))
+        c.*(q.field) = measured(*value, q.key);
+    check_condition(c, *t);
+    e_.conditions.push_back(c);
+  }
+
+  std::optional<Measured> measured(const toml::node &node, const Key &key) {
+    Measured m;
+    m.includes_foil = key.name == "mass_mg";
+    const toml::table *t = node.as_table();
+    if (!t) {
+      const auto value = number(node, key);
+      m.value = value.value_or(0.0);
+      return value ? std::optional(m) : std::nullopt;
+    }
+    const bool has_foil = key.name == "mass_mg" || key.name == "thickness_after_um";
+    std::vector<std::string> known = {"value", "sd", "sd_relative"};
+    if (has_foil)
+      known.push_back("includes_foil");
+    tell_unknown(*t, known, key.name + ".");
+    if (const toml::node *foil = t->get("includes_foil"); foil && has_foil)
+      read_foil(*foil, key, m);
+    const toml::node *value = t->get("value");
+    if (!value) {
+      mistakes_.add(line_of(*t), fmt::format("{} has no 'value'.", key.name));
+      return std::nullopt;
+    }
+    const auto read = number(*value, key);
+    m.value = read.value_or(0.0);
+    const bool good = read_sd(*t, key, m);
+    return read && good ? std::optional(m) : std::nullopt;
+  }
+
+  void read_foil(const toml::node &node, const Key &key, Measured &m) {
+    if (node.is_boolean())
+      m.includes_foil = **node.as_boolean();
+    else
+      mistakes_.add(line_of(node), fmt::format("{}.includes_foil must be true or false, not {}.",
+                                               key.name, shown(node)));
+  }
+
+  bool read_sd(const toml::table &t, const Key &key, Measured &m) {
+    const toml::node *sd = t.get("sd"), *relative = t.get("sd_relative");
+    if (sd && relative) {
+      mistakes_.add(line_of(*sd), fmt::format("{} has both 'sd' and 'sd_relative'; give one of "
+                                              "them.",
+                                              key.name));
+      return false;
+    }
+    if (!sd && !relative)
+      return true;
+    const Key rule =
+        sd ? Key{key.name + ".sd", "", "", 0, key.high - key.low, key.unit, "standard deviation"}
+           : Key{key.name + ".sd_relative", "", "", 0, 1, "fraction", "sd over the value"};
+    const auto read = number(sd ? *sd : *relative, rule);
+    m.sd = read.value_or(0.0) * (sd ? 1.0 : std::fabs(m.value));
+    return read.has_value();
+  }
+
+  void check_condition(const Condition &c, const toml::table &t) {
+    const std::string who = c.id.empty() ? "this condition" : "condition \"" + c.id + "\"";
+    const auto needs = [&](bool there, const char *key) {
+      if (!there && whole_)
+        mistakes_.add(line_of(t),
+                      fmt::format("{} has control = \"{}\" but no {}.", who, c.control, key));
+    };
+    if (c.control == "pressure")
+      needs(t.contains("max_pressure_MPa"), "max_pressure_MPa");
+    if (c.control == "displacement")
+      needs(t.contains("displacement_um") || t.contains("curve"), "displacement_um and no curve");
+    if (c.control == "thickness")
+      needs(t.contains("thickness_at_max_um"), "thickness_at_max_um");
+    if (c.control == "roll_gap")
+      needs(t.contains("roll_gap_um"), "roll_gap_um");
+    check_foil(e_, c, who, line_of(t), mistakes_);
+    if (!c.curve.empty())
+      check_curve(e_, c, line_of(*t.get("curve")), mistakes_);
+    for (const Condition &other : e_.conditions)
+      if (!c.id.empty() && other.id == c.id)
+        mistakes_.add(line_of(t),
+                      fmt::format("the id \"{}\" is taken by another condition.", c.id));
+  }
+
+  void read_split(const toml::table &head) {
+    const toml::node *node = head.get("split");
+    if (!node)
+      return;
+    const toml::table *split = node->as_table();
+    if (!split) {
+      mistakes_.add(line_of(*node), "split must be { train = [\"id\"], test = [\"id\"] }.");
+      return;
+    }
+    for (const auto &[key, ids] : *split)
+      if (key.str() == "train" || key.str() == "test")
+        read_ids(ids, std::string(key.str()), key.str() == "train" ? e_.train : e_.test);
+      else
+        unknown("split." + std::string(key.str()), line_of(ids), {"train", "test"});
+    for (const std::string &id : e_.test)
+      if (std::find(e_.train.begin(), e_.train.end(), id) != e_.train.end())
+        mistakes_.add(line_of(*node),
+                      fmt::format("\"{}\" is in both train and test of split.", id));
+  }
+
+  void read_ids(const toml::node &node, const std::string &part, std::vector<std::string> &out) {
+    const toml::array *list = node.as_array();
+    if (!list) {
+      mistakes_.add(line_of(node), fmt::format("split.{} must be a list of ids in quotes, not {}.",
+                                               part, shown(node)));
+      return;
+    }
+    std::vector<std::string> known;
+    for (const Condition &c : e_.conditions)
+      if (!c.id.empty())
+        known.push_back(c.id);
+    for (const toml::node &id : *list)
+      if (!id.is_string())
+        mistakes_.add(line_of(id),
+                      fmt::format("split.{} holds {}; ids are texts in quotes.", part, shown(id)));
+      else if (std::find(known.begin(), known.end(), **id.as_string()) == known.end())
+        mistakes_.add(
+            line_of(id),
+            fmt::format("split.{} names \"{}\", which is no [[condition]]; there are: {}.", part,
+                        **id.as_string(), fmt::join(known, ", ")));
+      else
+        out.push_back(**id.as_string());
+  }
+};
+
+} // namespace
+
+Experiment read_experiment(const std::string &file) {
+  Mistakes mistakes(file);
+  const TomlFile parsed = parse_toml(file, FileKind::Experiment, mistakes);
+  Experiment e;
+  if (!parsed.root.empty())
+    e = ExperimentReader(file, parsed.whole, mistakes).read(parsed);
+  mistakes.stop_if_any();
+  return e;
+}
+
+} // namespace calendem

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/key.h"
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fmt/format.h>
+
+namespace calendem {
+namespace {
+
+// A value out of range that would be in range in another unit of the same kind.
+std::string unit_hint(const Key &key, double value) {
+  static const std::vector<std::pair<const char *, std::vector<std::pair<const char *, double>>>>
+      kinds = {{"GPa", {{"MPa", 1e3}, {"kPa", 1e6}, {"Pa", 1e9}}},
+               {"MPa", {{"Pa", 1e6}, {"kPa", 1e3}, {"GPa", 1e-3}}},
+               {"um", {{"mm", 1e-3}, {"nm", 1e3}, {"m", 1e-6}}},
+               {"mm", {{"um", 1e3}, {"cm", 0.1}, {"m", 1e-3}}},
+               {"us", {{"ms", 1e-3}, {"s", 1e-6}, {"ns", 1e3}}},
+               {"m/s", {{"mm/s", 1e3}, {"um/s", 1e6}}},
+               {"mg", {{"g", 1e-3}, {"ug", 1e3}}},
+               {"mg/cm2", {{"g/m2", 10.0}, {"g/cm2", 1e-3}, {"kg/m2", 1e-2}}},
+               {"g/cm3", {{"kg/m3", 1e3}}},
+               {"%", {{"a fraction", 1e-2}}},
+               {"fraction", {{"percent", 100.0}}}};
+  for (const auto &[unit, others] : kinds)
+    if (key.unit == unit)
+      for (const auto &[other, factor] : others)
+        if (value / factor >= key.low && value / factor <= key.high)
+          return fmt::format(" It looks like a value in {}; here it would be {:.6g} {}.", other,
+                             value / factor, unit);
+  return "";
+}
+
+std::string last_part(const std::string &name) { return name.substr(name.rfind('.') + 1); }
+
+} // namespace
+
+std::optional<std::string> wrong_number(const Key &key, double value) {
+  const std::string unit = key.unit.empty() ? "" : " " + key.unit;
+  if (!std::isfinite(value))
+    return fmt::format("{} is {}; it must be a finite number between {:.6g} and {:.6g}{}.",
+                       key.name, value, key.low, key.high, unit);
+  if (value < key.low || value > key.high)
+    return fmt::format("{} is {:.10g}; allowed is {:.6g} to {:.6g}{} ({}).{}", key.name, value,
+                       key.low, key.high, unit, key.meaning, unit_hint(key, value));
+  if (key.whole && value != std::floor(value))
+    return fmt::format("{} is {:.10g}; it must be a whole number ({}).", key.name, value,
+                       key.meaning);
+  return std::nullopt;
+}
+
+std::optional<std::string> wrong_text(const Key &key, const std::string &value) {
+  if (key.choices.empty())
+    return value.empty()
+               ? std::optional(fmt::format("{} is empty; give a text ({}).", key.name, key.meaning))
+               : std::nullopt;
+  std::vector<std::string> choices(1);
+  for (char c : key.choices)
+    if (c == '|')
+      choices.emplace_back();
+    else
+      choices.back() += c;
+  if (std::find(choices.begin(), choices.end(), value) != choices.end())
+    return std::nullopt;
+  return fmt::format("{} is \"{}\"; it must be one of {}. The closest is \"{}\".", key.name, value,
+                     key.choices, closest(value, choices));
+}
+
+bool wants_text(const Key &key) { return key.text || !key.choices.empty(); }
+
+std::optional<std::string> wrong_cell(const Key &key, const std::string &cell) {
+  if (wants_text(key))
+    return wrong_text(key, cell);
+  char *end = nullptr;
+  const double value = std::strtod(cell.c_str(), &end);
+  if (cell.empty() || *end != '\0')
+    return fmt::format("{} is '{}'; it must be a number ({}).", key.name, cell, key.meaning);
+  return wrong_number(key, value);
+}
+
+int edit_distance(const std::string &a, const std::string &b) {
+  std::vector<int> row(b.size() + 1);
+  for (size_t j = 0; j < row.size(); ++j)
+    row[j] = static_cast<int>(j);
+  for (size_t i = 1; i <= a.size(); ++i) {
+    int diagonal = row[0];
+    row[0] = static_cast<int>(i);
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const int up = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
+      diagonal = up;
+    }
+  }
+  return row[b.size()];
+}
+
+std::string closest(const std::string &word, const std::vector<std::string> &words) {
+  return *std::min_element(words.begin(), words.end(),
+                           [&](const std::string &a, const std::string &b) {
+                             return edit_distance(word, a) < edit_distance(word, b);
+                           });
+}
+
+std::string likely_meant(const std::string &name, const std::vector<Key> &keys) {
+  const std::string last = last_part(name);
+  std::vector<std::string> same, all;
+  for (const Key &key : keys) {
+    if (last_part(key.name) == last || key.variable == last)
+      same.push_back(key.name);
+    all.push_back(key.name);
+  }
+  return closest(name, same.empty() ? all : same);
+}
+
+} // namespace calendem

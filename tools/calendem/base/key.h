@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The messages when a key of a TOML file holds what it may not.
+#ifndef CALENDEM_BASE_KEY_H
+#define CALENDEM_BASE_KEY_H
+
+#include "registry/key.h"
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace calendem {
+
+/// What is wrong with a number or text for this key; nothing if it is good.
+std::optional<std::string> wrong_number(const Key &key, double value);
+std::optional<std::string> wrong_text(const Key &key, const std::string &value);
+
+/// What is wrong with a value that stands in a file without types (CSV).
+std::optional<std::string> wrong_cell(const Key &key, const std::string &cell);
+/// The key holds a text, not a number.
+bool wants_text(const Key &key);
+
+/// The word of `words` that is the fewest typing errors away from `word`; `words` is not empty.
+std::string closest(const std::string &word, const std::vector<std::string> &words);
+int edit_distance(const std::string &a, const std::string &b);
+
+/// The key that a user who wrote `name` most likely meant: the same last part in another table, the
+/// input scripts' name of it, else the closest spelling.
+std::string likely_meant(const std::string &name, const std::vector<Key> &keys);
+
+} // namespace calendem
+
+#endif

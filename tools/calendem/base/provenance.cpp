@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/provenance.h"
+#include "base/messages.h"
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <unistd.h>
+#include <vector>
+
+namespace calendem {
+
+namespace fs = std::filesystem;
+
+std::string hash_of_text(const std::string &text) {
+  std::uint64_t h = 0xcbf29ce484222325ULL;
+  for (unsigned char c : text)
+    h = (h ^ c) * 0x100000001b3ULL;
+  return fmt::format("{:016x}", h);
+}
+
+std::string text_of_file(const std::string &file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::string hash_of_file(const std::string &file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in)
+    return "";
+  return hash_of_text({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+}
+
+bool made_of(const std::string &json_file, const std::string &identity) {
+  std::ifstream in(json_file);
+  const nlohmann::json old = nlohmann::json::parse(in, nullptr, false);
+  return old.is_object() && old.value("identity", "") == identity;
+}
+
+std::string hash_of_folder(const std::string &folder) {
+  std::vector<std::string> files;
+  std::error_code error;
+  for (const auto &entry : fs::recursive_directory_iterator(folder, error))
+    if (entry.is_regular_file())
+      files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  std::string text;
+  for (const std::string &file : files)
+    text += fs::path(file).lexically_relative(folder).string() + " " + hash_of_file(file) + "\n";
+  return hash_of_text(text);
+}
+
+std::string version() { return CALENDEM_VERSION; }
+
+namespace {
+fs::path program_folder() {
+  std::error_code error;
+  return fs::read_symlink("/proc/self/exe", error).parent_path();
+}
+} // namespace
+
+std::string input_scripts() {
+  return fs::weakly_canonical(program_folder() / "../share/calendem/input_scripts").string();
+}
+
+std::string liggghts_program() {
+  const fs::path installed = program_folder() / "liggghts-calendem";
+  return (fs::exists(installed) ? installed : program_folder() / "liggghts").string();
+}
+
+void write_file(const std::string &name, const std::string &content) {
+  // Of this process: tasks of a cluster may write the same file at the same time.
+  static const unsigned host = std::random_device{}(); // pids of two machines may be the same
+  const std::string part = fmt::format("{}.{}-{:08x}.part", name, getpid(), host);
+  std::ofstream out(part, std::ios::binary);
+  out << content;
+  out.close();
+  std::error_code error;
+  if (out)
+    fs::rename(part, name, error);
+  if (!out || error) {
+    std::error_code none;
+    fs::remove(part, none);
+    throw Failure(kBadInput, fmt::format("cannot write '{}'. Is the disk full or the folder "
+                                         "read-only? What was there before is kept.",
+                                         name));
+  }
+}
+
+std::uintmax_t room_on_disk(const std::string &folder) {
+  std::error_code error;
+  const auto space = fs::space(folder, error);
+  return error ? UINTMAX_MAX : space.available;
+}
+
+void make_output_folder(const std::string &folder, std::uintmax_t room) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error && access(folder.c_str(), W_OK) != 0)
+    error = std::error_code(errno, std::generic_category());
+  if (error)
+    throw Failure(kBadInput, fmt::format("cannot write into the folder '{}': {}. Give a folder "
+                                         "that you may write to with -o.",
+                                         folder, error.message()));
+  if (room_on_disk(folder) < room)
+    throw Failure(kBadInput, fmt::format("the disk of '{}' has {:.1f} MB left; this run needs at "
+                                         "least {:.1f} MB. Make room or give another folder with "
+                                         "-o.",
+                                         folder, 1e-6 * room_on_disk(folder), 1e-6 * room));
+}
+
+} // namespace calendem

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Where a result comes from (version, inputs, seeds), and the files and folders it goes into.
+#ifndef CALENDEM_BASE_PROVENANCE_H
+#define CALENDEM_BASE_PROVENANCE_H
+
+#include <cstdint>
+#include <string>
+
+namespace calendem {
+
+/// 64-bit FNV-1a of a file's bytes as 16 hex digits; empty if it cannot be read.
+std::string hash_of_file(const std::string &file);
+std::string hash_of_text(const std::string &text);
+
+/// Of all files below `folder`, by name and bytes, in the order of their names.
+std::string hash_of_folder(const std::string &folder);
+
+/// True if that JSON file exists and its "identity" is this one.
+bool made_of(const std::string &json_file, const std::string &identity);
+
+std::string version();
+
+/// ../share/calendem/input_scripts, seen from this program's folder.
+std::string input_scripts();
+/// The LIGGGHTS program beside this one: liggghts-calendem where installed, else liggghts.
+std::string liggghts_program();
+
+/// The file's bytes; empty if it cannot be read.
+std::string text_of_file(const std::string &file);
+
+/// Writes via a file of this process beside it that is renamed when complete, so that several may
+/// write it at once; throws Failure(2) on a full disk.
+void write_file(const std::string &name, const std::string &content);
+
+/// Bytes left on the disk of `folder`; the largest number if that cannot be found out.
+std::uintmax_t room_on_disk(const std::string &folder);
+
+/// Makes the folder of -o. Throws Failure(2) if it cannot be written or its disk has less than
+/// `room` bytes left.
+void make_output_folder(const std::string &folder, std::uintmax_t room = 0);
+
+} // namespace calendem
+
+#endif

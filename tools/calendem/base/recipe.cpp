@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/recipe.h"
+#include "registry/effects.h"
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace calendem {
+
+namespace {
+
+const char *const kGradient = "effects.cbd_gradient.slope";
+
+std::vector<Key> own_keys() {
+  return {
+      {"name", "", "electrode", 0, 0, "", "a name for reports", "", true},
+      {"seed", "", "1", 0, 4e9, "", "of all random numbers", "", false, true},
+      {"composition.am_weight_percent", "", "96", 50, 100, "%",
+       "active material in the dry coating"},
+      {"composition.carbon_weight_percent", "", "2", 0, 50, "%", "carbon black"},
+      {"composition.binder_weight_percent", "", "2", 0, 50, "%", "binder"},
+      {"density.am_g_cm3", "", "4.65", 0.5, 20, "g/cm3", "true density of the active material"},
+      {"density.cbd_solid_g_cm3", "", "1.83", 0.5, 5, "g/cm3", "dense carbon and binder"},
+      {"coating.loading_mg_cm2", "", "17.46", 0.5, 100, "mg/cm2", "dry coating without foil"},
+      {"coating.porosity_total_percent", "", "47.97", 20, 80, "%", "before calendering"},
+      {"particles.median_um", "", "4.35", 1, 50, "um", "by number, of secondary particles"},
+      {"particles.sigma_ln", "", "0.487", 0.01, 1, "", "of the lognormal size distribution"},
+      {"particles.min_um", "", "1.3", 0.5, 50, "um", "smallest secondary particle"},
+      {"particles.max_um", "", "16.2", 1, 100, "um", "largest secondary particle"},
+      {"particles.max_width_fraction", "", "0.7", 0.1, 0.7, "", "of the shortest periodic side"},
+      {"particles.irregularity", "", "0.1", 0, 0.3, "", "rms of the surface's radius"},
+      {"particles.primary_diameter_um", "", "1.59", 0.1, 10, "um", "sphere of the lattice"},
+      {"particles.lattice_um", "", "1.28", 0.1, 10, "um", "spacing of the cubic lattice"},
+      {"cbd.nanoporosity_percent", "", "50", 0, 80, "%", "pores inside a CBD sphere"},
+      {"cbd.diameter_um", "", "1.316", 0.1, 10, "um", "of a CBD sphere"},
+      {"cell.x_um", "", "15", 5, 1000, "um", "periodic side"},
+      {"cell.y_um", "", "15", 5, 1000, "um", "periodic side"},
+      {"shapes.image", "", "none", 0, 0, "", "label image whose particles give the shapes", "",
+       true},
+      {"shapes.library", "", "none", 0, 0, "", "folder of shapes made from an image before", "",
+       true},
+      {"shapes.voxel_size_um", "", "0", 0, 10, "um", "of the image; 0: from the file"},
+      {"shapes.background", "", "0", -2147483647, 2147483647, "", "label that is no particle", "",
+       false, true},
+      {"shapes.sizes", "", "measured", 0, 0, "", "whose size distribution the bodies have",
+       "measured|recipe"},
+  };
+}
+
+} // namespace
+
+const std::vector<Key> &recipe_keys() {
+  static const std::vector<Key> keys = [] {
+    std::vector<Key> all = own_keys();
+    add_settings_of_effects(true, all);
+    all.insert(all.end(), structure_keys().begin(), structure_keys().end());
+    return all;
+  }();
+  return keys;
+}
+
+double Recipe::am_column() const { return 10.0 * loading * am_weight / am_density; }
+double Recipe::cbd_solid_column() const {
+  return 10.0 * loading * (1.0 - am_weight) / cbd_solid_density;
+}
+double Recipe::thickness() const {
+  return (am_column() + cbd_solid_column()) / (1.0 - porosity_total);
+}
+double Recipe::widest_body() const { return max_width_fraction * std::min(cell_x, cell_y); }
+double Recipe::largest_body() const {
+  return std::min(max_diameter, (widest_body() - primary_diameter) / (1.0 + 0.5 * irregularity));
+}
+
+namespace {
+
+void check_composition(const Settings &s, Mistakes &mistakes) {
+  const std::string at = "composition.", per = "_weight_percent";
+  if (!s.sound({at + "am" + per, at + "carbon" + per, at + "binder" + per}))
+    return;
+  const double am = s.number(at + "am" + per), carbon = s.number(at + "carbon" + per),
+               binder = s.number(at + "binder" + per), sum = am + carbon + binder;
+  if (std::fabs(sum - 100.0) <= 0.01)
+    return;
+  const bool fractions = std::fabs(am + 100.0 * (carbon + binder) - 100.0) <= 0.01;
+  mistakes.add(s.line(at + "am" + per),
+               fmt::format("[composition] adds up to {:.6g} % (active material {:.6g}, carbon "
+                           "{:.6g}, binder {:.6g}); it must be 100 %.{}",
+                           sum, am, carbon, binder,
+                           fractions ? " Carbon and binder look like fractions." : ""));
+}
+
+void check_spheres(const Settings &s, const Recipe &r, Mistakes &mistakes) {
+  const double nano = s.number("cbd.nanoporosity_percent");
+  if (s.sound({"cbd.nanoporosity_percent"}) && nano > 0.0 && nano < 1.0)
+    mistakes.add(s.line("cbd.nanoporosity_percent"),
+                 fmt::format("cbd.nanoporosity_percent is {}, which looks like a fraction; give "
+                             "{:.4g} for {} of the sphere's volume, or 0.",
+                             nano, 100.0 * nano, nano));
+  if (s.sound({"particles.lattice_um", "particles.primary_diameter_um"}) &&
+      (r.lattice >= r.primary_diameter || r.primary_diameter >= std::sqrt(2.0) * r.lattice))
+    mistakes.add(
+        s.line("particles.primary_diameter_um"),
+        fmt::format("particles.primary_diameter_um = {} must lie between 1 and 1.414 times "
+                    "lattice_um = {}, so that primaries touch along the lattice's axes "
+                    "only.",
+                    r.primary_diameter, r.lattice));
+}
+
+void check_cell(const Settings &s, const Recipe &r, Mistakes &mistakes) {
+  if (!s.sound({"cell.x_um", "cell.y_um", "particles.primary_diameter_um", "cbd.diameter_um"}))
+    return;
+  const double side = std::min(r.cell_x, r.cell_y);
+  const double cut_off = neighbour_cut_off(std::max(r.primary_diameter, r.cbd_diameter));
+  const int line = s.line(r.cell_x <= r.cell_y ? "cell.x_um" : "cell.y_um");
+  if (side < 2.0 * cut_off)
+    mistakes.add(line, fmt::format("a periodic side of {} um is shorter than two cut-offs ({:.2f} "
+                                   "um): a particle would touch two images of another. Make the "
+                                   "cell larger.",
+                                   side, 2.0 * cut_off));
+  if (s.sound({"particles.min_um", "particles.max_um", "particles.max_width_fraction"}) &&
+      r.min_diameter >= r.largest_body())
+    mistakes.add(
+        line, fmt::format("no particle fits: the smallest is {} um, the largest that this cell "
+                          "allows {:.4g} um. Make the cell larger, lower particles.min_um or raise "
+                          "particles.max_um.",
+                          r.min_diameter, r.largest_body()));
+}
+
+} // namespace
+
+ShapeSource read_shapes(const Settings &s, const std::string &file, Mistakes &mistakes) {
+  namespace fs = std::filesystem;
+  ShapeSource out;
+  out.image = path_of(s, "shapes.image", file);
+  out.library = path_of(s, "shapes.library", file);
+  out.voxel_um = s.number("shapes.voxel_size_um");
+  out.background = static_cast<std::int32_t>(s.number("shapes.background"));
+  out.measured_sizes = s.text("shapes.sizes") == "measured";
+  if (!out.image.empty() && !out.library.empty())
+    mistakes.add(s.line("shapes.library"),
+                 "[shapes] gives both an image and a library; give one of them.");
+  if (!out.image.empty() && out.image.find('%') == std::string::npos &&
+      !fs::is_regular_file(out.image))
+    mistakes.add(s.line("shapes.image"),
+                 fmt::format("shapes.image '{}' is not there. Give the path of a label image, "
+                             "relative to this file.",
+                             out.image));
+  if (!out.library.empty() && !fs::is_directory(out.library))
+    mistakes.add(s.line("shapes.library"),
+                 fmt::format("shapes.library '{}' is not there. Give the folder, relative to "
+                             "this file.",
+                             out.library));
+  return out;
+}
+
+Recipe recipe_of(const Settings &s) {
+  Recipe r;
+  r.settings = s;
+  r.am_weight = s.number("composition.am_weight_percent") / 100.0;
+  r.am_density = s.number("density.am_g_cm3");
+  r.cbd_solid_density = s.number("density.cbd_solid_g_cm3");
+  r.loading = s.number("coating.loading_mg_cm2");
+  r.porosity_total = s.number("coating.porosity_total_percent") / 100.0;
+  r.median = s.number("particles.median_um");
+  r.sigma_ln = s.number("particles.sigma_ln");
+  r.min_diameter = s.number("particles.min_um");
+  r.max_diameter = s.number("particles.max_um");
+  r.max_width_fraction = s.number("particles.max_width_fraction");
+  r.irregularity = s.number("particles.irregularity");
+  r.primary_diameter = s.number("particles.primary_diameter_um");
+  r.lattice = s.number("particles.lattice_um");
+  r.nanoporosity = s.number("cbd.nanoporosity_percent") / 100.0;
+  r.cbd_diameter = s.number("cbd.diameter_um");
+  r.cbd_gradient.slope = s.number(kGradient);
+  r.cell_x = s.number("cell.x_um");
+  r.cell_y = s.number("cell.y_um");
+  r.seed = static_cast<unsigned long>(s.number("seed"));
+  return r;
+}
+
+void check_recipe(const Settings &s, const Recipe &r, Mistakes &mistakes) {
+  check_composition(s, mistakes);
+  check_spheres(s, r, mistakes);
+  check_cell(s, r, mistakes);
+  if (r.structure.given() && r.cbd_gradient.slope != 0.0)
+    mistakes.add(s.line(kGradient),
+                 fmt::format("{} is {}, but the structure has its carbon-binder where it is. Give "
+                             "0, or leave it out.",
+                             kGradient, s.text(kGradient)));
+}
+
+double neighbour_cut_off(double diameter) { return 1.1 * diameter + 0.25; }
+
+int most_ranks(double lx, double ly, double diameter) {
+  const double cut_off = neighbour_cut_off(diameter);
+  return std::max(1, int(lx / cut_off)) * std::max(1, int(ly / cut_off));
+}
+
+Recipe read_recipe(const std::string &file) {
+  Mistakes mistakes(file);
+  const Settings s = read_toml(file, FileKind::Recipe, recipe_keys(), mistakes);
+  Recipe r = recipe_of(s);
+  r.file = file;
+  r.shapes = read_shapes(s, file, mistakes);
+  r.structure = read_structure_source(s, file, mistakes);
+  check_recipe(s, r, mistakes);
+  mistakes.stop_if_any();
+  return r;
+}
+
+std::vector<std::string> other_electrode(const std::map<std::string, std::string> &wanted,
+                                         const std::map<std::string, std::string> &recipe) {
+  constexpr double kSame = 0.02;
+  std::vector<std::string> out;
+  for (const auto *one : {&wanted, &recipe})
+    if (const auto file = one->find("structure.file"); file != one->end() && file->second != "none")
+      return out;
+  for (const char *key :
+       {"composition.am_weight_percent", "composition.carbon_weight_percent",
+        "composition.binder_weight_percent", "density.am_g_cm3", "density.cbd_solid_g_cm3",
+        "coating.porosity_total_percent", "particles.median_um", "particles.sigma_ln",
+        "cbd.nanoporosity_percent", "cbd.diameter_um"}) {
+    const auto a = wanted.find(key), b = recipe.find(key);
+    if (a == wanted.end() || b == recipe.end())
+      continue;
+    const double x = std::stod(a->second), y = std::stod(b->second);
+    if (std::fabs(x - y) > kSame * std::max(std::fabs(x), std::fabs(y)))
+      out.push_back(fmt::format("{}: {} instead of {}", key, b->second, a->second));
+  }
+  return out;
+}
+
+} // namespace calendem

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The recipe of an electrode (electrode.toml): what `calendem pack` makes.
+#ifndef CALENDEM_BASE_RECIPE_H
+#define CALENDEM_BASE_RECIPE_H
+
+#include "base/structure_source.h"
+#include "physics/cbd_gradient.h"
+#include <cstdint>
+
+namespace calendem {
+
+const std::vector<Key> &recipe_keys();
+
+/// Where the outer shapes of bodies come from; both paths empty: generated.
+struct ShapeSource {
+  std::string image, library; ///< absolute
+  double voxel_um = 0.0;      ///< 0: from the image
+  std::int32_t background = 0;
+  bool measured_sizes = true; ///< else the recipe's lognormal law
+  bool given() const { return !image.empty() || !library.empty(); }
+};
+
+/// Lengths um, densities g/cm3 (= pg/um3), loading mg/cm2, fractions 0-1.
+struct Recipe {
+  std::string file;
+  Settings settings;
+  double am_weight, am_density, cbd_solid_density;
+  double loading, porosity_total;
+  double median, sigma_ln, min_diameter, max_diameter, max_width_fraction, irregularity;
+  double primary_diameter, lattice;
+  double nanoporosity, cbd_diameter;
+  CbdGradient cbd_gradient;
+  double cell_x, cell_y;
+  unsigned long seed;
+  ShapeSource shapes;
+  StructureSource structure;
+
+  double area() const { return cell_x * cell_y; }
+  double am_column() const;        ///< solid AM per area [um]
+  double cbd_solid_column() const; ///< solid carbon + binder per area [um]
+  double thickness() const;        ///< of the coating [um]
+  double widest_body() const;      ///< largest width of a body that the cell allows [um]
+  /// The largest equivalent diameter [um]: the distribution's, or that of a body within the width.
+  /// It is wider than its equivalent sphere by about a primary and, at the worst, by its
+  /// irregularity; the width itself is kept by drawing the shape again (make_bodies).
+  double largest_body() const;
+};
+
+/// Distance [um] up to which LIGGGHTS lists neighbours of the widest particle: contact distance
+/// factor 1.1 and the skin. A periodic side must be at least twice as long.
+double neighbour_cut_off(double diameter);
+/// Ranks that a cell can be shared by, each part at least a cut-off wide (z is not split).
+int most_ranks(double lx, double ly, double diameter);
+
+/// The [shapes] section; paths are relative to `file`.
+ShapeSource read_shapes(const Settings &settings, const std::string &file, Mistakes &mistakes);
+
+/// The recipe's numbers, without shapes and structure; what they contradict.
+Recipe recipe_of(const Settings &settings);
+void check_recipe(const Settings &settings, const Recipe &recipe, Mistakes &mistakes);
+
+/// Throws Failure(2) with every mistake of the file.
+Recipe read_recipe(const std::string &file);
+
+/// In what a recipe's settings make another electrode than `wanted`, by more than 2 %: composition,
+/// densities, porosity before calendering, sizes, CBD. "key: 2.2 instead of 4.65". Loading, cell
+/// and seed may differ. Empty where either takes its particles from a structure.
+std::vector<std::string> other_electrode(const std::map<std::string, std::string> &wanted,
+                                         const std::map<std::string, std::string> &recipe);
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/structure_source.h"
+#include <filesystem>
+#include <fmt/format.h>
+#include <sstream>
+
+namespace calendem {
+namespace fs = std::filesystem;
+namespace {
+
+// "1 2, 3" as numbers.
+std::set<int> types_of(const Settings &s, const std::string &key, Mistakes &mistakes) {
+  std::string text = s.text(key);
+  std::set<int> types;
+  if (text == "none" || !s.sound({key}))
+    return types;
+  for (char &c : text)
+    c = c == ',' ? ' ' : c;
+  std::istringstream in(text);
+  for (std::string word; in >> word;) {
+    const bool number =
+        word.size() < 8 && word.find_first_not_of("0123456789") == std::string::npos;
+    if (!number || std::stoi(word) < 1 || !types.insert(std::stoi(word)).second) {
+      mistakes.add(s.line(key), fmt::format("{} is \"{}\"; it must name whole numbers from 1, each "
+                                            "once, such as \"1 2 3\".",
+                                            key, s.text(key)));
+      break;
+    }
+  }
+  return types;
+}
+
+void check_types(const Settings &s, const StructureSource &source, Mistakes &mistakes) {
+  if (s.line("structure.am_types") == 0)
+    mistakes.add(0, "structure.am_types is missing: say which atom types are active material, such "
+                    "as \"1 2 3\".");
+  if (s.line("structure.cbd_types") == 0)
+    mistakes.add(0,
+                 "structure.cbd_types is missing: say which atom types are carbon and binder, or "
+                 "\"none\".");
+  std::set<int> seen = source.am_types;
+  for (const auto &[key, types] : {std::pair("structure.cbd_types", &source.cbd_types),
+                                   std::pair("structure.left_out_types", &source.left_out_types)})
+    for (int type : *types)
+      if (!seen.insert(type).second)
+        mistakes.add(s.line(key),
+                     fmt::format("{}: type {} is in another list too; a type is active "
+                                 "material, CBD or left out.",
+                                 key, type));
+}
+
+void check_files(const Settings &s, const StructureSource &source, Mistakes &mistakes) {
+  for (const auto &[key, path] : {std::pair("structure.file", &source.file),
+                                  std::pair("structure.body_map", &source.body_map)})
+    if (!path->empty() && !fs::is_regular_file(*path))
+      mistakes.add(s.line(key), fmt::format("{} '{}' is not there. Give its path, relative to this "
+                                            "file.",
+                                            key, *path));
+  if (!source.body_map.empty() && !source.clusters)
+    mistakes.add(s.line("structure.body_map"),
+                 "structure.body_map names given bodies, but structure.bodies is \"shapes\". Give "
+                 "structure.bodies = \"clusters\" or take the map out.");
+}
+
+// Keys that a structure makes idle: whoever gives them expects something else.
+void check_idle(const Settings &s, bool clusters, Mistakes &mistakes) {
+  std::vector<std::string> idle = {"particles.median_um", "particles.sigma_ln", "particles.min_um",
+                                   "particles.max_um", "shapes.sizes"};
+  if (clusters)
+    idle.insert(idle.end(), {"particles.irregularity", "shapes.image", "shapes.library"});
+  for (const std::string &key : idle)
+    if (s.line(key) > 0)
+      mistakes.add(s.line(key), fmt::format("{} has no effect beside [structure], which gives the "
+                                            "{}. Take one of them out.",
+                                            key, clusters ? "bodies" : "sizes"));
+}
+
+void read_units(const Settings &s, StructureSource &out, Mistakes &mistakes) {
+  const std::string &units = s.text("structure.units");
+  out.length_um = s.number("structure.lj_length_um");
+  out.density_g_cm3 = s.number("structure.lj_density_g_cm3");
+  const bool scaled = out.length_um > 0.0 || out.density_g_cm3 > 0.0;
+  if (units != "lj" && scaled)
+    mistakes.add(s.line("structure.units"),
+                 fmt::format("structure.lj_length_um and lj_density_g_cm3 are for units \"lj\"; "
+                             "structure.units is \"{}\".",
+                             units));
+  if (units == "lj" && !(out.length_um > 0.0 && out.density_g_cm3 > 0.0))
+    mistakes.add(s.line("structure.units"),
+                 "structure.units \"lj\" has no scale: give structure.lj_length_um, the length of "
+                 "one unit, and structure.lj_density_g_cm3, that of one unit of density.");
+  if (units == "none" && s.sound({"structure.units"}))
+    mistakes.add(0, "structure.units is missing: a data file does not say its units. Give those of "
+                    "the script that wrote it: micro, si, cgs or lj.");
+  if (units != "lj") {
+    out.length_um = units_named(units).length_um;
+    out.density_g_cm3 = units_named(units).density_g_cm3;
+  }
+}
+
+} // namespace
+
+const std::vector<Key> &structure_keys() {
+  static const std::vector<Key> keys = {
+      {"structure.file", "", "none", 0, 0, "", "LAMMPS or LIGGGHTS data file with the particles",
+       "", true},
+      {"structure.atom_style", "", "sphere", 0, 0, "",
+       "of its script; hybrid: sphere or granular first", "sphere|granular|bpm/sphere|hybrid"},
+      {"structure.units", "", "none", 0, 0, "", "of its script; needed", "micro|si|cgs|lj"},
+      {"structure.lj_length_um", "", "0", 0, 1e6, "um", "one unit of length of units lj"},
+      {"structure.lj_density_g_cm3", "", "0", 0, 1e6, "g/cm3", "one unit of density of units lj"},
+      {"structure.boundary", "", "p p f", 0, 0, "", "of its script; z goes up from the collector",
+       "p p f|p p s|p p m|p p p"},
+      {"structure.am_types", "", "none", 0, 0, "", "atom types of active material, \"1 2 3\"", "",
+       true},
+      {"structure.cbd_types", "", "none", 0, 0, "", "atom types of carbon and binder", "", true},
+      {"structure.left_out_types", "", "none", 0, 0, "", "atom types to leave out (solvent, walls)",
+       "", true},
+      {"structure.bodies", "", "shapes", 0, 0, "",
+       "each AM sphere becomes a body of its volume, or given clusters are kept",
+       "shapes|clusters"},
+      {"structure.body_map", "", "none", 0, 0, "",
+       "rows 'id body' for clusters; none: molecule ids", "", true},
+      {"structure.densities", "", "file", 0, 0, "", "whose densities the particles have",
+       "file|recipe"},
+  };
+  return keys;
+}
+
+DataUnits units_named(const std::string &units) {
+  return units == "si"    ? DataUnits{1e6, 1e-3}
+         : units == "cgs" ? DataUnits{1e4, 1.0}
+                          : DataUnits{1.0, 1.0};
+}
+
+StructureSource read_structure_source(const Settings &s, const std::string &file,
+                                      Mistakes &mistakes) {
+  StructureSource out;
+  out.file = path_of(s, "structure.file", file);
+  for (const Key &key : structure_keys())
+    if (!out.given() && s.sound({"structure.file"}) && s.line(key.name) > 0 &&
+        key.name != "structure.file") {
+      mistakes.add(s.line(key.name), "[structure] needs structure.file, a data file of LAMMPS or "
+                                     "LIGGGHTS.");
+      break;
+    }
+  if (!out.given())
+    return out;
+  out.body_map = path_of(s, "structure.body_map", file);
+  out.atom_style = s.text("structure.atom_style");
+  out.z_periodic = s.text("structure.boundary") == "p p p";
+  out.clusters = s.text("structure.bodies") == "clusters";
+  out.densities_of_file = s.text("structure.densities") == "file";
+  out.am_types = types_of(s, "structure.am_types", mistakes);
+  out.cbd_types = types_of(s, "structure.cbd_types", mistakes);
+  out.left_out_types = types_of(s, "structure.left_out_types", mistakes);
+  read_units(s, out, mistakes);
+  check_types(s, out, mistakes);
+  check_files(s, out, mistakes);
+  check_idle(s, out.clusters, mistakes);
+  return out;
+}
+
+} // namespace calendem

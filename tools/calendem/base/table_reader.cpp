@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/table_reader.h"
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace calendem {
+
+void TableReader::unknown(const std::string &name, int line,
+                          const std::vector<std::string> &known) {
+  mistakes_.add(line,
+                fmt::format("unknown key '{}'. Did you mean '{}'?", name, closest(name, known)));
+}
+
+void TableReader::tell_unknown(const toml::table &table, const std::vector<std::string> &known,
+                               const std::string &prefix) {
+  for (const auto &[key, node] : table)
+    if (std::find(known.begin(), known.end(), key.str()) == known.end())
+      unknown(prefix + std::string(key.str()), line_of(node), known);
+}
+
+void TableReader::tell_missing(const toml::table &table, const Key &key) {
+  if (key.fallback.empty() && whole_)
+    mistakes_.add(line_of(table), fmt::format("key '{}' is missing ({}).", key.name, key.meaning));
+}
+
+std::string TableReader::text(const toml::table &table, const Key &key) {
+  const toml::node *node = table.get(key.name);
+  if (!node) {
+    tell_missing(table, key);
+    return key.fallback == "-" ? "" : key.fallback;
+  }
+  if (!node->is_string())
+    mistakes_.add(line_of(*node), fmt::format("{} must be a text in quotes ({}), not {}.", key.name,
+                                              key.meaning, shown(*node)));
+  else if (const auto wrong = wrong_text(key, **node->as_string()))
+    mistakes_.add(line_of(*node), *wrong);
+  else
+    return **node->as_string();
+  return "";
+}
+
+std::optional<double> TableReader::number(const toml::node &node, const Key &key) {
+  if (!node.is_number())
+    mistakes_.add(line_of(node), fmt::format("{} must be a number without quotes ({}), not {}.",
+                                             key.name, key.meaning, shown(node)));
+  else if (const auto wrong = wrong_number(key, *node.value<double>()))
+    mistakes_.add(line_of(node), *wrong);
+  else
+    return *node.value<double>();
+  return std::nullopt;
+}
+
+double TableReader::number(const toml::table &table, const Key &key) {
+  if (const toml::node *node = table.get(key.name))
+    return number(*node, key).value_or(0.0);
+  tell_missing(table, key);
+  return key.fallback.empty() || key.fallback == "-" ? 0.0 : std::stod(key.fallback);
+}
+
+std::vector<double> TableReader::numbers(const toml::table &table, const Key &key) {
+  std::vector<double> out;
+  const toml::node *node = table.get(key.name);
+  if (!node) {
+    tell_missing(table, key);
+    return out;
+  }
+  const toml::array *list = node->as_array();
+  if (!list) {
+    mistakes_.add(line_of(*node),
+                  fmt::format("{} must be a list of numbers, not {}.", key.name, shown(*node)));
+    return out;
+  }
+  for (const toml::node &n : *list)
+    if (const auto value = number(n, key))
+      out.push_back(*value);
+  return out;
+}
+
+std::vector<std::string> TableReader::texts(const toml::table &table, const std::string &key) {
+  std::vector<std::string> out;
+  const toml::node *node = table.get(key);
+  if (!node)
+    return out;
+  const toml::array *list = node->as_array();
+  if (!list) {
+    mistakes_.add(line_of(*node),
+                  fmt::format("{} must be a list of texts in quotes, not {}.", key, shown(*node)));
+    return out;
+  }
+  for (const toml::node &n : *list)
+    if (n.is_string())
+      out.push_back(**n.as_string());
+    else
+      mistakes_.add(line_of(n),
+                    fmt::format("{} holds {}; it must hold texts in quotes.", key, shown(n)));
+  return out;
+}
+
+std::string TableReader::path(const toml::table &table, const Key &key) {
+  const std::string given = text(table, key);
+  return given.empty() ? "" : (folder_ / given).lexically_normal().string();
+}
+
+} // namespace calendem

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Reads a TOML file against a table of keys: a new key is one row of that table.
+#ifndef CALENDEM_BASE_TOML_READER_H
+#define CALENDEM_BASE_TOML_READER_H
+
+#include "base/key.h"
+#include "base/messages.h"
+#include "base/toml_file.h"
+#include <initializer_list>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace calendem {
+
+/// Values by key name, as text exactly as given (numbers: shortest form that reads back).
+class Settings {
+public:
+  double number(const std::string &name) const;
+  const std::string &text(const std::string &name) const { return values_.at(name); }
+  /// Keys that follow this one get its value; a key that is set follows no other.
+  void set(const std::string &name, const std::string &value);
+  /// The key has the value of another, and keeps up with it.
+  void follow(const std::string &name, const std::string &other);
+  const std::map<std::string, std::string> &all() const { return values_; }
+
+  /// Line of the file that gives the key, 0 if it has its default.
+  int line(const std::string &name) const;
+  /// None of these was given a value that is a mistake: what depends on them can be checked.
+  bool sound(std::initializer_list<std::string> names) const;
+  void note(const std::string &name, int line, bool wrong);
+
+private:
+  std::map<std::string, std::string> values_;
+  std::map<std::string, std::string> follows_; ///< key, the one it follows
+  std::map<std::string, int> lines_;
+  std::set<std::string> wrong_;
+};
+
+/// All mistakes go to `mistakes`; what could be read is returned, defaults filled in.
+Settings read_toml(const std::string &file, FileKind kind, const std::vector<Key> &keys,
+                   Mistakes &mistakes);
+
+/// The path that a key gives, relative to the file it stands in, as an absolute one; empty for
+/// "none".
+std::string path_of(const Settings &settings, const std::string &key, const std::string &file);
+
+/// Writes the settings as a TOML file that reads back the same.
+std::string write_toml(const Settings &settings, const std::vector<Key> &keys,
+                       const std::string &heading);
+
+/// One line per key for --help: name, default, unit, range or choices, meaning.
+std::string list_of_keys(const std::vector<Key> &keys);
+
+} // namespace calendem
+
+#endif

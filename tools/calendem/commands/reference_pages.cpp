@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/reference_pages.h"
+#include "base/effects.h"
+#include "base/experiment_keys.h"
+#include "base/key.h"
+#include "base/recipe.h"
+#include "electrode/slurry/film_recipe.h"
+#include "electrode/tomogram.h"
+#include "registry/settings.h"
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace calendem {
+namespace {
+
+constexpr const char *kMade =
+    "<!-- Made from the rows of the program by `calendem registry`; not to be edited. -->\n\n";
+
+std::string table_of(const Key &key) {
+  const std::size_t dot = key.name.rfind('.');
+  return dot == std::string::npos ? "" : key.name.substr(0, dot);
+}
+
+std::string in_table(const Key &key) { return key.name.substr(key.name.rfind('.') + 1); }
+
+std::string default_of(const Key &key) {
+  if (!key.same_as.empty())
+    return fmt::format("that of `{}`", key.same_as);
+  if (key.fallback == "-" || key.fallback == "none")
+    return "none";
+  return key.fallback.empty() ? "**required**" : fmt::format("`{}`", key.fallback);
+}
+
+std::string range_of(const Key &key) {
+  if (!key.choices.empty()) {
+    std::string out = "`" + key.choices + "`";
+    for (std::size_t at = 0; (at = out.find('|', at)) != std::string::npos; at += 4)
+      out.replace(at, 1, "`, `");
+    return out;
+  }
+  if (key.text)
+    return "text";
+  const std::string range = fmt::format("{:g} to {:g}", key.low, key.high);
+  return range + (key.unit.empty() ? "" : " " + key.unit) + (key.whole ? ", whole" : "");
+}
+
+/// In a cell of a table a bar would end it.
+std::string in_cell(std::string text) {
+  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
+    text.insert(at, "\\");
+  return text;
+}
+
+const char *const kHead = "| key | default | range | meaning |\n|---|---|---|---|\n";
+
+std::string row(const Key &key) {
+  return fmt::format("| `{}` | {} | {} | {} |\n", in_table(key), default_of(key), range_of(key),
+                     in_cell(key.meaning));
+}
+
+/// A heading and a table for each TOML table of the keys.
+std::string tables(const std::vector<Key> &keys) {
+  std::string out, table = "-";
+  for (const Key &key : keys) {
+    if (table_of(key) != table) {
+      table = table_of(key);
+      out += fmt::format("\n## {}\n\n{}",
+                         table.empty() ? "Top of the file" : fmt::format("`[{}]`", table), kHead);
+    }
+    out += row(key);
+  }
+  return out;
+}
+
+std::string page(const std::string &title, const std::string &text, const std::string &rest) {
+  return kMade + fmt::format("# {}\n\n{}\n{}", title, text, rest);
+}
+
+std::string case_page() {
+  return page("Keys of a case",
+              "A case is a TOML file that says what `calendem run` simulates. Only `electrode` is "
+              "required.\nPaths are relative to the file. The run's folder keeps `case.toml` with "
+              "every default filled in.\n\n"
+              "Keys under `[effects...]` switch on what the base model leaves out: see "
+              "[](effects.md).\nThe input scripts know the same settings by the names in "
+              "`input_scripts/common/defaults.in`.",
+              tables(case_keys()));
+}
+
+std::string recipe_page() {
+  return page("Keys of a recipe",
+              "A recipe is a TOML file from which `calendem pack` makes an electrode. No key is "
+              "required: the defaults\nare the electrode of the paper on a cell of 15 × 15 µm.\n"
+              "`[shapes]` takes particles from a tomogram, `[structure]` from a data file of "
+              "LAMMPS or LIGGGHTS.\n`calendem dry` reads a recipe with two more tables: see "
+              "[](film.md).",
+              tables(recipe_keys()));
+}
+
+std::string film_page() {
+  std::vector<Key> keys;
+  for (const Key &key : film_keys())
+    if (const std::string table = table_of(key); table == "slurry" || table == "drying")
+      keys.push_back(key);
+  return page("Keys of a film",
+              "The recipe of a film that `calendem dry` makes by simulation of slurry and drying: "
+              "the keys of a\n[recipe](recipe.md), and these.",
+              tables(keys));
+}
+
+std::string tomogram_page() {
+  return page("Keys of a synthetic tomogram",
+              "`calendem tomogram` makes a label image whose particles are known, to try the "
+              "way from an image to an\nelectrode.",
+              tables(tomogram_keys()));
+}
+
+std::string experiment_page() {
+  std::vector<Key> measured;
+  for (const Quantity &q : quantities())
+    measured.push_back(q.key);
+  const auto rows = [](const std::vector<Key> &keys) {
+    std::string out = kHead;
+    for (const Key &key : keys)
+      out += row(key);
+    return out;
+  };
+  return page("Keys of an experiment",
+              "An experiment file says what was measured, for `calendem compare` and "
+              "`calendem diagnose`.\n`calendem validate` reports every mistake in it.",
+              "\n## `[experiment]`\n\n" + rows(head_keys()) +
+                  "| `split` | none | `{ train = [ids], test = [ids] }` | conditions to calibrate "
+                  "on, and those held out |\n"
+                  "\n## `[[condition]]`\n\nOne table for each sample or pressure.\n\n" +
+                  rows(condition_keys()) +
+                  "\n### Measured values of a condition\n\nA number, `{ value, sd }` or "
+                  "`{ value, sd_relative }`. Mass and thickness also take `includes_foil`:\n"
+                  "a mass includes the foil unless it says otherwise, a thickness does not.\n\n" +
+                  rows(measured));
+}
+
+std::string unit_of(const Effect &e) {
+  const std::string unit = key_of(e).unit;
+  return unit.empty() ? "" : " " + unit;
+}
+
+std::string effect_section(const Effect &e) {
+  const EffectParameter &p = e.parameter;
+  std::string out = fmt::format("\n## `{}`\n\n{} (layer: {}).\n\n", e.name, e.what, e.layer);
+  if (!e.settings.empty()) {
+    out += kHead;
+    for (const Key &key : e.settings)
+      out += row(key);
+    out += "\n";
+  }
+  out += "Moved by\n: ";
+  for (const std::string &key : p.keys)
+    out += (key == p.keys.front() ? "`" : ", `") + key + "`";
+  out += fmt::format("{}; off at {}\n\n", e.in_recipe ? " of the recipe" : "", p.off);
+  out += fmt::format(
+      "Range and prior\n: {:g} to {:g}{}, {}{}\n\n", p.low, p.high, unit_of(e),
+      p.spread == Spread::Uniform ? "uniform" : "log-uniform",
+      p.scale == AmplitudeScale::Reciprocal ? "; a smaller value is a stronger effect" : "");
+  out += fmt::format("What it changes\n: {}\n\n", e.moves);
+  out += fmt::format("Source\n: {}\n\n", e.source);
+  out += fmt::format("Law and verification\n: `src_plugin/physics/{}`, `tests/{}`\n", e.law,
+                     folder_of_tests(e));
+  return out;
+}
+
+std::string effects_page() {
+  std::string list = "\n| effect | what it is |\n|---|---|\n", sections;
+  for (const Effect &e : effects()) {
+    list += fmt::format("| [`{0}`](#{0}) | {1} |\n", e.name, e.what);
+    sections += effect_section(e);
+  }
+  return page(
+      "Effects",
+      "What the base model leaves out. Each effect is off by default, is a law of its own "
+      "in `src_plugin/physics`,\nand is switched on by a key of the [case](case.md), or of the "
+      "[recipe](recipe.md). "
+      "`calendem effects NAME` prints the same.\n\n"
+      "A contact follows one law: of the effects on the same pair of phases one may be on.\n"
+      "The range is the prior of the diagnosis, not the limit of the key.",
+      list + sections);
+}
+
+} // namespace
+
+std::vector<GeneratedFile> reference_pages() {
+  const std::string folder = "docs/reference/";
+  return {{folder + "case.md", case_page()},
+          {folder + "recipe.md", recipe_page()},
+          {folder + "film.md", film_page()},
+          {folder + "tomogram.md", tomogram_page()},
+          {folder + "experiment.md", experiment_page()},
+          {folder + "effects.md", effects_page()}};
+}
+
+} // namespace calendem

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "simulate/run.h"
+#include "base/case.h"
+#include "base/provenance.h"
+#include "commands/commands.h"
+#include "simulate/collect.h"
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <sstream>
+
+namespace calendem {
+
+namespace fs = std::filesystem;
+namespace {
+
+/// The settings that the scripts wrote down, lines "variable value"; `electrode`, if not empty,
+/// replaces the path that the run used.
+Settings read_settings(const std::string &file, const std::string &electrode) {
+  std::ifstream in(file);
+  if (!in)
+    throw Failure(kBadInput, fmt::format("cannot read '{}': give the folder that the input scripts "
+                                         "wrote into (-var out DIR)",
+                                         file));
+  std::map<std::string, std::string> values;
+  std::string line, name, value;
+  while (std::getline(in, line))
+    if (std::istringstream row(line); row >> name && std::getline(row >> std::ws, value))
+      values[name] = value;
+  Mistakes mistakes(file);
+  Settings s;
+  for (const Key &key : case_keys()) {
+    if (key.variable.empty()) { // nothing that the scripts know of
+      s.set(key.name, key.fallback);
+      continue;
+    }
+    const auto found = values.find(key.variable);
+    if (found == values.end())
+      mistakes.add(0, fmt::format("'{}' is missing: the run was made by an older version, or the "
+                                  "file is cut. Run the scripts again.",
+                                  key.variable));
+    else
+      s.set(key.name, found->second);
+  }
+  mistakes.stop_if_any();
+  s.set("electrode", fs::absolute(electrode.empty() ? s.text("electrode") : electrode)
+                         .lexically_normal()
+                         .string());
+  return s;
+}
+
+void collect_folder(const std::string &folder, const std::string &electrode) {
+  const Settings settings = read_settings(folder + "/settings.txt", electrode);
+  const ElectrodeFacts facts = read_electrode(settings.text("electrode"));
+  write_file(
+      folder + "/case.toml",
+      write_toml(settings, case_keys(),
+                 fmt::format("# as run by the input scripts; read by calendem {}\n", version())));
+  fs::copy_file(settings.text("electrode") + "/electrode.json", folder + "/electrode.json",
+                fs::copy_options::overwrite_existing);
+  const nlohmann::json s = collect(folder, settings, facts, {});
+  fmt::print("collect: {} rows of the run up to {:.1f} MPa, {:.2f} % of bonds broken, {}\n",
+             read_raw(folder + "/curve_raw.csv").size(), s["max_pressure_MPa"].get<double>(),
+             100 * s["broken_fraction_after"].get<double>(),
+             s["finished"].get<bool>() ? "finished" : "not finished");
+  if (s["finished"].get<bool>())
+    stop_if_checks_failed(s, folder);
+}
+
+} // namespace
+
+void add_collect_verb(CLI::App &app) {
+  struct Arguments {
+    std::string folder, electrode;
+  };
+  auto a = std::make_shared<Arguments>();
+  CLI::App *verb = app.add_subcommand(
+      "collect",
+      "Curve, summary, bodies and ParaView series of a run made with plain input scripts");
+  verb->add_option("DIR", a->folder, "what the scripts were given as -var out")->required();
+  verb->add_option("--electrode", a->electrode, "folder of the electrode, if it has moved");
+  verb->callback([a] { collect_folder(fs::absolute(a->folder).string(), a->electrode); });
+}
+
+void add_run_verb(CLI::App &app) {
+  struct Arguments {
+    std::string spec;
+    RunOptions options;
+  };
+  auto a = std::make_shared<Arguments>();
+  a->options.liggghts = liggghts_program();
+  CLI::App *verb = app.add_subcommand("run", "One compression and relaxation of an electrode");
+  verb->footer(list_of_keys(case_keys()));
+  verb->add_option("CASE", a->spec, "case (TOML)")->required();
+  verb->add_option("-o,--output", a->options.folder, "folder of the run")->required();
+  verb->add_option("--ranks", a->options.ranks, "MPI ranks")->check(CLI::Range(1, 4096));
+  verb->add_flag("--resume", a->options.resume, "go on from the newest restart file");
+  verb->add_flag("--force", a->options.force,
+                 "overwrite a run of another case or an unfinished one");
+  verb->add_option("--liggghts", a->options.liggghts, "program with the plugin");
+  verb->callback([a] { run_case(read_case(a->spec), a->options); });
+}
+
+} // namespace calendem

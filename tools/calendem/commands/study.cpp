@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "simulate/study.h"
+#include "base/messages.h"
+#include "base/provenance.h"
+#include "commands/commands.h"
+#include "diagnose/bank/bank_table.h"
+#include "report/study_page.h"
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace calendem {
+
+namespace {
+
+struct Options {
+  StudyOptions study;
+  bool full_cell = false;
+};
+
+/// A study of points and where it goes.
+struct Part {
+  std::vector<BankPoint> points;
+  Study study;
+  StudyOptions options;
+};
+
+std::vector<Part> parts_of(const BankSpec &spec, const StudyOptions &o) {
+  std::vector<Part> out = {{bank_points(spec), {}, o}};
+  out[0].study = bank_study(spec, out[0].points);
+  if (spec.full_cell.points > 0) {
+    out.push_back({full_cell_points(spec), {}, o});
+    out[1].study = full_cell_study(spec, out[1].points);
+    out[1].options.folder += "/full_cell";
+    out[1].options.further = {"--full-cell"};
+  }
+  return out;
+}
+
+/// The table of all points whose runs are there; tells how many are not.
+void write_table(const BankSpec &spec, const std::vector<Part> &parts, const std::string &folder) {
+  BankTable table = {spec, {}};
+  std::size_t missing = 0;
+  for (const Part &part : parts) {
+    const std::vector<std::string> folders = finished_runs(part.study, part.options);
+    for (std::size_t k = 0; k < folders.size(); ++k)
+      if (folders[k].empty())
+        ++missing;
+      else
+        table.rows.push_back(
+            {part.points[k / spec.pressures.size()], read_simulated_run(folders[k])});
+  }
+  if (missing > 0)
+    fmt::print("bank: {} of {} runs are not there yet; the table holds the others\n", missing,
+               missing + table.rows.size());
+  write_file(folder + "/bank.csv", write_bank_table(table));
+  fmt::print("bank: {0} rows, {1}/bank.csv\nNext: calendem diagnose EXPERIMENT.toml -o DIR "
+             "--bank {2} --table {1}/bank.csv\n",
+             table.rows.size(), folder, spec.file);
+}
+
+void make_bank(const Options &o) {
+  const BankSpec spec = read_bank_spec(o.study.file);
+  std::vector<Part> parts = parts_of(spec, o.study);
+  if (o.full_cell) {
+    if (parts.size() < 2)
+      throw Failure(kBadInput, spec.file + " has no table [full_cell].");
+    parts[1].options.folder = o.study.folder;
+    return make_study(parts[1].study, parts[1].options);
+  }
+  if (o.study.step != StudyStep::All || o.study.only > 0) // a task among many: the table is not its
+    return make_study(parts[0].study, o.study);
+  try {
+    for (const Part &part : parts)
+      make_study(part.study, part.options);
+    if (o.study.slurm.dry_run)
+      return;
+  } catch (const Failure &f) {
+    if (f.exit_status() != kBadInput) // else there is nothing yet
+      write_table(spec, parts, o.study.folder);
+    throw;
+  }
+  write_table(spec, parts, o.study.folder);
+}
+
+} // namespace
+
+void add_bank_verb(CLI::App &app) {
+  auto o = std::make_shared<Options>();
+  CLI::App *verb = app.add_subcommand(
+      "bank", "The simulations that the diagnosis learns from, with and without each effect");
+  verb->add_option("BANK", o->study.file, "bank (TOML)")->required();
+  add_study_options(*verb, o->study);
+  verb->add_flag("--full-cell", o->full_cell, "only the runs on the full cell, in that folder");
+  verb->callback([o] { make_bank(*o); });
+}
+
+void add_study_options(CLI::App &verb, StudyOptions &o) {
+  o.verb = verb.get_name();
+  o.liggghts = liggghts_program();
+  verb.add_option("-o,--output", o.folder, "folder of the " + o.verb)->required();
+  verb.add_option("--jobs", o.jobs, "runs at a time (default 1; with --slurm no limit)")
+      ->check(CLI::Range(1, 4096));
+  verb.add_option("--ranks", o.ranks, "MPI ranks of each run")->check(CLI::Range(1, 4096));
+  CLI::Option *only = verb.add_option("--only", o.only, "make the run of this number and no other")
+                          ->check(CLI::Range(1, 1000000));
+  verb.add_option("--step", o.step, "of --only: its packing, or its run if that is there")
+      ->needs(only)
+      ->transform(CLI::CheckedTransformer(std::map<std::string, StudyStep>{
+          {"packing", StudyStep::Packing}, {"run", StudyStep::Run}}));
+  CLI::Option *table =
+      verb.add_flag("--table", o.table, "make no run, only the table of what there is");
+  verb.add_option("--liggghts", o.liggghts, "program with the plugin");
+  const auto slurm = [&](CLI::Option *option) { option->excludes(only)->excludes(table); };
+  slurm(verb.add_flag("--slurm", o.slurm.on, "make them as job arrays of Slurm, wait for them"));
+  slurm(verb.add_flag("--slurm-dry-run", o.slurm.dry_run,
+                      "write the arrays' scripts, submit nothing"));
+  verb.add_option("--sbatch", o.slurm.sbatch,
+                  "options of sbatch for them, as \"--partition=x --time=04:00:00\"")
+      ->check([](const std::string &s) {
+        return s.rfind('-', 0) == 0 && s.find('\n') == std::string::npos
+                   ? ""
+                   : "--sbatch takes options of sbatch in one word, as \"--partition=x "
+                     "--time=04:00:00\", not '" +
+                         s + "'";
+      });
+  verb.add_option("--slurm-every", o.slurm.every_s, "seconds between looks at Slurm's queue")
+      ->check(CLI::Range(1, 3600));
+}
+
+void add_study_verb(CLI::App &app) {
+  struct Arguments {
+    StudyOptions options;
+    bool page = false;
+  };
+  auto a = std::make_shared<Arguments>();
+  CLI::App *verb = app.add_subcommand("study", "Many runs of one electrode and case, settings "
+                                               "varied; a table of what they gave");
+  verb->footer("[study] name, recipe, case, at_pressure_MPa (list), keep (all|tables)\n"
+               "[[vary]] keys, values - or normal = {mean, sd, cells}, or design, a CSV file - : "
+               "every combination of the groups is a run.\nKeys are those of the recipe "
+               "(recipe.seed) and of the case "
+               "(case.bond.tensile_strength_MPa).\nThe same command again goes on where it was.");
+  verb->add_option("STUDY", a->options.file, "study (TOML)")->required();
+  add_study_options(*verb, a->options);
+  verb->add_flag("--page", a->page, "draw the page of the table that lies in the folder, no more");
+  verb->callback([a] {
+    const StudyOptions &o = a->options;
+    const Study study = read_study(o.file);
+    if (a->page)
+      return draw_study(study.columns, o.folder);
+    const bool whole = o.only == 0 && !o.slurm.dry_run; // a task among many draws nothing
+    try {
+      make_study(study, o);
+    } catch (const Failure &f) {
+      if (whole && f.exit_status() != kBadInput) // else there is nothing yet
+        draw_study(study.columns, o.folder);
+      throw;
+    }
+    if (whole)
+      draw_study(study.columns, o.folder);
+  });
+}
+
+} // namespace calendem

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/case.h"
+#include "base/experiment.h"
+#include "base/toml_file.h"
+#include "commands/commands.h"
+#include "diagnose/bank/bank_design.h"
+#include "electrode/pack/from_structure.h"
+#include "electrode/slurry/film_recipe.h"
+#include "electrode/tomogram.h"
+#include "simulate/study_file.h"
+#include "withheld/truths.h"
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace calendem {
+namespace {
+
+int keys_known(const toml::table &table, const std::string &prefix, const std::vector<Key> &keys) {
+  int known = 0;
+  for (const auto &[k, node] : table) {
+    const std::string name = prefix + std::string(k.str());
+    const auto begins = [&](const Key &key) {
+      return key.name == name || key.name.rfind(name + ".", 0) == 0;
+    };
+    known += std::any_of(keys.begin(), keys.end(), begins);
+    if (node.is_table())
+      known += keys_known(*node.as_table(), name + ".", keys);
+  }
+  return known;
+}
+
+/// By what is in it: the kind that knows most of its keys and tables; of equals a recipe.
+FileKind kind_of(const std::string &file) {
+  Mistakes elsewhere(file); // the reader of that kind tells them
+  const toml::table root = parse_toml(file, elsewhere).root;
+  if (root.contains("experiment") || root.contains("condition"))
+    return FileKind::Experiment;
+  if (root.contains("study") || root.contains("vary"))
+    return FileKind::Study;
+  if (root.contains("bank"))
+    return FileKind::Bank;
+  if (root.contains("round"))
+    return FileKind::Round;
+  FileKind best = FileKind::Recipe;
+  int most = keys_known(root, "", recipe_keys());
+  const auto consider = [&](FileKind kind, const std::vector<Key> &keys) {
+    if (const int known = keys_known(root, "", keys); known > most) {
+      best = kind;
+      most = known;
+    }
+  };
+  consider(FileKind::Case, case_keys());
+  consider(FileKind::Tomogram, tomogram_keys());
+  consider(FileKind::Film, film_keys());
+  return best;
+}
+
+std::string name_after_check(const std::string &file) {
+  switch (kind_of(file)) {
+  case FileKind::Experiment:
+    return fmt::format("experiment of {} conditions", read_experiment(file).conditions.size());
+  case FileKind::Study:
+    return fmt::format("study of {} runs", read_study(file).runs.size());
+  case FileKind::Bank: {
+    const BankSpec spec = read_bank_spec(file);
+    return fmt::format("bank of {} runs", bank_study(spec, bank_points(spec)).runs.size());
+  }
+  case FileKind::Round: {
+    const Round round = read_round(file);
+    const Study study = truth_study(round, draw_truths(round, "any"));
+    return fmt::format("withheld round of {} runs", study.runs.size());
+  }
+  case FileKind::Case:
+    read_case(file);
+    return "case";
+  case FileKind::Tomogram:
+    read_tomogram_spec(file);
+    return "tomogram";
+  case FileKind::Film:
+    read_film_recipe(file);
+    return "recipe of a film";
+  default:
+    read_input(read_recipe(file));
+    return "recipe";
+  }
+}
+
+void validate(const std::vector<std::string> &files) {
+  std::string problems;
+  for (const std::string &file : files)
+    try {
+      fmt::print("{}: a valid {}\n", file, name_after_check(file));
+    } catch (const Failure &e) {
+      problems += std::string(problems.empty() ? "" : "\n") + e.what();
+    }
+  if (!problems.empty())
+    throw Failure(kBadInput, problems);
+}
+
+} // namespace
+
+void add_validate_verb(CLI::App &app) {
+  auto files = std::make_shared<std::vector<std::string>>();
+  CLI::App *verb =
+      app.add_subcommand("validate", "Every mistake in recipes, cases, tomograms, films, studies, "
+                                     "banks, withheld rounds and experiment files, at once");
+  verb->add_option("FILE", *files, "TOML files")->required();
+  verb->footer(
+      list_of_experiment_keys() +
+      "Keys of the others: calendem pack --help, calendem run --help, calendem tomogram --help,\n"
+      "calendem dry --help, calendem study --help");
+  verb->callback([files] { validate(*files); });
+}
+
+} // namespace calendem

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a bank of simulations is made of (bank.toml):
+//   [bank]
+//   name = "small cells"
+//   recipe = "electrode.toml"        # paths are relative to this file
+//   case = "case.toml"
+//   pressures_MPa = [80, 150]        # a run for each at every point
+//   packings = 12                    # seeds 1, 2, ... of the recipe
+//   base_points = 48                 # of the base parameters, without effects
+//   effect_points = 24               # of every effect, each beside a base point's run
+//   effects = ["friction"]           # default: all
+//   seed = 1                         # of the design
+//   [[parameter]]                    # of the base model, recalibrated by the diagnosis
+//   name = "E_am"
+//   keys = ["case.material.am.youngs_modulus_GPa"]
+//   low = 100
+//   high = 300
+//   prior = "log-uniform"            # or "uniform"
+//   [[effect]]                       # optional, of one effect:
+//   name = "friction"
+//   low = 0.1                        # a narrower range, in its key's unit
+//   high = 0.4
+//   points = 32                      # another number of points
+//   [full_cell]                      # optional: what the bank's small cell does to the observables
+//   recipe = "../demo/electrode.toml"
+//   case = "case.toml"
+//   points = 3                       # base points that are run on that cell too
+//   [[measurement]]                  # optional: what a further measurement costs
+//   name = "cracked_bodies"          # of usual_prices()
+//   hours = 8                        # of work for one sample
+//   sd = 0.05                        # of the result
+#ifndef CALENDEM_DIAGNOSE_BANK_BANK_SPEC_H
+#define CALENDEM_DIAGNOSE_BANK_BANK_SPEC_H
+
+#include "base/effects.h"
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace calendem {
+
+// Measurements that a laboratory could make next, and what each costs.
+
+struct MeasurementPrice {
+  std::string name;   ///< [[measurement]] name in a bank's file
+  std::string what;   ///< what is done
+  double hours = 0.0; ///< work for one sample
+  double sd = 0.0;    ///< standard deviation of the result, in `unit`
+  std::string unit;   ///< empty: the bank's table has no such result, so nothing is foretold
+};
+
+constexpr const char *kUnloadingCurve = "unloading_curve"; ///< a bank may lack it
+
+/// Hours and deviations are estimates of this project, from no source; a bank's file changes them.
+const std::vector<MeasurementPrice> &usual_prices();
+
+struct BankParameter {
+  std::string name;
+  std::vector<std::string> keys; ///< "case.…" or "recipe.…"; all get the same value
+  double low = 0.0, high = 0.0;  ///< in the keys' unit
+  Spread spread = Spread::Uniform;
+};
+
+/// The cell that the bank's stands for.
+struct FullCell {
+  std::string recipe_file, case_file;
+  int points = 0; ///< 0: none
+};
+
+struct BankSpec {
+  std::string file, name, recipe_file, case_file;
+  std::vector<double> pressures; ///< MPa, increasing
+  int packings = 12, base_points = 48, effect_points = 24;
+  unsigned long seed = 1;
+  std::vector<BankParameter> parameters;
+  std::vector<std::string> effects;
+  std::map<std::string, std::pair<double, double>> ranges; ///< of effects, where not the table's
+  std::map<std::string, int> points;                       ///< of effects, where not effect_points
+  FullCell full_cell;
+  std::vector<MeasurementPrice> prices = usual_prices();
+};
+
+/// Throws Failure(2) with every mistake of the file. Recipe and case are read when runs are made.
+BankSpec read_bank_spec(const std::string &file);
+
+/// How many points the effect has.
+int points_of(const BankSpec &spec, const std::string &effect);
+
+/// As find_effect, with the bank's range.
+Effect effect_of(const BankSpec &spec, const std::string &name);
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "diagnose/bank/bank_table.h"
+#include "base/csv_table.h"
+#include "base/messages.h"
+#include "physics/press_instruments.h"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+namespace calendem {
+namespace {
+
+/// Pressures at which displacements are kept [MPa]. Thin films yield in jerks: a straight line
+/// between two pressures misses what lies between them by 0.09 um (root mean square over 48 of the
+/// shipped bank's films) if these are 10-20 MPa apart, by 0.02 um at 2 MPa and 0.01 um at 1 MPa. A
+/// measured curve is good to about that, and the diagnosis compares two curves of one film.
+std::vector<double> grid() {
+  std::vector<double> pressures;
+  for (int p = 1; p <= 80; ++p)
+    pressures.push_back(p);
+  for (int p = 82; p <= 180; p += 2)
+    pressures.push_back(p);
+  return pressures;
+}
+
+/// Shares of the largest pressure at which the release is kept.
+std::vector<double> released() {
+  std::vector<double> shares;
+  for (int percent = 5; percent < 100; percent += 5)
+    shares.push_back(0.01 * percent);
+  return shares;
+}
+
+constexpr int kMostCounted = 10000; // base points that a bank may have
+
+struct Number {
+  const char *column;
+  double SimulatedRun::*field;
+};
+constexpr Number kNumbers[] = {{"target_MPa", &SimulatedRun::target},
+                               {"max_pressure_MPa", &SimulatedRun::max_pressure},
+                               {"thickness_at_max_um", &SimulatedRun::thickness_at_max},
+                               {"thickness_after_um", &SimulatedRun::thickness_after},
+                               {"porosity_initial", &SimulatedRun::porosity_initial},
+                               {"porosity_at_max", &SimulatedRun::porosity_at_max},
+                               {"porosity_after", &SimulatedRun::porosity_after},
+                               {"solid_column_um", &SimulatedRun::solid_column},
+                               {"cracked_fraction", &SimulatedRun::cracked_fraction},
+                               {"porosity_slope_per_MPa", &SimulatedRun::porosity_slope}};
+
+std::string cell(double v) { return std::isfinite(v) ? fmt::format("{:.8g}", v) : ""; }
+std::string grid_column(double pressure) {
+  return fmt::format("displacement_um_at_{:g}_MPa", pressure);
+}
+
+std::string release_column(double share) {
+  return fmt::format("displacement_um_released_to_{:g}_percent", 100.0 * share);
+}
+
+/// Columns that hold a number in every row.
+std::vector<std::string> due_columns(const BankSpec &spec) {
+  std::vector<std::string> due = {"base_point", "packing"};
+  for (const BankParameter &p : spec.parameters)
+    due.push_back(p.name);
+  for (const Number &n : kNumbers)
+    due.push_back(n.column);
+  return due;
+}
+
+using Columns = std::map<std::string, std::vector<double>>;
+
+BankRow row_at(const BankSpec &spec, const Columns &t, std::size_t k, const std::string &effect) {
+  BankRow row;
+  const auto number = [&](const std::string &column) { return t.at(column)[k]; };
+  row.point.effect = effect;
+  row.point.base_point = int(number("base_point"));
+  row.point.packing = int(number("packing"));
+  for (const BankParameter &p : spec.parameters)
+    row.point.base.push_back(number(p.name));
+  const bool base = effect.empty() || effect == kFullCell;
+  row.point.value = base ? 0.0 : number("value");
+  row.run.control = "pressure";
+  for (const Number &n : kNumbers)
+    row.run.*(n.field) = number(n.column);
+  for (const double p : grid())
+    if (const double d = number(grid_column(p)); std::isfinite(d)) {
+      row.run.pressure.push_back(p);
+      row.run.displacement.push_back(d);
+    }
+  for (const double share : released())
+    if (const double d = number(release_column(share)); std::isfinite(d)) {
+      row.run.release_pressure.push_back(share * row.run.target);
+      row.run.release_displacement.push_back(d);
+    }
+  return row;
+}
+
+/// What row k must hold: numbers in the columns `due`, points and packings that can be counted, an
+/// effect that is known.
+void check_row(const Columns &t, std::size_t k, const std::string &effect,
+               const std::vector<std::string> &due, Mistakes &mistakes) {
+  const int line = int(k) + 2;
+  for (const std::string &column : due)
+    if (!std::isfinite(t.at(column)[k]))
+      mistakes.add(line, fmt::format("'{}' is no number.", column));
+  const bool on = !effect.empty() && effect != kFullCell;
+  if (on && !std::isfinite(t.at("value")[k]))
+    mistakes.add(line, "'value' is no number; it is the effect's.");
+  for (const auto &[column, lowest] : {std::pair("base_point", 0), std::pair("packing", 1)})
+    if (const double v = t.at(column)[k];
+        std::isfinite(v) && (v != std::floor(v) || v < lowest || v > kMostCounted))
+      mistakes.add(line, fmt::format("'{}' is {}; it is a whole number from {} to {}.", column, v,
+                                     lowest, kMostCounted));
+  try {
+    if (on)
+      find_effect(effect);
+  } catch (const Failure &e) {
+    mistakes.add(line, e.what());
+  }
+}
+
+} // namespace
+
+std::string write_bank_table(const BankTable &table) {
+  std::string out = "effect,base_point,packing";
+  for (const BankParameter &p : table.spec.parameters)
+    out += "," + p.name;
+  out += ",value";
+  for (const Number &n : kNumbers)
+    out += std::string(",") + n.column;
+  for (const double p : grid())
+    out += "," + grid_column(p);
+  for (const double share : released())
+    out += "," + release_column(share);
+  out += "\n";
+  for (const BankRow &row : table.rows) {
+    out += fmt::format("{},{},{}", row.point.effect, row.point.base_point, row.point.packing);
+    for (const double v : row.point.base)
+      out += "," + cell(v);
+    const bool base = row.point.effect.empty() || row.point.effect == kFullCell;
+    out += "," + (base ? "" : cell(row.point.value));
+    for (const Number &n : kNumbers)
+      out += "," + cell(row.run.*(n.field));
+    for (const double p : grid())
+      out += "," + cell(displacement_at(row.run.pressure, row.run.displacement, p));
+    for (const double share : released())
+      out += "," + cell(displacement_at(row.run.release_pressure, row.run.release_displacement,
+                                        share * row.run.target));
+    out += "\n";
+  }
+  return out;
+}
+
+BankTable read_bank_table(const BankSpec &spec, const std::string &file) {
+  Mistakes mistakes(file, 10);
+  std::ifstream in(file, std::ios::binary);
+  if (!in)
+    mistakes.add(0, fmt::format("no such file. Make it with calendem bank {} -o DIR; it is then "
+                                "DIR/bank.csv.",
+                                spec.file));
+  const CsvTable t =
+      CsvTable::parse({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+  const std::vector<std::string> due = due_columns(spec);
+  std::vector<std::string> wanted = due;
+  wanted.insert(wanted.end(), {"effect", "value"});
+  for (const double p : grid())
+    wanted.push_back(grid_column(p));
+  for (const std::string &column : wanted)
+    if (in && !t.has(column))
+      mistakes.add(
+          0, fmt::format("column '{}' is missing. Is this the table of {}?", column, spec.file));
+  for (const int line : t.bad_lines())
+    mistakes.add(line, "the row has another number of cells than the header.");
+  mistakes.stop_if_any();
+  Columns numbers;
+  for (const std::string &column : wanted)
+    numbers[column] = t.numbers(column);
+  for (const double share : released())
+    numbers[release_column(share)] = t.has(release_column(share))
+                                         ? t.numbers(release_column(share))
+                                         : std::vector<double>(t.rows(), std::nan(""));
+  const std::vector<std::string> effect = t.texts("effect");
+  for (std::size_t k = 0; k < t.rows(); ++k)
+    check_row(numbers, k, effect[k], due, mistakes);
+  mistakes.stop_if_any();
+  BankTable out = {spec, {}};
+  for (std::size_t k = 0; k < t.rows(); ++k)
+    out.rows.push_back(row_at(spec, numbers, k, effect[k]));
+  return out;
+}
+
+bool has_release(const BankTable &table) {
+  return std::any_of(table.rows.begin(), table.rows.end(),
+                     [](const BankRow &row) { return !row.run.release_pressure.empty(); });
+}
+
+SimulatedRun shown_with(const Effect &effect, double value, const SimulatedRun &run) {
+  PressInstruments press; // MPa, um
+  if (effect.shown)
+    press.*effect.shown = value;
+  SimulatedRun out = run;
+  out.thickness_at_max = press.thickness_shown(run.thickness_at_max);
+  out.thickness_after = press.thickness_shown(run.thickness_after);
+  const double before = run.solid_column / (1.0 - run.porosity_initial);
+  out.porosity_initial = 1.0 - run.solid_column / press.thickness_shown(before);
+  out.porosity_after = 1.0 - run.solid_column / out.thickness_after;
+  for (std::size_t k = 0; k < run.pressure.size(); ++k)
+    out.displacement[k] = press.displacement_shown(run.displacement[k], run.pressure[k]);
+  for (std::size_t k = 0; k < run.release_pressure.size(); ++k)
+    out.release_displacement[k] =
+        press.displacement_shown(run.release_displacement[k], run.release_pressure[k]);
+  return out;
+}
+
+SimulatedRun between_runs(const SimulatedRun &lower, const SimulatedRun &upper, double pressure) {
+  const double share = (pressure - lower.target) / (upper.target - lower.target);
+  SimulatedRun out = upper;
+  for (const Number &n : kNumbers)
+    out.*(n.field) = lower.*(n.field) + share * (upper.*(n.field) - lower.*(n.field));
+  for (std::size_t k = 0; k < upper.release_pressure.size(); ++k) {
+    const double of_largest = upper.release_pressure[k] / upper.target;
+    const double below = displacement_at(lower.release_pressure, lower.release_displacement,
+                                         of_largest * lower.target);
+    out.release_pressure[k] = of_largest * pressure;
+    out.release_displacement[k] = below + share * (upper.release_displacement[k] - below);
+  }
+  return out;
+}
+
+} // namespace calendem

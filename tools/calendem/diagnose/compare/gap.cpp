@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "diagnose/compare/gap.h"
+#include "diagnose/compare/image_observables.h"
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+#include <set>
+
+namespace calendem {
+namespace {
+
+constexpr double kFalseAlarm = 0.05; // of the whole table
+
+/// Values of an observable, one per packing: runs of one packing are averaged first.
+struct Packings {
+  std::vector<double> values;
+  double mean = 0.0, squares = 0.0; ///< squares: sum of squared deviations
+};
+
+Packings per_packing(const std::vector<const SimulatedRun *> &runs,
+                     const std::function<double(const SimulatedRun &)> &value) {
+  std::map<std::string, std::vector<double>> by_electrode;
+  for (const SimulatedRun *r : runs)
+    by_electrode[r->electrode_hash].push_back(value(*r));
+  Packings out;
+  for (const auto &[electrode, values] : by_electrode) {
+    double sum = 0.0;
+    for (double v : values)
+      sum += v;
+    out.values.push_back(sum / values.size());
+    out.mean += out.values.back();
+  }
+  out.mean /= out.values.size();
+  for (double v : out.values)
+    out.squares += (v - out.mean) * (v - out.mean);
+  return out;
+}
+
+struct Entry {
+  Residual row;
+  Packings packings;
+};
+
+/// Scatter between packings, pooled over the conditions of an observable.
+void pool_seeds(std::vector<Entry> &entries, int &degrees_of_freedom) {
+  std::map<std::string, std::pair<double, int>> pooled;
+  for (const Entry &e : entries) {
+    pooled[e.row.observable].first += e.packings.squares;
+    pooled[e.row.observable].second += static_cast<int>(e.packings.values.size()) - 1;
+  }
+  int fewest = -1;
+  for (Entry &e : entries) {
+    const auto [squares, df] = pooled[e.row.observable];
+    e.row.sd_seeds = df > 0 ? std::sqrt(squares / df / e.packings.values.size()) : std::nan("");
+    if (df > 0)
+      fewest = fewest < 0 ? df : std::min(fewest, df);
+  }
+  degrees_of_freedom = fewest;
+}
+
+/// |z| that one of n rows crosses by chance in kFalseAlarm of all tables (Sidak); Student's t where
+/// the scatter was estimated.
+double threshold(int rows, int degrees_of_freedom) {
+  const double tail = 0.5 * (1.0 - std::pow(1.0 - kFalseAlarm, 1.0 / rows));
+  if (degrees_of_freedom > 0)
+    return quantile(complement(boost::math::students_t(degrees_of_freedom), tail));
+  return quantile(complement(boost::math::normal(), tail));
+}
+
+void finish(Gap &gap) {
+  int judged = 0;
+  for (Residual &r : gap.rows) {
+    r.sd = std::hypot(r.sd_measurement, std::isnan(r.sd_seeds) ? 0.0 : r.sd_seeds, r.sd_pressure);
+    r.z = r.sd > 0.0 ? r.residual / r.sd : std::nan("");
+    judged += r.sd > 0.0;
+    gap.chi2 += r.sd > 0.0 ? r.z * r.z : 0.0;
+  }
+  gap.threshold = threshold(std::max(1, judged), gap.degrees_of_freedom);
+  for (Residual &r : gap.rows) {
+    r.share = r.sd > 0.0 && gap.chi2 > 0.0 ? r.z * r.z / gap.chi2 : 0.0;
+    r.significant = r.sd > 0.0 && std::fabs(r.z) > gap.threshold;
+  }
+  gap.p_value =
+      judged > 0 ? cdf(complement(boost::math::chi_squared(double(judged)), gap.chi2)) : 1.0;
+  const auto size = [](const Residual &r) { return r.sd > 0.0 ? std::fabs(r.z) : -1.0; };
+  std::stable_sort(gap.rows.begin(), gap.rows.end(),
+                   [&size](const Residual &a, const Residual &b) { return size(a) > size(b); });
+}
+
+std::string amount(double value, const std::string &unit) {
+  return fmt::format("{:.3g}{}{}", value, unit.empty() ? "" : " ", unit == "%" ? "points" : unit);
+}
+
+void say(Gap &gap) {
+  for (const Residual &r : gap.rows)
+    if (r.significant)
+      gap.said.push_back(
+          fmt::format("{}, {} ({}): the simulation is {} too {} (z = {:.1f}, {:.0f} % of the gap).",
+                      r.condition, r.observable, r.stage, amount(std::fabs(r.residual), r.unit),
+                      r.residual > 0.0 ? "high" : "low", r.z, 100.0 * r.share));
+    else if (r.sd > 0.0)
+      gap.not_said.push_back(fmt::format(
+          "{}, {}: a difference of {} cannot be told from none; below {} nothing can be seen here.",
+          r.condition, r.observable, amount(std::fabs(r.residual), r.unit),
+          amount(gap.threshold * r.sd, r.unit)));
+    else
+      gap.not_said.push_back(fmt::format(
+          "{}, {}: without a standard deviation it cannot be said whether a difference of {} is "
+          "one. Give {{ value = ..., sd = ... }}, or runs of several packings.",
+          r.condition, r.observable, amount(std::fabs(r.residual), r.unit)));
+  if (gap.degrees_of_freedom < 0)
+    gap.not_said.push_back(
+        "Scatter between packings is not known: every condition has one packing. All z are upper "
+        "bounds. Pack the recipe with other seeds (at least 5) and run them too.");
+}
+
+/// The same change measured and simulated between conditions: free of a common offset.
+void say_changes(Gap &gap) {
+  for (std::size_t a = 0; a < gap.rows.size(); ++a)
+    for (std::size_t b = 0; b < gap.rows.size(); ++b) {
+      const Residual &x = gap.rows[a], &y = gap.rows[b];
+      if (x.observable != y.observable || !(x.condition < y.condition))
+        continue;
+      const double change = y.measured - x.measured,
+                   sd = std::hypot(y.sd_measurement, x.sd_measurement);
+      gap.said.push_back(fmt::format(
+          "{} → {}, {}: measured {:+.3g} ± {:.2g}, simulated {:+.3g}{}.", x.condition, y.condition,
+          x.observable, change, sd, y.simulated - x.simulated,
+          std::fabs(change) < 3.0 * sd ? "; the measured change itself is below 3 of its standard "
+                                         "deviations and carries little information"
+                                       : ""));
+    }
+}
+
+std::string why_none(const Observable &o, const std::vector<const SimulatedRun *> &runs) {
+  for (const SimulatedRun *r : runs)
+    if (o.why_none && !std::isfinite(o.simulated(*r)))
+      return o.why_none(*r);
+  return "";
+}
+
+} // namespace
+
+Gap find_gap(const Experiment &experiment, const std::vector<SimulatedRun> &runs) {
+  Gap gap;
+  gap.experiment = experiment.name;
+  std::vector<Entry> entries;
+  std::set<const SimulatedRun *> used;
+  for (const Condition &c : experiment.conditions) {
+    std::vector<const SimulatedRun *> mine;
+    for (const SimulatedRun &r : runs)
+      if (belongs(r, c))
+        mine.push_back(&r);
+    used.insert(mine.begin(), mine.end());
+    if (mine.empty()) {
+      gap.not_said.push_back(fmt::format(
+          "{}: no run has its {}; nothing is said about it.", c.id,
+          by_pressure(c) ? fmt::format("pressure of {:g} MPa", c.max_pressure_MPa->value)
+          : c.control == "roll_gap"
+              ? "roll gap: it is set beside runs of a platen, so give max_pressure_MPa as the gap "
+                "was converted into it"
+              : c.control));
+      continue;
+    }
+    if (c.control == "roll_gap")
+      gap.not_said.push_back(
+          fmt::format("{}: it was pressed under a roll, the runs under a platen to the pressure "
+                      "that the roll's "
+                      "gap was converted into. What a nip does besides is taken for a gap of the "
+                      "model; calendem "
+                      "run with platen.control = \"roll_gap\" shows how much that is.",
+                      c.id));
+    std::vector<Observable> observables = observables_of(experiment, c, gap.not_said);
+    const auto on_images = image_observables_of(experiment, c, gap.not_said);
+    observables.insert(observables.end(), on_images.begin(), on_images.end());
+    std::map<std::string, std::vector<std::string>> without; // by the reason
+    for (const Observable &o : observables) {
+      Entry e{{}, per_packing(mine, o.simulated)};
+      e.row.observable = o.name;
+      e.row.stage = o.stage;
+      e.row.condition = c.id;
+      e.row.unit = o.unit;
+      e.row.measured = o.measured;
+      e.row.sd_measurement = std::hypot(o.sd, o.by_loading);
+      e.row.simulated = e.packings.mean;
+      e.row.residual = e.row.simulated - o.measured;
+      e.row.packings = static_cast<int>(e.packings.values.size());
+      if (by_pressure(c))
+        e.row.sd_pressure = std::fabs(per_packing(mine, o.slope).mean) * c.max_pressure_MPa->sd;
+      if (std::isfinite(e.row.residual))
+        entries.push_back(e);
+      else
+        without[why_none(o, mine)].push_back(o.name);
+    }
+    for (const auto &[why, names] : without)
+      gap.not_said.push_back(fmt::format("{}: the runs have no value for {}{}", c.id,
+                                         fmt::join(names, "; "), why.empty() ? "." : ": " + why));
+  }
+  if (entries.empty())
+    throw Failure(kBadInput,
+                  fmt::format("nothing of '{}' can be compared with these runs. A run belongs to a "
+                              "condition when its platen has the condition's control and target "
+                              "within 2 %.{}",
+                              experiment.name, as_list(gap.not_said)));
+  for (const SimulatedRun &r : runs)
+    if (!used.count(&r))
+      gap.not_said.push_back(
+          fmt::format("{} belongs to no condition ({} {:g}).", r.folder, r.control, r.target));
+  for (const SimulatedRun *r : used)
+    if (const auto differs = other_electrode(experiment.recipe.settings.all(), r->recipe);
+        !differs.empty())
+      gap.not_said.insert(gap.not_said.begin(),
+                          fmt::format("{}: its electrode is not the experiment's; {}. What differs "
+                                      "by that is no gap of the model.",
+                                      r->folder, fmt::join(differs, "; ")));
+  for (const SimulatedRun *r : used)
+    if (!r->imposed.empty())
+      gap.not_said.push_back(fmt::format("{}: the nanoporosity of CBD is {}. Its porosities are no "
+                                         "prediction of the model.",
+                                         r->folder, r->imposed));
+  pool_seeds(entries, gap.degrees_of_freedom);
+  for (const Entry &e : entries)
+    gap.rows.push_back(e.row);
+  finish(gap);
+  say(gap);
+  say_changes(gap);
+  return gap;
+}
+
+} // namespace calendem

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Where simulation and press disagree: the residual of every observable that both have, beside
+// everything that makes it uncertain. Nothing is fitted here.
+#ifndef CALENDEM_DIAGNOSE_COMPARE_GAP_H
+#define CALENDEM_DIAGNOSE_COMPARE_GAP_H
+
+#include "base/experiment.h"
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace calendem {
+
+/// What one run gives for an experiment, as its press shows it. Lengths um, pressures MPa,
+/// porosities and fractions 0-1.
+struct SimulatedRun {
+  std::string folder;
+  std::string control;
+  double target = 0.0; ///< of the platen: MPa or um
+  double max_pressure = 0.0, thickness_at_max = 0.0, thickness_after = 0.0;
+  double porosity_initial = 0.0, porosity_at_max = 0.0, porosity_after = 0.0;
+  double solid_column = 0.0;                  ///< solid volume per area [um]
+  double cracked_fraction = 0.0;              ///< of the bodies
+  std::vector<double> pressure, displacement; ///< of the compression, highest pressure so far
+  /// Of the release, by rising pressure: the lowest so far.
+  std::vector<double> release_pressure, release_displacement;
+  double porosity_slope = 0.0; ///< d porosity / d pressure under load near the maximum [1/MPa]
+  std::string imposed;         ///< what was imposed on the run, not predicted; empty: nothing
+  std::map<std::string, std::string> recipe; ///< of its electrode
+  std::string electrode_hash;                ///< two runs of one packing are no two packings
+};
+
+/// Reads summary.json, electrode.json, case.toml and curve.csv of a run directory. Throws
+/// Failure(2) with what is missing, cut, or not finished.
+SimulatedRun read_simulated_run(const std::string &folder);
+
+/// Adds a point to a branch of a curve if its pressure lies above all before; false: it does not.
+bool add_if_higher(std::vector<double> &pressures, std::vector<double> &displacements,
+                   double pressure, double displacement);
+
+/// Displacement at which `pressure` is first met, linear between points; NaN beyond the last.
+double displacement_at(const std::vector<double> &pressures,
+                       const std::vector<double> &displacements, double pressure);
+
+/// One observable of one condition. `residual` is simulation minus experiment; all in `unit`.
+struct Residual {
+  std::string observable, stage, condition, unit;
+  double measured = 0.0, simulated = 0.0, residual = 0.0;
+  int packings = 0;            ///< that `simulated` is the mean of
+  double sd_measurement = 0.0; ///< of the measured value
+  double sd_seeds = 0.0;       ///< of the mean over packings; NaN: not known
+  double sd_pressure = 0.0;    ///< by the uncertainty of the condition's pressure
+  double sd = 0.0;             ///< of the residual
+  double z = 0.0;              ///< residual / sd
+  double share = 0.0;          ///< z^2 over the sum of all z^2
+  bool significant = false; ///< beyond the threshold that the whole table crosses by chance in 5 %
+};
+
+struct Gap {
+  std::string experiment;
+  std::vector<Residual> rows;        ///< largest |z| first
+  double threshold = 0.0;            ///< of |z|
+  double chi2 = 0.0, p_value = 1.0;  ///< of all rows together, as if they were independent
+  int degrees_of_freedom = -1;       ///< of the pooled scatter between packings; -1: not known
+  std::vector<std::string> said;     ///< what can be said
+  std::vector<std::string> not_said; ///< what cannot, and what would help
+};
+
+/// Throws Failure(2) if no run belongs to any condition.
+Gap find_gap(const Experiment &experiment, const std::vector<SimulatedRun> &runs);
+
+/// gap.json (contract: "where") and the page made from it.
+nlohmann::json to_json(const Gap &gap);
+std::string gap_page(const nlohmann::json &gap);
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Where a gap lies at a glance: observables over conditions.
+#ifndef CALENDEM_DIAGNOSE_COMPARE_GAP_PAGE_H
+#define CALENDEM_DIAGNOSE_COMPARE_GAP_PAGE_H
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace calendem {
+
+/// For a page: {"conditions": [""], "rows": [{"observable", "cells": [{"text", "colour"}]}]} of
+/// rows "where" of gap.json, whose residual is simulation less experiment in "unit" and whose z
+/// stands out beyond `threshold`. Conditions in the order of `conditions`, others behind by name.
+nlohmann::json heat_map(const nlohmann::json &where, double threshold,
+                        const std::vector<std::string> &conditions = {});
+
+/// A JSON number in that format; a dash where it is none.
+std::string shown(const nlohmann::json &number, const char *format);
+
+} // namespace calendem
+
+#endif

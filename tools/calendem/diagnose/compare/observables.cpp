@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "diagnose/compare/observables.h"
+#include "base/csv_table.h"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+
+namespace calendem {
+namespace {
+
+constexpr double kSameTarget = 0.02;
+// Of the maximum pressure; the release is compared at the same, less the first: there the film
+// parts from the platen, and how it does is the press's affair too.
+constexpr double kCurveShares[] = {0.1, 0.25, 0.5, 0.75};
+constexpr double kRowsApart = 0.0199; // of the largest pressure: rows a fiftieth apart all count
+
+double none(const SimulatedRun &) { return 0.0; }
+
+/// h/h_solid: free of the samples' different loadings. `of`: the run's thickness.
+Observable thickness_ratio(const Experiment &e, const Measured &thickness, const Measured &loading,
+                           const char *stage, double SimulatedRun::*of) {
+  const double h = coating_thickness_um(e, thickness);
+  const double ratio = h / solid_thickness_um(e, loading.value);
+  Observable o;
+  o.name = "thickness over solid thickness";
+  o.stage = stage;
+  o.measured = ratio;
+  o.sd = ratio * thickness.sd / h;
+  o.by_loading = -ratio * loading.sd / loading.value;
+  o.simulated = [of](const SimulatedRun &r) { return r.*of / r.solid_column; };
+  o.slope = [of](const SimulatedRun &r) { // of 1/(1 - porosity)
+    return r.porosity_slope * std::pow(r.*of / r.solid_column, 2);
+  };
+  return o;
+}
+
+std::string without_loading(const Condition &c, const std::string &what) {
+  return fmt::format("{}: without a mass or a loading of this sample its {} compared in um, as if "
+                     "it carried the recipe's.",
+                     c.id, what);
+}
+
+/// After relaxation, in um: the sample's loading is not known.
+void add_thickness(const Experiment &e, const Condition &c, const Measured &thickness,
+                   std::vector<Observable> &out, std::vector<std::string> &not_said) {
+  Observable o;
+  o.name = "thickness";
+  o.stage = "relaxation";
+  o.unit = "um";
+  o.measured = coating_thickness_um(e, thickness);
+  o.sd = thickness.sd;
+  o.simulated = [](const SimulatedRun &r) { return r.thickness_after; };
+  o.slope = [](const SimulatedRun &r) {
+    return r.porosity_slope * r.thickness_after / (1.0 - r.porosity_after);
+  };
+  out.push_back(o);
+  not_said.push_back(without_loading(c, "thickness is"));
+}
+
+void porosity_before(const Condition &c, std::vector<Observable> &out) {
+  if (c.porosity_before_percent)
+    out.push_back({"total porosity before", kBefore, "%", c.porosity_before_percent->value,
+                   c.porosity_before_percent->sd,
+                   [](const SimulatedRun &r) { return 100.0 * r.porosity_initial; }, none});
+}
+
+void porosity_after(const Experiment &e, const Condition &c, std::vector<Observable> &out,
+                    std::vector<std::string> &not_said) {
+  const std::optional<Measured> loading = loading_of(e, c);
+  std::optional<Observable> ratio;
+  if (c.thickness_after_um && loading)
+    ratio = thickness_ratio(e, *c.thickness_after_um, *loading, "relaxation",
+                            &SimulatedRun::thickness_after);
+  if (!c.porosity_after_percent) {
+    if (ratio)
+      out.push_back(*ratio);
+    else if (c.thickness_after_um)
+      add_thickness(e, c, *c.thickness_after_um, out, not_said);
+    return;
+  }
+  Observable o = {"total porosity",
+                  "relaxation",
+                  "%",
+                  c.porosity_after_percent->value,
+                  c.porosity_after_percent->sd,
+                  [](const SimulatedRun &r) { return 100.0 * r.porosity_after; },
+                  [](const SimulatedRun &r) { return 100.0 * r.porosity_slope; }};
+  out.push_back(o);
+  if (ratio)
+    not_said.push_back(fmt::format(
+        "{}: mass and thickness give a porosity of {:.2f} ± {:.2f} %, stated are {:.2f} %. They "
+        "are one measurement: only the stated porosity is compared.",
+        c.id, 100.0 * (1.0 - 1.0 / ratio->measured),
+        100.0 * std::hypot(ratio->sd, ratio->by_loading) / (ratio->measured * ratio->measured),
+        o.measured));
+}
+
+void under_load(const Experiment &e, const Condition &c, std::vector<Observable> &out,
+                std::vector<std::string> &not_said) {
+  if (!by_pressure(c) && c.max_pressure_MPa)
+    out.push_back({"maximum pressure", "compression", "MPa", c.max_pressure_MPa->value,
+                   c.max_pressure_MPa->sd, [](const SimulatedRun &r) { return r.max_pressure; },
+                   none});
+  const std::optional<Measured> loading = loading_of(e, c);
+  if (by_pressure(c) && c.thickness_at_max_um && loading) {
+    out.push_back(thickness_ratio(e, *c.thickness_at_max_um, *loading, "compression",
+                                  &SimulatedRun::thickness_at_max));
+  } else if (by_pressure(c) && c.thickness_at_max_um) {
+    out.push_back({"thickness", "compression", "um", c.thickness_at_max_um->value,
+                   c.thickness_at_max_um->sd,
+                   [](const SimulatedRun &r) { return r.thickness_at_max; },
+                   [](const SimulatedRun &r) {
+                     return r.porosity_slope * r.thickness_at_max / (1.0 - r.porosity_at_max);
+                   }});
+    not_said.push_back(without_loading(c, "thickness is"));
+  }
+  if (c.cracked_bodies_fraction)
+    out.push_back({"cracked bodies", "compression", "fraction", c.cracked_bodies_fraction->value,
+                   c.cracked_bodies_fraction->sd,
+                   [](const SimulatedRun &r) { return r.cracked_fraction; }, none});
+}
+
+struct MeasuredBranch {
+  std::vector<double> pressure, displacement; ///< by rising pressure
+  void add(double p, double d) { add_if_higher(pressure, displacement, p, d); }
+};
+
+struct MeasuredCurve {
+  MeasuredBranch loading, release; ///< up to the highest, down to the lowest pressure so far
+};
+
+MeasuredCurve read_curve(const std::string &file) {
+  std::ifstream in(file);
+  const auto table =
+      CsvTable::parse({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+  const auto d = table.numbers("displacement_um"), p = table.numbers("pressure_MPa");
+  const auto stage = table.texts("stage");
+  MeasuredCurve out;
+  for (std::size_t k = 0; k < p.size(); ++k)
+    if (stage.empty() || stage[k] == "loading" || stage[k] == "compression")
+      out.loading.add(p[k], d[k]);
+  for (std::size_t k = stage.size(); k-- > 0;)
+    if (stage[k] == "unloading" || stage[k] == "relaxation")
+      out.release.add(p[k], d[k]);
+  return out;
+}
+
+/// Displacement at shares of the curve's largest pressure, over the solid thickness where the
+/// sample's loading is known.
+void along_curve(const Experiment &e, const Condition &c, std::vector<Observable> &out,
+                 std::vector<std::string> &not_said) {
+  if (c.curve.empty())
+    return;
+  const MeasuredCurve curve = read_curve(c.curve);
+  const std::optional<Measured> loading = loading_of(e, c);
+  const double solid = loading ? solid_thickness_um(e, loading->value) : 1.0;
+  if (!loading)
+    not_said.push_back(without_loading(c, "displacements are"));
+  const double largest = curve.loading.pressure.back();
+  const auto add = [&](const MeasuredBranch &measured, Branch branch) {
+    for (Observable &o : points_of_curve(e, c, largest, branch)) {
+      o.measured = displacement_at(measured.pressure, measured.displacement, o.pressure) / solid;
+      o.sd = c.curve_sd_um / solid;
+      o.by_loading = loading ? -o.measured * loading->sd / loading->value : 0.0;
+      if (branch == Branch::Loading || std::isfinite(o.measured))
+        out.push_back(o);
+    }
+  };
+  add(curve.loading, Branch::Loading);
+  add(curve.release, Branch::Release);
+}
+
+/// As stated, else the largest of the curve [um].
+double displacement_of(const Condition &c) {
+  if (c.displacement_um)
+    return c.displacement_um->value;
+  return read_curve(c.curve).loading.displacement.back();
+}
+
+bool near(double a, double b) { return std::fabs(a - b) <= kSameTarget * std::fabs(b); }
+
+} // namespace
+
+bool by_pressure(const Condition &c) {
+  return c.max_pressure_MPa && (c.control == "pressure" || c.control == "roll_gap");
+}
+
+std::optional<Measured> loading_of(const Experiment &e, const Condition &c) {
+  if (c.mass_mg)
+    return Measured{coating_loading_mg_cm2(e, *c.mass_mg), c.mass_mg->sd / sample_area_cm2(e)};
+  return c.loading_mg_cm2;
+}
+
+std::vector<Observable> points_of_curve(const Experiment &e, const Condition &c, double largest,
+                                        Branch branch) {
+  const std::optional<Measured> loading = loading_of(e, c);
+  const bool over_solid = loading.has_value(), released = branch == Branch::Release;
+  const auto of_run = [over_solid, released](const SimulatedRun &r, double p) {
+    return (released ? displacement_at(r.release_pressure, r.release_displacement, p)
+                     : displacement_at(r.pressure, r.displacement, p)) /
+           (over_solid ? r.solid_column : 1.0);
+  };
+  // The whole release moves with the thickness at the maximum.
+  const auto of_release = [over_solid](const SimulatedRun &r) {
+    return -r.porosity_slope * r.thickness_at_max / (1.0 - r.porosity_at_max) /
+           (over_solid ? r.solid_column : 1.0);
+  };
+  // a calibration error is a share of each pressure, not of the largest
+  const double sd = c.max_pressure_MPa ? c.max_pressure_MPa->sd : 0.0;
+  const double relative = sd > 0.0 ? sd / c.max_pressure_MPa->value : 0.0;
+  std::vector<Observable> out;
+  for (const double share : kCurveShares) {
+    if (released && share == kCurveShares[0])
+      continue;
+    const double at = share * largest;
+    Observable o;
+    o.curve = over_solid ? "displacement over solid thickness" : "displacement";
+    o.coordinate = share;
+    o.pressure = at;
+    o.name = fmt::format("{} at {:.0f} MPa{}", o.curve, at, released ? " on release" : "");
+    o.stage = released ? "relaxation" : "compression";
+    o.unit = over_solid ? "" : "um";
+    o.simulated = [of_run, at](const SimulatedRun &r) { return of_run(r, at); };
+    o.slope = [of_run, of_release, released, at, relative, sd](const SimulatedRun &r) {
+      if (released)
+        return of_release(r);
+      return relative > 0.0 ? (of_run(r, 1.05 * at) - of_run(r, 0.95 * at)) / 0.1 * relative / sd
+                            : 0.0;
+    };
+    out.push_back(o);
+  }
+  return out;
+}
+
+std::vector<Observable> observables_of(const Experiment &e, const Condition &c,
+                                       std::vector<std::string> &not_said) {
+  std::vector<Observable> out;
+  porosity_before(c, out);
+  porosity_after(e, c, out, not_said);
+  under_load(e, c, out, not_said);
+  along_curve(e, c, out, not_said);
+  for (const Observable &o : out)
+    if (o.sd == 0.0 && o.by_loading == 0.0)
+      not_said.push_back(fmt::format("{}: {} has no standard deviation; the measurement counts as "
+                                     "exact.",
+                                     c.id, o.name));
+  return out;
+}
+
+std::vector<Observable> release_rows(const Experiment &e, const Condition &c) {
+  std::vector<Observable> out;
+  if (c.curve.empty())
+    return out;
+  const MeasuredCurve curve = read_curve(c.curve);
+  const MeasuredBranch &rows = curve.release;
+  const std::optional<Measured> loading = loading_of(e, c);
+  const double solid = loading ? solid_thickness_um(e, loading->value) : 1.0;
+  const double largest = curve.loading.pressure.back();
+  double next = kCurveShares[1] * largest;
+  for (std::size_t k = 0; k < rows.pressure.size(); ++k) {
+    const double at = rows.pressure[k];
+    if (at < next)
+      continue;
+    next = at + kRowsApart * largest;
+    Observable o;
+    o.pressure = at;
+    o.measured = rows.displacement[k] / solid;
+    o.sd = c.curve_sd_um / solid;
+    o.simulated = [at, of_solid = loading.has_value()](const SimulatedRun &r) {
+      return displacement_at(r.release_pressure, r.release_displacement, at) /
+             (of_solid ? r.solid_column : 1.0);
+    };
+    out.push_back(o);
+  }
+  return out;
+}
+
+bool belongs(const SimulatedRun &r, const Condition &c) {
+  if (by_pressure(c))
+    return r.control == "pressure" && near(r.target, c.max_pressure_MPa->value);
+  if (c.control == "displacement")
+    return r.control == "displacement" && near(r.target, displacement_of(c));
+  if (c.control == "thickness" && c.thickness_at_max_um)
+    return r.control == "thickness" && near(r.target, c.thickness_at_max_um->value);
+  return false;
+}
+
+} // namespace calendem

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The observables of an experiment file and what a run gives for each. A new one is one function.
+#ifndef CALENDEM_DIAGNOSE_COMPARE_OBSERVABLES_H
+#define CALENDEM_DIAGNOSE_COMPARE_OBSERVABLES_H
+
+#include "diagnose/compare/gap.h"
+#include <functional>
+
+namespace calendem {
+
+/// What both have, before statistics.
+struct Observable {
+  std::string name, stage, unit;
+  double measured = 0.0, sd = 0.0;
+  std::function<double(const SimulatedRun &)> simulated;
+  /// Change of the simulated value per MPa of the condition's pressure, 0 where it does not matter.
+  std::function<double(const SimulatedRun &)> slope;
+  std::string curve = {};  ///< of a point of a curve: the curve's name
+  double coordinate = 0.0; ///< of a point: its place on the curve, 0-1
+  double pressure = 0.0;   ///< of a point [MPa]
+  /// Change of the measured value by one standard deviation of the sample's loading: the same error
+  /// in all of a condition. Not in `sd`.
+  double by_loading = 0.0;
+  /// Why a run has no value; empty function: it needs no reason.
+  std::function<std::string(const SimulatedRun &)> why_none = {};
+};
+
+/// Stage of what is seen of a sample that is not pressed yet: of its recipe, not of the model.
+inline constexpr char kBefore[] = "before";
+
+/// All of one condition. What a value needs and lacks is told in `not_said`.
+std::vector<Observable> observables_of(const Experiment &experiment, const Condition &condition,
+                                       std::vector<std::string> &not_said);
+
+/// The platen goes to the condition's pressure; a roll gap counts by the pressure it was converted
+/// into.
+bool by_pressure(const Condition &condition);
+
+/// Of the sample [mg/cm2], by its mass if that is given.
+std::optional<Measured> loading_of(const Experiment &experiment, const Condition &condition);
+
+enum class Branch { Loading, Release };
+
+/// The points at which a branch of a curve to `largest` MPa is compared, without measured values.
+std::vector<Observable> points_of_curve(const Experiment &experiment, const Condition &condition,
+                                        double largest, Branch branch);
+
+/// The rows of the measured release from a quarter of the largest pressure on, a fiftieth of it
+/// apart at least: as measured, not interpolated. Below, the bank's releases bend between their
+/// pressures.
+std::vector<Observable> release_rows(const Experiment &experiment, const Condition &condition);
+
+/// True if the run's platen did what the condition says, within 2 %.
+bool belongs(const SimulatedRun &run, const Condition &condition);
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "diagnose/covered_conditions.h"
+#include "diagnose/bank_points.h"
+#include "diagnose/images_beside.h"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace calendem {
+
+namespace {
+
+constexpr double kSamePressure = 0.02; // of it
+constexpr double kOtherFilm = 0.1;     // of the film: more than a bank varies it
+constexpr double kLoadingKnown = 0.03; // of a loading that nobody measured
+
+bool near(double a, double b) { return std::fabs(a - b) <= kSamePressure * b; }
+
+/// Mean over the base model's runs to the bank's pressure next to this one.
+double usual(const BankTable &table, double pressure,
+             const std::function<double(const SimulatedRun &)> &value) {
+  double sum = 0.0, n = 0.0, apart = INFINITY;
+  for (const BankRow &row : table.rows)
+    if (row.point.effect.empty())
+      apart = std::min(apart, std::fabs(row.run.target - pressure));
+  for (const BankRow &row : table.rows)
+    if (row.point.effect.empty() && std::fabs(row.run.target - pressure) <= apart) {
+      sum += value(row.run);
+      n += 1.0;
+    }
+  return sum / n;
+}
+
+const MeasurementPrice &price_of(const BankSpec &spec, const std::string &name) {
+  return *std::find_if(spec.prices.begin(), spec.prices.end(),
+                       [&](const MeasurementPrice &p) { return p.name == name; });
+}
+
+/// What only is measured on it: the sample's loading and its pressure stay.
+Condition bare(const Condition &c) {
+  Condition out;
+  out.id = c.id;
+  out.control = c.control;
+  out.max_pressure_MPa = c.max_pressure_MPa;
+  out.loading_mg_cm2 = c.loading_mg_cm2;
+  out.mass_mg = c.mass_mg;
+  return out;
+}
+
+Condition with_loading(const Experiment &e, const Condition &c, const BankTable &table,
+                       std::vector<std::string> &not_said) {
+  Condition out = c;
+  const double other = 1.0 / film_ratio(e, table);
+  if (loading_of(e, c) || !(std::fabs(other - 1.0) > kOtherFilm))
+    return out;
+  out.loading_mg_cm2 = Measured{e.recipe.loading, kLoadingKnown * e.recipe.loading};
+  not_said.push_back(fmt::format("{}: its mass or loading is not given; taken is the recipe's {:g} "
+                                 "mg/cm2 within {:g} %. Weigh the sample.",
+                                 c.id, e.recipe.loading, 100.0 * kLoadingKnown));
+  return out;
+}
+
+/// The measurements of one kind: on each condition that lacks it.
+class Kind {
+public:
+  Kind(const Experiment &e, const BankTable &table, const std::string &name)
+      : experiment_(e), table_(table), price_(price_of(table.spec, name)) {
+    out_.what = price_.what;
+  }
+  void add(const Condition &c, const std::vector<Observable> &observables) {
+    out_.of.push_back({c, c.max_pressure_MPa->value, observables});
+    out_.what += (out_.of.size() == 1 ? ": " : ", ") + c.id;
+    out_.hours += price_.hours;
+  }
+  void add(const Condition &c) {
+    std::vector<std::string> not_said;
+    add(c, observables_of(experiment_, c, not_said));
+  }
+  /// Measured to the price's deviation at what the bank usually gives.
+  Measured expected(const Condition &c,
+                    const std::function<double(const SimulatedRun &)> &value) const {
+    return {usual(table_, c.max_pressure_MPa->value, value), price_.sd};
+  }
+  double sd() const { return price_.sd; }
+  void finish(std::vector<Further> &list) const {
+    if (!out_.of.empty())
+      list.push_back(out_);
+  }
+
+private:
+  const Experiment &experiment_;
+  const BankTable &table_;
+  const MeasurementPrice &price_;
+  Further out_;
+};
+
+void add_porosity(Kind &kind, Condition c) {
+  c.porosity_after_percent =
+      kind.expected(c, [](const SimulatedRun &r) { return 100.0 * r.porosity_after; });
+  kind.add(c);
+}
+
+void add_thickness(Kind &kind, const Experiment &e, Condition c) {
+  if (const auto loading = loading_of(e, c)) {
+    c.thickness_at_max_um =
+        kind.expected(c, [](const SimulatedRun &r) { return r.thickness_at_max / r.solid_column; });
+    c.thickness_at_max_um->value *= solid_thickness_um(e, loading->value);
+  } else {
+    c.thickness_at_max_um =
+        kind.expected(c, [](const SimulatedRun &r) { return r.thickness_at_max; });
+  }
+  kind.add(c);
+}
+
+void add_curve(Kind &kind, const Experiment &e, const Condition &c, Branch branch) {
+  const auto loading = loading_of(e, c);
+  const double solid = loading ? solid_thickness_um(e, loading->value) : 1.0;
+  std::vector<Observable> points = points_of_curve(e, c, c.max_pressure_MPa->value, branch);
+  for (Observable &o : points) {
+    o.sd = kind.sd() / solid;
+    o.by_loading =
+        loading ? -kind.expected(c, o.simulated).value * loading->sd / loading->value : 0.0;
+  }
+  kind.add(c, points);
+}
+
+bool of_release(const Observable &o) { return !o.curve.empty() && o.stage == "relaxation"; }
+
+/// A condition at a pressure of the bank, read as well as those of the experiment.
+Condition at_pressure(double pressure, const std::vector<CoveredCondition> &covered) {
+  double relative = 0.0;
+  for (const CoveredCondition &c : covered)
+    relative += c.condition.max_pressure_MPa->sd / c.pressure / double(covered.size());
+  Condition out;
+  out.id = fmt::format("{:g} MPa", pressure);
+  out.control = "pressure";
+  out.max_pressure_MPa = Measured{pressure, relative * pressure};
+  return out;
+}
+
+} // namespace
+
+std::vector<CoveredCondition> covered_conditions(const Experiment &e, const BankTable &table,
+                                                 const std::vector<std::string> &wanted,
+                                                 std::vector<std::string> &not_said) {
+  const BankSpec &spec = table.spec;
+  std::vector<CoveredCondition> out;
+  for (const Condition &c : e.conditions) {
+    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), c.id) == wanted.end())
+      continue;
+    if (!by_pressure(c)) {
+      not_said.push_back(fmt::format("{}: control = \"{}\" is not in the bank, whose runs go to a "
+                                     "pressure; the condition is left out.",
+                                     c.id, c.control));
+      continue;
+    }
+    const double p = c.max_pressure_MPa->value;
+    if (p < 0.98 * spec.pressures.front() || p > 1.02 * spec.pressures.back()) {
+      not_said.push_back(fmt::format("{}: {:g} MPa lies outside the bank's {:g} to {:g} MPa; the "
+                                     "condition is left out.",
+                                     c.id, p, spec.pressures.front(), spec.pressures.back()));
+      continue;
+    }
+    if (c.dwell_s > 0.0)
+      not_said.push_back(fmt::format("{}: the bank's runs do not dwell; its {:g} s at the target "
+                                     "are left out.",
+                                     c.id, c.dwell_s));
+    if (has_images(c))
+      not_said.push_back(fmt::format(
+          "{}: label images have no part in which effect it is: the bank keeps no frames. Those of "
+          "a held-out condition are set beside the models that are run again; calendem compare "
+          "sets any beside runs.",
+          c.id));
+    const Condition known = with_loading(e, c, table, not_said);
+    std::vector<Observable> seen = observables_of(e, known, not_said);
+    if (!has_release(table) && std::any_of(seen.begin(), seen.end(), of_release)) {
+      seen.erase(std::remove_if(seen.begin(), seen.end(), of_release), seen.end());
+      not_said.push_back(fmt::format("{}: the bank's table has no displacements on release; the "
+                                     "unloading curve is left out.",
+                                     c.id));
+    }
+    out.push_back({known, p, seen});
+  }
+  return out;
+}
+
+std::vector<Further> further_measurements(const Experiment &e, const BankTable &table,
+                                          const std::vector<CoveredCondition> &covered) {
+  Kind porosity(e, table, "porosity_after"), thickness(e, table, "thickness_at_max"),
+      cracked(e, table, "cracked_bodies"), curve(e, table, "loading_curve"),
+      release(e, table, kUnloadingCurve);
+  for (const CoveredCondition &c : covered) {
+    const Condition without = bare(c.condition);
+    if (!c.condition.porosity_after_percent && !c.condition.thickness_after_um)
+      add_porosity(porosity, without);
+    if (!c.condition.thickness_at_max_um)
+      add_thickness(thickness, e, without);
+    if (!c.condition.cracked_bodies_fraction) {
+      Condition counted = without;
+      counted.cracked_bodies_fraction =
+          cracked.expected(without, [](const SimulatedRun &r) { return r.cracked_fraction; });
+      cracked.add(counted);
+    }
+    if (c.condition.curve.empty())
+      add_curve(curve, e, without, Branch::Loading);
+    if (has_release(table) && std::none_of(c.observables.begin(), c.observables.end(), of_release))
+      add_curve(release, e, without, Branch::Release);
+  }
+  std::vector<Further> list;
+  for (const Kind *kind : {&porosity, &thickness, &cracked, &curve, &release})
+    kind->finish(list);
+  for (const double p : table.spec.pressures) {
+    Kind other(e, table, "porosity_after");
+    if (std::none_of(covered.begin(), covered.end(),
+                     [&](const CoveredCondition &c) { return near(c.pressure, p); }))
+      add_porosity(other, at_pressure(p, covered));
+    other.finish(list);
+  }
+  return list;
+}
+
+} // namespace calendem

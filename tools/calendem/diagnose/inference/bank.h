@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The bank of simulations: runs of small cells from which the emulators learn.
+#ifndef CALENDEM_DIAGNOSE_INFERENCE_BANK_H
+#define CALENDEM_DIAGNOSE_INFERENCE_BANK_H
+
+#include "diagnose/inference/observable.h"
+#include "diagnose/inference/prior.h"
+#include <functional>
+#include <utility>
+
+namespace calendem::inference {
+
+struct ModelledEffect {
+  std::string name;
+  std::vector<Parameter> parameters; ///< at least one with `amplitude`
+  /// Its runs are computed from those of the base model: they scatter with them, not on their own.
+  bool computed = false;
+};
+
+struct BankRun {
+  std::string effect;  ///< name of the effect that is on; empty: base model
+  std::string packing; ///< id; runs of one packing share its scatter
+  Vector base;         ///< values of the base parameters
+  Vector amplitudes;   ///< values of the effect's parameters; empty for the base model
+  Vector values;       ///< of the bank's observables
+};
+
+struct Bank {
+  std::vector<Parameter> base;
+  std::vector<ModelledEffect> effects;
+  std::vector<ObservableId> observables;
+  std::vector<BankRun> runs;
+};
+
+/// Of the base model, and of an effect beside runs of it.
+constexpr int kFewestRuns = 5;
+
+/// Throws Failure(2) with every mistake of the bank: names, sizes, values that are no numbers, an
+/// effect run without a base run of the same parameters and packing, too few runs.
+void check(const Bank &bank);
+
+/// (base run, effect run) of the same base parameters and packing, for one effect.
+std::vector<std::pair<int, int>> pairs_of(const Bank &bank, const std::string &effect);
+
+/// A mistake of measurement acts on numbers, no simulation is needed: what the instrument shows of
+/// true values, given the amplitudes. Amplitudes 0 must give the values back.
+using FaultAction = std::function<Vector(const std::vector<ObservableId> &, const Vector &values,
+                                         const Vector &amplitudes)>;
+
+/// Adds the fault as an effect, with one run for every base run; amplitudes are spread over their
+/// priors by a Sobol sequence.
+void add_measurement_fault(Bank &bank, const ModelledEffect &fault, const FaultAction &action);
+
+/// One row per run: effect,packing,<base parameters>,<effect.parameter ...>,<keys of observables>.
+/// Numbers with 17 digits: reading gives the same bytes again.
+std::string write_table(const Bank &bank);
+
+/// Fills `runs` of a bank whose parameters, effects and observables are set. `file` is for
+/// messages. Throws Failure(2) with every column that is missing and every line that is damaged.
+void read_table(Bank &bank, const std::string &text, const std::string &file);
+
+} // namespace calendem::inference
+
+#endif

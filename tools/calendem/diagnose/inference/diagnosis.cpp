@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "diagnose/inference/diagnosis.h"
+#include <algorithm>
+#include <cmath>
+
+namespace calendem::inference {
+
+namespace {
+
+std::vector<BlockResidual> residuals_of(const Model &model, const Vector &values,
+                                        const Vector &predicted) {
+  const Vector off = model.map().observables_of(predicted) - values;
+  std::vector<BlockResidual> list;
+  for (const Block &b : model.map().blocks()) {
+    const Vector here = off(b.members), sd = model.sd()(b.members);
+    Eigen::Index worst = 0;
+    here.cwiseQuotient(sd).cwiseAbs().maxCoeff(&worst);
+    const double n = double(here.size());
+    list.push_back({std::copysign(here.norm() / std::sqrt(n), here.sum()), sd.norm() / std::sqrt(n),
+                    model.observables()[b.members[worst]].coordinate});
+  }
+  return list;
+}
+
+/// Mode and 90 % interval of one score's parameter.
+Recalibrated fitted(const Parameter &p, const Evidence &evidence, Eigen::Index score) {
+  std::vector<double> draws(evidence.draws.row(score).begin(), evidence.draws.row(score).end());
+  std::sort(draws.begin(), draws.end());
+  const auto at = [&](double share) {
+    return p.prior.value(draws[std::size_t(share * double(draws.size() - 1))]);
+  };
+  return {p.name, p.prior.value(evidence.mode[score]), at(0.05), at(0.95)};
+}
+
+std::vector<Recalibrated> parameters_of(const std::vector<Parameter> &base, const Judged &best) {
+  std::vector<Recalibrated> list;
+  for (Eigen::Index j = 0; j < Eigen::Index(base.size()); ++j)
+    list.push_back(fitted(base[std::size_t(j)], best.evidence, j));
+  return list;
+}
+
+std::vector<FittedEffect> effects_of(const Bank &bank, const Judged &best) {
+  std::vector<FittedEffect> list;
+  Eigen::Index score = Eigen::Index(bank.base.size());
+  for (const int which : best.hypothesis.on)
+    for (const Parameter &p : bank.effects[std::size_t(which)].parameters) {
+      const Recalibrated r = fitted(p, best.evidence, score++);
+      list.push_back({bank.effects[std::size_t(which)].name, p.name, r.mode, r.low90, r.high90});
+    }
+  return list;
+}
+
+} // namespace
+
+Discrimination discriminate(const Model &model, const Problem &problem,
+                            const DiagnosisSettings &settings) {
+  WhichSettings rules = settings.which;
+  for (const std::string &name : model.poor_effects())
+    rules.poor.push_back(name);
+  rules.noise_seen = !problem.point_noise.empty();
+  Discrimination t;
+  t.which = which(problem, rules);
+  t.confounding = confounding(problem, t.which, settings.confounding);
+  std::vector<double> limits;
+  for (const DetectionLimit &l : t.confounding.limits)
+    limits.push_back(l.against_none);
+  set_limits(t.which, problem, limits);
+  decide(t.which, rules, int(problem.effects.size()));
+  return t;
+}
+
+Diagnosis diagnose(const Model &model, const Bank &bank, const Vector &values,
+                   const DiagnosisSettings &settings, const std::vector<PointNoise> &point_noise) {
+  Diagnosis d;
+  Problem problem = model.problem(values);
+  problem.point_noise = point_noise;
+  d.blocks = problem.blocks;
+  Discrimination t = discriminate(model, problem, settings);
+  d.which = std::move(t.which);
+  d.confounding = std::move(t.confounding);
+  d.where = where(problem, d.which.base, settings.where);
+  d.residual = residuals_of(model, values, d.which.base.mean.head(model.map().emulated()));
+  for (WhereRow &row : d.where.rows)
+    row.z = std::copysign(row.z, d.residual[row.block].residual);
+  d.next = next_measurements(d.which, model.extensions(values), settings.next);
+  d.parameters = parameters_of(bank.base, d.which.judged.front());
+  d.effects = effects_of(bank, best_predicting(d.which));
+  d.predictions = predictions(model, problem, d.which, values);
+  d.emulators = model.quality();
+  d.degrees_of_freedom = model.scatter().degrees_of_freedom;
+  d.shrinkage = model.scatter().shrinkage;
+  return d;
+}
+
+const Judged &best_predicting(const Which &which) {
+  return *std::find_if(which.judged.begin(), which.judged.end(), [](const Judged &j) {
+    return j.hypothesis.kind == Hypothesis::none || j.hypothesis.kind == Hypothesis::effects;
+  });
+}
+
+Predictions predictions(const Model &model, const Problem &problem, const Which &which,
+                        const Vector &measured) {
+  const Judged &best = best_predicting(which);
+  const Likelihood likelihood(problem, best.hypothesis, which.unknown);
+  const auto shown = [&](const Vector &features) {
+    return model.map().observables_of(features.head(model.map().emulated()));
+  };
+  return {best.hypothesis.name,
+          model.observables(),
+          measured,
+          model.measurement().diagonal().cwiseSqrt(),
+          model.sd(),
+          shown(which.base.mean),
+          shown(likelihood.predict(best.evidence.mode).mean)};
+}
+
+} // namespace calendem::inference

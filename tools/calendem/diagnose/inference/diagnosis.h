@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The whole diagnosis of one experiment.
+#ifndef CALENDEM_DIAGNOSE_INFERENCE_DIAGNOSIS_H
+#define CALENDEM_DIAGNOSE_INFERENCE_DIAGNOSIS_H
+
+#include "diagnose/inference/confounding.h"
+#include "diagnose/inference/model.h"
+#include "diagnose/inference/where.h"
+#include "diagnose/inference/which.h"
+
+namespace calendem::inference {
+
+/// All vectors are of `of`, in the units of the observables.
+struct Predictions {
+  std::string best; ///< the most probable hypothesis that makes a prediction
+  std::vector<ObservableId> of;
+  Vector measured, sd_measurement;
+  Vector sd;    ///< of measurement and packings
+  Vector base;  ///< of the base model where it fits best: recalibrated, no effect on
+  Vector after; ///< of `best` where it fits best, recalibrated too
+};
+
+/// From the emulators at the modes of the two hypotheses. What the emulators' features leave out of
+/// a curve is that of the bank's mean curve.
+Predictions predictions(const Model &model, const Problem &problem, const Which &which,
+                        const Vector &measured);
+
+/// The most probable hypothesis that makes a prediction: none, an effect, a pair.
+const Judged &best_predicting(const Which &which);
+
+struct DiagnosisSettings {
+  ModelSettings model;
+  WhichSettings which;
+  WhereSettings where;
+  ConfoundingSettings confounding;
+  NextSettings next;
+};
+
+/// Residual of a block, in units of the observable: simulation less experiment. Of a curve the root
+/// mean square over its points, with the sign of their mean.
+struct BlockResidual {
+  double residual = 0.0, sd = 0.0; ///< sd: of measurement and packings, before recalibration
+  double worst_coordinate = 0.0;   ///< where |residual| / sd is largest
+};
+
+/// A parameter as the data leave it, in its unit.
+struct Recalibrated {
+  std::string parameter;
+  double mode = 0.0, low90 = 0.0, high90 = 0.0;
+};
+
+/// An amplitude or another parameter of an effect that the most probable hypothesis with a
+/// prediction has.
+struct FittedEffect {
+  std::string effect, parameter;
+  double mode = 0.0, low90 = 0.0, high90 = 0.0; ///< in its unit
+};
+
+struct Diagnosis {
+  Where where;
+  std::vector<BlockResidual> residual; ///< by block
+  std::vector<Block> blocks;
+  Which which;
+  Confounding confounding;
+  std::vector<NextMeasurement> next;
+  std::vector<Recalibrated> parameters; ///< of the base model, under the most probable hypothesis
+  std::vector<FittedEffect> effects;
+  Predictions predictions;
+  std::vector<EmulatorQuality> emulators;
+  double degrees_of_freedom = 0.0, shrinkage = 0.0; ///< of the scatter between packings
+};
+
+/// Which explanations the data discriminate, and from which amplitude on.
+struct Discrimination {
+  Which which;
+  Confounding confounding;
+};
+/// By the rules, what cannot be seen counting as none; effects with poor emulators are not claimed.
+Discrimination discriminate(const Model &model, const Problem &problem,
+                            const DiagnosisSettings &settings);
+
+/// Deterministic: the same model, values and settings give the same bytes. A quarter of a minute on
+/// one core for 20 features, 10 effects and 60 runs of each.
+Diagnosis diagnose(const Model &model, const Bank &bank, const Vector &values,
+                   const DiagnosisSettings &settings,
+                   const std::vector<PointNoise> &point_noise = {});
+
+/// The parts "where" and "which" of gap.json and what else is known, as text of a JSON object.
+std::string to_json(const Diagnosis &diagnosis);
+
+} // namespace calendem::inference
+
+#endif

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "diagnose/inference/diagnosis.h"
+#include <nlohmann/json.hpp>
+
+namespace calendem::inference {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json where_of(const Diagnosis &d) {
+  Json rows = Json::array();
+  for (const WhereRow &r : d.where.rows) {
+    const Block &b = d.blocks[r.block];
+    rows.push_back({{"observable", b.name},
+                    {"stage", b.stage},
+                    {"condition", b.condition},
+                    {"residual", d.residual[r.block].residual},
+                    {"sd", d.residual[r.block].sd},
+                    {"z", r.z},
+                    {"share", r.share},
+                    {"significant", r.significant},
+                    {"worst_coordinate", d.residual[r.block].worst_coordinate}});
+  }
+  return rows;
+}
+
+Json evidence_of(const Judged &j) {
+  Json out = {{"hypothesis", j.hypothesis.name},
+              {"prior", j.hypothesis.prior},
+              {"probability", j.probability},
+              {"log_evidence", j.evidence.log_evidence},
+              {"log_evidence_error", j.evidence.error},
+              {"log_evidence_laplace", j.evidence.laplace},
+              {"samples", j.evidence.samples},
+              {"effective_samples", j.evidence.effective_samples},
+              {"adequacy_p", j.adequacy_p},
+              {"place", j.place}};
+  if (!j.of_place.empty())
+    out["places"] = j.of_place;
+  return out;
+}
+
+Json which_of(const Diagnosis &d) {
+  const Which &w = d.which;
+  Json out = {{"claim", w.claim}, {"why", w.why}};
+  for (const Judged &j : w.judged) {
+    out["probability"][j.hypothesis.name] = j.probability;
+    out["evidence"].push_back(evidence_of(j));
+  }
+  out["inclusion"] = w.inclusion;
+  out["set95"] = w.set95;
+  out["indistinguishable"] = d.confounding.indistinguishable;
+  out["next_measurement"] = {{"what", ""}, {"expected_probability", 0.0}};
+  out["measurements"] = Json::array();
+  for (const NextMeasurement &n : d.next)
+    out["measurements"].push_back({{"what", n.what},
+                                   {"cost", n.cost},
+                                   {"now", n.now},
+                                   {"expected_probability", n.expected_probability},
+                                   {"per_cost", n.per_cost}});
+  if (!d.next.empty())
+    out["next_measurement"] = out["measurements"][0];
+  out["adequacy_p"] = w.adequacy_p;
+  out["none_to_be_seen"] = w.none_to_be_seen;
+  for (const Sensitivity &s : w.sensitivity)
+    out["sensitivity"].push_back(
+        {{"priors", s.change}, {"claim", s.claim}, {"probability", s.probability}});
+  return out;
+}
+
+Json matrix(const Matrix &m) {
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < m.rows(); ++i)
+    rows.push_back(std::vector<double>(m.row(i).begin(), m.row(i).end()));
+  return rows;
+}
+
+Json confounding_of(const Diagnosis &d) {
+  const Confounding &c = d.confounding;
+  Json out = {{"effects", c.effects},
+              {"cosine", matrix(c.cosine)},
+              {"log_odds", matrix(c.log_odds)},
+              {"absorbed", std::vector<double>(c.absorbed.begin(), c.absorbed.end())}};
+  for (const DetectionLimit &l : c.limits)
+    out["detection_limit"].push_back({{"effect", l.effect},
+                                      {"amplitude", l.amplitude},
+                                      {"rival", l.rival},
+                                      {"against_none", l.against_none}});
+  return out;
+}
+
+std::string name_of(const Block &b) { return b.name + ", " + b.stage + ", " + b.condition; }
+
+Json conflicts_of(const Diagnosis &d) {
+  Json rows = Json::array();
+  for (const Conflict &c : d.where.conflicts)
+    rows.push_back(
+        {{"one", name_of(d.blocks[c.one])}, {"other", name_of(d.blocks[c.other])}, {"p", c.p}});
+  return rows;
+}
+
+Json conflict_matrix_of(const Diagnosis &d) {
+  Json names = Json::array();
+  for (const Block &b : d.blocks)
+    names.push_back(name_of(b));
+  return {{"blocks", names}, {"p", matrix(d.where.conflict)}};
+}
+
+Json emulators_of(const Diagnosis &d) {
+  Json rows = Json::array();
+  for (const EmulatorQuality &q : d.emulators) {
+    Json row = {{"effect", q.effect.empty() ? "base" : q.effect},
+                {"runs", q.runs},
+                {"q2", q.q2},
+                {"error", q.error},
+                {"poor", q.poor}};
+    for (const Quality &f : q.feature)
+      row["q2_of_features"].push_back(f.q2);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json predictions_of(const Predictions &p) {
+  Json rows = Json::array();
+  for (std::size_t k = 0; k < p.of.size(); ++k) {
+    const auto i = Eigen::Index(k);
+    rows.push_back({{"observable", p.of[k].name},
+                    {"stage", p.of[k].stage},
+                    {"condition", p.of[k].condition},
+                    {"coordinate", p.of[k].coordinate},
+                    {"measured", p.measured[i]},
+                    {"sd_measurement", p.sd_measurement[i]},
+                    {"sd", p.sd[i]},
+                    {"base", p.base[i]},
+                    {"best", p.after[i]}});
+  }
+  return {{"best", p.best}, {"observables", rows}};
+}
+
+} // namespace
+
+std::string to_json(const Diagnosis &d) {
+  Json out = {{"where", where_of(d)}, {"which", which_of(d)}};
+  out["threshold"] = d.where.threshold;
+  out["conflicts"] = conflicts_of(d);
+  out["conflict_matrix"] = conflict_matrix_of(d);
+  for (const StageFit &s : d.where.stages)
+    out["stages"].push_back({{"stage", s.stage},
+                             {"scores", std::vector<double>(s.scores.begin(), s.scores.end())},
+                             {"sd", std::vector<double>(s.sd.begin(), s.sd.end())}});
+  out["confounding"] = confounding_of(d);
+  for (const Recalibrated &p : d.parameters)
+    out["parameters"].push_back(
+        {{"parameter", p.parameter}, {"mode", p.mode}, {"low90", p.low90}, {"high90", p.high90}});
+  out["fitted_effects"] = Json::array();
+  for (const FittedEffect &e : d.effects)
+    out["fitted_effects"].push_back({{"effect", e.effect},
+                                     {"parameter", e.parameter},
+                                     {"mode", e.mode},
+                                     {"low90", e.low90},
+                                     {"high90", e.high90}});
+  out["predictions"] = predictions_of(d.predictions);
+  out["emulators"] = emulators_of(d);
+  out["scatter"] = {{"degrees_of_freedom", d.degrees_of_freedom}, {"shrinkage", d.shrinkage}};
+  return out.dump(1) + "\n";
+}
+
+} // namespace calendem::inference

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// An emulator for every feature, of the base model and of the difference each effect makes.
+#ifndef CALENDEM_DIAGNOSE_INFERENCE_EMULATORS_H
+#define CALENDEM_DIAGNOSE_INFERENCE_EMULATORS_H
+
+#include "diagnose/inference/gaussian_process.h"
+#include "diagnose/inference/problem.h"
+
+namespace calendem::inference {
+
+class Emulators {
+public:
+  /// `features`: emulated features x runs of the bank, in its order.
+  Emulators(const Bank &bank, const Matrix &features);
+
+  /// Adds to the features from `first` on. Several effects add up: what they do to each other is
+  /// not in it. The variance holds the emulators' and, times `share`, what the effects add to the
+  /// scatter between packings.
+  void predict(const Vector &base_scores, const std::vector<Applied> &on, double share, int first,
+               Prediction &out) const;
+
+  /// Of the same predictions, into the rows from `first` on.
+  void slopes(const Vector &base_scores, const std::vector<Applied> &on, double share, int first,
+              Slopes &out) const;
+
+  const std::vector<GaussianProcess> &base() const { return base_; }
+  const std::vector<GaussianProcess> &effect(int which) const { return effects_[which]; }
+  /// What base model and simulated effects (not computed ones) miss in their own runs, in standard
+  /// deviations of the runs' scatter: runs x features, in an order that depends on the bank only.
+  Matrix residuals() const;
+  /// Number of the packing of each base run.
+  const std::vector<int> &packing() const { return packing_; }
+
+private:
+  std::vector<Parameter> parameters_;
+  std::vector<ModelledEffect> table_;
+  std::vector<int> packing_;
+  std::vector<GaussianProcess> base_;
+  std::vector<std::vector<GaussianProcess>> effects_;
+
+  Vector scaled(const Vector &base_scores) const;
+};
+
+/// Places of the bank's runs of the base model.
+std::vector<int> base_runs(const Bank &bank);
+
+/// The base parameters of a run, scaled.
+Vector scaled_base(const Bank &bank, const BankRun &run);
+
+} // namespace calendem::inference
+
+#endif

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "diagnose/inference/problem.h"
+#include "diagnose/inference/scatter.h"
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+
+namespace calendem::inference {
+namespace {
+
+constexpr double kStep = 1e-4; // of differences, in standard deviations of the prior
+
+Slopes by_differences(const Problem &problem, const Vector &base, const std::vector<Applied> &on) {
+  Vector at = base;
+  std::vector<Applied> with = on;
+  std::vector<double *> scores;
+  for (double &v : at)
+    scores.push_back(&v);
+  for (Applied &a : with)
+    for (double &v : a.scores)
+      scores.push_back(&v);
+  const auto features = Eigen::Index(problem.features.size()), n = Eigen::Index(scores.size());
+  Slopes s{Matrix(features, n), Matrix(features, n)};
+  for (Eigen::Index j = 0; j < n; ++j) {
+    double &moved = *scores[std::size_t(j)];
+    const double here = moved;
+    moved = here + kStep;
+    const Prediction above = problem.predict(at, with);
+    moved = here - kStep;
+    const Prediction below = problem.predict(at, with);
+    moved = here;
+    s.mean.col(j) = (above.mean - below.mean) / (2.0 * kStep);
+    s.variance.col(j) = (above.variance - below.variance) / (2.0 * kStep);
+  }
+  return s;
+}
+
+} // namespace
+
+Problem without_effect(const Problem &problem, int effect) {
+  Problem out = problem;
+  out.effects.erase(out.effects.begin() + effect);
+  const auto among_all = [effect](std::vector<Applied> on) {
+    for (Applied &a : on)
+      a.effect += a.effect >= effect;
+    return on;
+  };
+  out.predict = [predict = problem.predict, among_all](const Vector &base,
+                                                       const std::vector<Applied> &on) {
+    return predict(base, among_all(on));
+  };
+  if (problem.slopes)
+    out.slopes = [slopes = problem.slopes, among_all](const Vector &base,
+                                                      const std::vector<Applied> &on) {
+      return slopes(base, among_all(on));
+    };
+  return out;
+}
+
+double PointNoise::times_stated() const {
+  const double spread = 2.0 / (9.0 * double(measured.size()));
+  const double square = std::pow(score * std::sqrt(spread) + 1.0 - spread, 3.0); // q / k
+  return std::sqrt(std::max(0.0, 1.0 + (square - 1.0) / measured.mean()));
+}
+
+Slopes slopes_of(const Problem &problem, const Vector &base, const std::vector<Applied> &on) {
+  return problem.slopes ? problem.slopes(base, on) : by_differences(problem, base, on);
+}
+
+Misfit misfit_of(const Problem &problem, const Vector &observed, const Prediction &prediction,
+                 const Matrix &covariance, const Slopes &slopes) {
+  const Cholesky factor(covariance);
+  const Vector apart = observed - prediction.mean, pulled = factor.solve(apart);
+  Misfit m;
+  m.square = apart.dot(pulled);
+  m.log_determinant = 2.0 * Matrix(factor.matrixL()).diagonal().array().log().sum();
+  const Matrix inverse = factor.solve(Matrix::Identity(apart.size(), apart.size()));
+  const Vector sd = prediction.variance.cwiseSqrt();
+  const Vector inverse_sd = (sd.array() > 0.0).select(sd.cwiseInverse(), 0.0);
+  const Matrix sd_slopes = 0.5 * inverse_sd.asDiagonal() * slopes.variance;
+  // An element of the errors' covariance is sd r sd of two features.
+  Vector of_square = pulled.cwiseProduct(sd), of_determinant = inverse.diagonal().cwiseProduct(sd);
+  if (problem.correlation.size() != 0) {
+    of_square = problem.correlation * of_square;
+    of_determinant = inverse.cwiseProduct(problem.correlation) * sd;
+  }
+  of_square = of_square.cwiseProduct(pulled);
+  m.square_slopes = -2.0 * (slopes.mean.transpose() * pulled + sd_slopes.transpose() * of_square);
+  m.determinant_slopes = 2.0 * sd_slopes.transpose() * of_determinant;
+  return m;
+}
+
+Vector drawn(const Problem &problem, const Vector &base, const std::vector<Applied> &on,
+             Random &random) {
+  const Prediction p = problem.predict(base, on);
+  Vector normal(p.mean.size());
+  for (double &v : normal)
+    v = random.normal();
+  const double nu = problem.degrees_of_freedom, u = random.uniform();
+  const double stretch =
+      nu < kNormal ? std::sqrt(nu / quantile(boost::math::chi_squared(nu), u)) : 1.0;
+  const Cholesky factor(covariance_about(problem, p));
+  return p.mean + factor.matrixL() * Vector(stretch * normal);
+}
+
+Matrix emulator_errors(const Problem &problem, const Vector &variance) {
+  if (problem.correlation.size() == 0)
+    return variance.asDiagonal();
+  const Vector sd = variance.cwiseSqrt();
+  return sd.asDiagonal() * problem.correlation * sd.asDiagonal();
+}
+
+Matrix covariance_about(const Problem &problem, const Prediction &prediction) {
+  return problem.measurement + problem.scatter + emulator_errors(problem, prediction.variance);
+}
+
+Linearised linearise(const Problem &problem, const Vector &base) {
+  Linearised l;
+  l.at = base;
+  const Prediction here = problem.predict(base, {});
+  l.mean = here.mean;
+  l.covariance = covariance_about(problem, here);
+  l.sensitivity = slopes_of(problem, base, {}).mean;
+  return l;
+}
+
+Matrix beyond_recalibration(const Linearised &base, const Matrix &discrepancy) {
+  if (base.sensitivity.cols() == 0)
+    return discrepancy;
+  const Matrix weighted = Cholesky(base.covariance).solve(base.sensitivity);
+  Matrix normal = base.sensitivity.transpose() * weighted;
+  normal.diagonal().array() += 1e-10 * (1.0 + normal.trace());
+  const Matrix onto = base.sensitivity * Cholesky(normal).solve(weighted.transpose());
+  const Matrix off = Matrix::Identity(onto.rows(), onto.cols()) - onto;
+  return off * discrepancy * off.transpose();
+}
+
+Matrix recalibrated_covariance(const Linearised &base) {
+  return base.covariance + base.sensitivity * base.sensitivity.transpose();
+}
+
+} // namespace calendem::inference

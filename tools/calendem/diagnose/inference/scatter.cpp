@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "diagnose/inference/scatter.h"
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <map>
+
+namespace calendem::inference {
+
+namespace {
+
+constexpr double kFewest = 3.0; // degrees of freedom: below, a t distribution has no variance
+
+using Groups = std::map<int, std::vector<int>>; // runs by packing
+
+/// Residuals of the features (columns) averaged over the runs of each packing.
+Matrix by_packing(const std::vector<GaussianProcess> &features, const Groups &groups) {
+  Matrix mean(Eigen::Index(groups.size()), Eigen::Index(features.size()));
+  Eigen::Index row = 0;
+  for (const auto &[id, runs] : groups) {
+    for (Eigen::Index f = 0; f < mean.cols(); ++f)
+      mean(row, f) = features[f].residuals()(runs).mean();
+    ++row;
+  }
+  return mean;
+}
+
+/// What the residuals of single runs differ by from those means.
+Matrix beside_packing(const std::vector<GaussianProcess> &features, const Groups &groups,
+                      const Matrix &means) {
+  Matrix left(features.front().residuals().size(), Eigen::Index(features.size()));
+  Eigen::Index row = 0;
+  for (const auto &[id, runs] : groups) {
+    for (Eigen::Index f = 0; f < left.cols(); ++f)
+      left(runs, f) = features[f].residuals()(runs).array() - means(row, f);
+    ++row;
+  }
+  return left;
+}
+
+double degrees_of(const GaussianProcess &g, int runs, int packings) {
+  const double used = g.parameters_used();
+  if (packings == runs)
+    return std::max(kFewest, runs - used);
+  const double between = g.packing_variance() / (g.packing_variance() + g.run_variance());
+  return std::max(
+      kFewest, 1.0 / (between * between / std::max(1.0, packings - 1.0) +
+                      (1.0 - between) * (1.0 - between) / std::max(1.0, runs - packings - used)));
+}
+
+} // namespace
+
+Matrix shrunk_correlation(const Matrix &residuals, double &weight) {
+  const double n = double(residuals.rows());
+  const auto p = residuals.cols();
+  Matrix x = residuals.rowwise() - residuals.colwise().mean();
+  for (Eigen::Index j = 0; j < p; ++j)
+    x.col(j) /= std::max(x.col(j).norm() / std::sqrt(n - 1.0), 1e-300);
+  const Matrix correlation = x.transpose() * x / (n - 1.0);
+  double variance = 0.0, square = 0.0;
+  for (Eigen::Index j = 0; j < p; ++j)
+    for (Eigen::Index i = 0; i < j; ++i) {
+      const Eigen::ArrayXd w = x.col(i).array() * x.col(j).array();
+      variance += n / std::pow(n - 1.0, 3) * (w - w.mean()).square().sum();
+      square += correlation(i, j) * correlation(i, j);
+    }
+  weight = square > 0.0 ? std::clamp(variance / square, 0.0, 1.0) : 1.0;
+  Matrix shrunk = (1.0 - weight) * correlation;
+  shrunk.diagonal().setOnes();
+  return shrunk;
+}
+
+Scatter shrunk_covariance(const Matrix &samples) {
+  Scatter s;
+  const Matrix centred = samples.rowwise() - samples.colwise().mean();
+  const Vector sd = (centred.colwise().squaredNorm() / double(samples.rows() - 1)).cwiseSqrt();
+  s.covariance = sd.asDiagonal() * shrunk_correlation(samples, s.shrinkage) * sd.asDiagonal();
+  s.degrees_of_freedom = double(samples.rows() - 1);
+  return s;
+}
+
+Scatter pooled_scatter(const std::vector<GaussianProcess> &features,
+                       const std::vector<int> &packing) {
+  Scatter s;
+  const auto n = Eigen::Index(features.size());
+  s.covariance = Matrix::Zero(n, n);
+  s.degrees_of_freedom = kNormal;
+  if (n == 0)
+    return s;
+  Groups groups;
+  for (int i = 0; i < int(packing.size()); ++i)
+    groups[packing[i]].push_back(i);
+  const bool repeated = groups.size() < packing.size();
+  const Matrix means = by_packing(features, groups);
+  Vector between(n), within(n);
+  std::vector<double> degrees;
+  for (Eigen::Index f = 0; f < n; ++f) {
+    between[f] = std::sqrt(features[f].packing_variance());
+    within[f] = std::sqrt(features[f].run_variance());
+    degrees.push_back(degrees_of(features[f], int(packing.size()), int(means.rows())));
+  }
+  std::sort(degrees.begin(), degrees.end());
+  s.degrees_of_freedom = degrees[degrees.size() / 2];
+  const auto add = [&](const Matrix &residuals, const Vector &sd) {
+    double weight = 0.0;
+    s.covariance += sd.asDiagonal() * shrunk_correlation(residuals, weight) * sd.asDiagonal();
+    s.shrinkage += weight * sd.squaredNorm();
+  };
+  if (repeated) {
+    add(means, between);
+    add(beside_packing(features, groups, means), within);
+  } else {
+    add(means, (between.cwiseAbs2() + within.cwiseAbs2()).cwiseSqrt());
+  }
+  s.shrinkage /= std::max(s.covariance.trace(), 1e-300);
+  return s;
+}
+
+double mixed_degrees(const Matrix &known, const Matrix &estimated, double degrees_of_freedom) {
+  const Cholesky total(known + estimated);
+  const double share = total.solve(estimated).trace() / double(known.rows());
+  return std::min(kNormal, degrees_of_freedom / std::max(share * share, 1e-12));
+}
+
+double log_student_t(double square, double log_determinant, int n, double nu) {
+  if (nu >= kNormal)
+    return -0.5 * (n * std::log(2.0 * M_PI) + log_determinant + square);
+  return std::lgamma(0.5 * (nu + n)) - std::lgamma(0.5 * nu) -
+         0.5 * (n * std::log(nu * M_PI) + log_determinant) -
+         0.5 * (nu + n) * std::log1p(square / nu);
+}
+
+namespace {
+
+constexpr double kSmallestChance = 1e-280; // beyond, sqrt(square) serves: it has the same limit
+
+} // namespace
+
+double chance_beyond(double square, int n, double degrees_of_freedom) {
+  if (!(square > 0.0))
+    return 1.0;
+  if (degrees_of_freedom >= kNormal)
+    return cdf(complement(boost::math::chi_squared(n), square));
+  return cdf(complement(boost::math::fisher_f(n, degrees_of_freedom), square / n));
+}
+
+double equivalent_z(double square, int n) {
+  const double chance = n == 1 ? 0.0 : chance_beyond(square, n, kNormal);
+  if (chance < kSmallestChance)
+    return std::sqrt(square);
+  return quantile(complement(boost::math::normal(), 0.5 * chance));
+}
+
+} // namespace calendem::inference

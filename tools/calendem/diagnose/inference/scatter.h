@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Scatter between packings from few of them, the law of data whose covariance was estimated, and
+// tail probabilities of squared distances.
+#ifndef CALENDEM_DIAGNOSE_INFERENCE_SCATTER_H
+#define CALENDEM_DIAGNOSE_INFERENCE_SCATTER_H
+
+#include "diagnose/inference/gaussian_process.h"
+
+namespace calendem::inference {
+
+struct Scatter {
+  Matrix covariance;
+  double degrees_of_freedom = 0.0;
+  double shrinkage = 0.0; ///< weight of no correlation, 0-1
+};
+
+/// Correlations of the columns of `residuals` (rows: packings or runs), moved towards none by the
+/// weight that minimises the expected square error (Ledoit and Wolf 2004 with the target of
+/// Schaefer and Strimmer, Stat. Appl. Genet. Mol. Biol. 4 (2005) 32, target D).
+Matrix shrunk_correlation(const Matrix &residuals, double &weight);
+
+/// Covariance of samples (rows) about their mean: variances as they are, correlations shrunk.
+Scatter shrunk_covariance(const Matrix &samples);
+
+/// The same pooled over a bank: a part between packings and one between runs of a packing, each
+/// with its variances from the emulators' marginal likelihood and the correlations of their
+/// residuals' means by packing, or of what is left beside these. Degrees of freedom by
+/// Satterthwaite from packings and runs, less what the expectation used up; median of features.
+/// The shrinkage is the parts' by their traces.
+Scatter pooled_scatter(const std::vector<GaussianProcess> &features,
+                       const std::vector<int> &packing);
+
+/// Degrees of freedom of `known + estimated`, whose second part has `degrees_of_freedom`: divided
+/// by the square of its mean share, trace((known + estimated)^-1 estimated) / n. At most kNormal.
+double mixed_degrees(const Matrix &known, const Matrix &estimated, double degrees_of_freedom);
+constexpr double kNormal = 1e6; ///< from here on a t distribution is computed as normal
+
+/// ln density of the multivariate t distribution of a residual whose square in its scale matrix is
+/// `square` (Kotz and Nadarajah 2004, eq. 1.1).
+double log_student_t(double square, double log_determinant, int n, double degrees_of_freedom);
+
+/// Probability that a squared distance in n dimensions exceeds `square`: chi-squared, or n times
+/// Fisher's F with `degrees_of_freedom` where the covariance was estimated (Hotelling).
+double chance_beyond(double square, int n, double degrees_of_freedom);
+
+/// |z| of a normal variable with the same two-sided chance as `square` has in n dimensions.
+double equivalent_z(double square, int n);
+
+} // namespace calendem::inference
+
+#endif

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "diagnose/inference/which.h"
+#include "base/messages.h"
+#include "diagnose/inference/confounding.h"
+#include "diagnose/inference/scatter.h"
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace calendem::inference {
+
+namespace {
+
+Judged judge(const Problem &problem, const Hypothesis &hypothesis, const Matrix &unknown,
+             const WhichSettings &settings) {
+  Judged j;
+  j.hypothesis = hypothesis;
+  const Likelihood likelihood(problem, hypothesis, unknown);
+  j.evidence = evidence(likelihood, settings.evidence);
+  if (hypothesis.kind == Hypothesis::none || hypothesis.kind == Hypothesis::effects) {
+    const auto square = [&](const Vector &s, Vector &gradient) {
+      const double of_data = likelihood.square(s, gradient);
+      gradient += 2.0 * s;
+      return of_data + s.squaredNorm();
+    };
+    const Minimum least = minimise(square, j.evidence.mode);
+    j.adequacy_p =
+        chance_beyond(least.value, int(problem.observed.size()), problem.degrees_of_freedom);
+  }
+  return j;
+}
+
+/// The unknown with its evidence averaged over places; parameters are those of the best place.
+Judged judge_unknown(const Problem &problem, const WhichSettings &settings,
+                     const std::vector<int> &best_effects, Which &w) {
+  Judged best;
+  double sum = 0.0, top = -INFINITY;
+  struct Term {
+    std::string place;
+    double share, log_evidence;
+  };
+  std::vector<Term> terms;
+  for (const UnknownPlace &place : unknown_places(problem, w, best_effects, settings.priors)) {
+    Judged here = judge(problem, place.hypothesis, place.unknown, settings);
+    here.place = place.name;
+    terms.push_back({place.name, place.share, here.evidence.log_evidence});
+    const double mass = std::log(place.share) + here.evidence.log_evidence;
+    if (!(mass > top))
+      continue;
+    top = mass;
+    best = std::move(here);
+    w.unknown = place.unknown;
+  }
+  for (const Term &t : terms)
+    sum += std::exp(std::log(t.share) + t.log_evidence - top);
+  for (const Term &t : terms)
+    best.of_place[t.place] = std::exp(std::log(t.share) + t.log_evidence - top) / sum;
+  const double shift = top + std::log(sum) - best.evidence.log_evidence;
+  best.evidence.log_evidence += shift;
+  best.evidence.laplace += shift;
+  return best;
+}
+
+std::string joined(const Problem &problem, const std::vector<int> &on) {
+  std::string name = problem.effects[on[0]].name;
+  for (std::size_t k = 1; k < on.size(); ++k)
+    name += " + " + problem.effects[on[k]].name;
+  return name;
+}
+
+/// Effects by the evidence for them, the best first; none if the base model beats them all.
+std::vector<int> ranked_effects(const Which &so_far) {
+  std::vector<std::pair<double, int>> singles;
+  for (const Judged &j : so_far.judged)
+    if (j.hypothesis.single())
+      singles.emplace_back(-j.evidence.log_evidence, j.hypothesis.on[0]);
+  std::sort(singles.begin(), singles.end());
+  std::vector<int> out;
+  if (!singles.empty() && -singles[0].first >= so_far.of("none").evidence.log_evidence)
+    for (const auto &[cost, effect] : singles)
+      out.push_back(effect);
+  return out;
+}
+
+/// The best effects joined with every other.
+std::vector<Hypothesis> greedy_pairs(const Problem &problem, const std::vector<int> &ranked,
+                                     int seeds) {
+  std::vector<Hypothesis> pairs;
+  for (int s = 0; s < std::min(seeds, int(ranked.size())); ++s)
+    for (int o = s + 1; o < int(ranked.size()); ++o) {
+      std::vector<int> on{ranked[s], ranked[o]};
+      std::sort(on.begin(), on.end());
+      pairs.push_back({Hypothesis::effects, on, joined(problem, on), 0.0});
+    }
+  return pairs;
+}
+
+} // namespace
+
+const Judged &Which::of(const std::string &name) const {
+  for (const Judged &j : judged)
+    if (j.hypothesis.name == name)
+      return j;
+  throw Failure(kBadInput, fmt::format("no hypothesis '{}' was computed", name));
+}
+
+Which which(const Problem &problem, const WhichSettings &settings) {
+  Which w;
+  const Matrix nothing;
+  w.judged.push_back(judge(problem, {Hypothesis::none, {}, "none", 0.0}, nothing, settings));
+  w.base = linearise(problem, w.judged[0].evidence.mode);
+  if (settings.noise)
+    w.judged.push_back(judge(problem, {Hypothesis::noise, {}, "noise", 0.0}, nothing, settings));
+  for (int e = 0; e < int(problem.effects.size()); ++e)
+    w.judged.push_back(judge(problem, {Hypothesis::effects, {e}, problem.effects[e].name, 0.0},
+                             nothing, settings));
+  std::vector<int> ranked = ranked_effects(w);
+  for (const Hypothesis &pair : greedy_pairs(problem, ranked, settings.pair_seeds))
+    w.judged.push_back(judge(problem, pair, nothing, settings));
+  ranked.resize(std::min(ranked.size(), std::size_t(settings.pair_seeds)));
+  w.judged.push_back(judge_unknown(problem, settings, ranked, w));
+  decide(w, settings, int(problem.effects.size()));
+  return w;
+}
+
+namespace {
+
+constexpr double kAlike = 0.6;    // share of the unknown's prior that acts like known effects
+constexpr double kBeside = 0.2;   // of the rest: beside a known effect
+constexpr double kUnlike = 0.5;   // of a signature's length: how far what acts like it departs
+constexpr double kHopeless = 5.0; // ln of evidence behind the best, from which on it cannot matter
+
+UnknownPlace place(const std::string &name, const Matrix &unknown, std::vector<int> on = {}) {
+  return {name, 1.0, unknown, {Hypothesis::unknown, std::move(on), "unknown", 0.0}};
+}
+
+/// Places that the effects have no part in.
+std::vector<UnknownPlace> places_alone(const Problem &problem, const Linearised &base) {
+  std::vector<UnknownPlace> places{
+      place("everywhere", beyond_recalibration(base, problem.discrepancy))};
+  const auto add = [&](const std::string &name, const auto &contains) {
+    Vector mask(problem.observed.size());
+    for (Eigen::Index f = 0; f < mask.size(); ++f)
+      mask[f] = contains(problem.blocks[problem.features[f].block]) ? 1.0 : 0.0;
+    bool known = mask.minCoeff() > 0.0; // everywhere
+    for (const UnknownPlace &p : places)
+      known |= p.name == name;
+    if (!known)
+      places.push_back(place(
+          name,
+          beyond_recalibration(base, mask.asDiagonal() * problem.discrepancy * mask.asDiagonal())));
+  };
+  for (const Block &b : problem.blocks)
+    add(b.stage, [&](const Block &o) { return o.stage == b.stage; });
+  for (const Block &b : problem.blocks)
+    add(b.name + ", " + b.stage,
+        [&](const Block &o) { return o.name == b.name && o.stage == b.stage; });
+  for (const Block &b : problem.blocks)
+    add(b.name + ", " + b.stage + ", " + b.condition, [&](const Block &o) { return &o == &b; });
+  for (Eigen::Index f = 0; f < problem.observed.size(); ++f)
+    if (!problem.features[f].emulated) {
+      const Block &b = problem.blocks[problem.features[f].block];
+      Matrix one = Matrix::Zero(problem.observed.size(), problem.observed.size());
+      one(f, f) = 1.0;
+      places.push_back(
+          place(b.name + ", " + b.stage + ", " + b.condition + ", unlike any run", one));
+    }
+  const double others = double(places.size()) - 1.0;
+  for (std::size_t k = 0; k < places.size() && others > 0.0; ++k)
+    places[k].share = k == 0 ? 0.5 : 0.5 / others;
+  return places;
+}
+
+/// Smooth like the discrepancy that may sit everywhere, as long as that share of the signature.
+UnknownPlace place_like(const Problem &problem, const Judged &j) {
+  const Linearised base = linearise(problem, j.evidence.mode.head(problem.base_parameters));
+  const Matrix smooth = beyond_recalibration(base, problem.discrepancy);
+  const double square = Signatures(problem, base)
+                            .white(applied_at(problem, j.hypothesis, j.evidence.mode))
+                            .squaredNorm();
+  const double of_smooth = Cholesky(recalibrated_covariance(base)).solve(smooth).trace();
+  UnknownPlace p = place("like " + j.hypothesis.name,
+                         (of_smooth > 0.0 ? kUnlike * kUnlike * square / of_smooth : 0.0) * smooth,
+                         j.hypothesis.on);
+  p.hypothesis.size = 1.0;
+  return p;
+}
+
+void add_alike(const Problem &problem, const Which &so_far, const Priors &priors,
+               std::vector<UnknownPlace> &places) {
+  double top = -INFINITY;
+  for (const Judged &j : so_far.judged)
+    if (j.hypothesis.kind == Hypothesis::effects)
+      top = std::max(top, j.evidence.log_evidence);
+  const auto effects = double(problem.effects.size());
+  const double in_pairs = effects > 1.0 ? priors.pair_share : 0.0;
+  for (const Judged &j : so_far.judged) {
+    if (j.hypothesis.kind != Hypothesis::effects || j.evidence.log_evidence < top - kHopeless)
+      continue;
+    places.push_back(place_like(problem, j));
+    places.back().share =
+        kAlike * (j.hypothesis.single() ? (1.0 - in_pairs) / effects
+                                        : in_pairs / (0.5 * effects * (effects - 1.0)));
+  }
+}
+
+} // namespace
+
+std::vector<UnknownPlace> unknown_places(const Problem &problem, const Which &so_far,
+                                         const std::vector<int> &best, const Priors &priors) {
+  std::vector<UnknownPlace> places = places_alone(problem, so_far.base);
+  if (problem.effects.empty())
+    return places;
+  const Matrix everywhere = places.front().unknown;
+  for (UnknownPlace &p : places)
+    p.share *= (1.0 - kAlike) * (best.empty() ? 1.0 : 1.0 - kBeside);
+  for (const int e : best) {
+    places.push_back(place("beside " + problem.effects[e].name, everywhere, {e}));
+    places.back().share = (1.0 - kAlike) * kBeside / double(problem.effects.size());
+  }
+  add_alike(problem, so_far, priors, places);
+  return places;
+}
+
+} // namespace calendem::inference

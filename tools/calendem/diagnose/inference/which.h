@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Which hypothesis explains the gap, and whether that may be claimed; where an effect that no table
+// has may act, and how.
+#ifndef CALENDEM_DIAGNOSE_INFERENCE_WHICH_H
+#define CALENDEM_DIAGNOSE_INFERENCE_WHICH_H
+
+#include "diagnose/inference/evidence.h"
+#include "diagnose/inference/hypothesis.h"
+#include <map>
+
+namespace calendem::inference {
+
+/// Prior probabilities. What none and unknown leave is shared: pairs get `pair_share` of it in
+/// equal parts for all pairs there are, computed or not; single ones the rest by weight.
+struct Priors {
+  double none = 0.4, unknown = 0.25, pair_share = 0.1;
+  std::map<std::string, double> weight; ///< of single effects and noise; 1 where not named
+};
+
+struct WhichSettings {
+  Priors priors;
+  bool noise = true;  ///< "noise" (understated errors) is a hypothesis
+  int pair_seeds = 2; ///< best single effects that are joined with all others and unknown
+  double claim_probability = 0.8; ///< a name is claimed from here on
+  double adequacy = 0.05;         ///< and only with at least this p
+  double nothing_fits = 0.01;     ///< all predictions below: what explains the data is unknown
+  /// Points of a curve tell how large errors are; without, noise is not claimed: what is measured
+  /// once cannot tell a large error from an unknown effect.
+  bool noise_seen = true;
+  std::vector<std::string> poor; ///< effects whose emulators are too poor to be claimed
+  EvidenceSettings evidence;
+};
+
+struct Judged {
+  Hypothesis hypothesis;
+  Evidence evidence;
+  double adequacy_p = 1.0; ///< of its best fit; 1 for unknown and noise, which fit anything
+  double probability = 0.0;
+  std::string place;                      ///< of unknown: the most probable of its places
+  std::map<std::string, double> of_place; ///< of unknown: share of its posterior by place
+  /// Share of its posterior in which all its effects are too small to be seen; 0: not known.
+  double below_limits = 0.0;
+};
+
+/// The claim, had the priors been others.
+struct Sensitivity {
+  std::string change, claim;
+  double probability = 0.0; ///< of the most probable
+};
+
+struct Which {
+  std::string claim;              ///< an effect, a pair "a + b", none, noise, unknown or undecided
+  std::string why;                ///< one sentence
+  double none_to_be_seen = 0.0;   ///< probability that no effect is above its limit
+  double adequacy_p = 0.0;        ///< of the best hypothesis that makes a prediction
+  std::vector<Judged> judged;     ///< most probable first
+  std::vector<std::string> set95; ///< most probable first, until 95 %
+  std::map<std::string, double> inclusion; ///< of each effect: alone or in a pair
+  std::vector<Sensitivity> sensitivity;
+  Linearised base; ///< about the recalibrated base model
+  /// Covariance of the discrepancy of one standard deviation at its most probable place.
+  Matrix unknown;
+
+  const Judged &of(const std::string &name) const;
+};
+
+/// Adequacy: the least of (observed - predicted)^2 / covariance + scores^2 over all scores is
+/// chi-squared with as many degrees of freedom as features in the linear-Gaussian case, n F(n, nu)
+/// with an estimated covariance; p is the chance of more. Nothing is lost to recalibration because
+/// the priors count as data. Claim: see `why`; if no prediction is adequate all their
+/// probability is the unknown's.
+/// The unknown acts like a known effect or pair, but for half of the signature's length (0.6 of its
+/// prior, shared as among the known); or sits everywhere (0.16), in one stage, one observable of
+/// it, one block or one truncation residual (0.16 in equal parts), or beside a known effect (0.08
+/// in equal parts for all effects, the best of which are computed). Its evidence is the mean over
+/// these.
+Which which(const Problem &problem, const WhichSettings &settings);
+
+/// The rule alone, on hypotheses that have evidence and adequacy: sets probabilities and sorts.
+/// Once limits are set, none is claimed too where it is the most probable and fits, and no effect
+/// above its limit is as probable as a claim asks for: what is too small to be seen can never be
+/// excluded. `effects`: how many single effects there are.
+void decide(Which &which, const WhichSettings &settings, int effects);
+
+/// How much of every effect and pair lies below `limits` (amplitudes, by effect; NaN: it cannot be
+/// seen at all), for another decide.
+void set_limits(Which &which, const Problem &problem, const std::vector<double> &limits);
+
+struct UnknownPlace {
+  std::string name;
+  double share = 1.0; ///< of the unknown's prior
+  Matrix unknown;     ///< covariance of the discrepancy
+  Hypothesis hypothesis;
+};
+
+/// All that are worth computing: their shares sum to less than 1 where others cannot matter.
+/// `best`: the effects beside which the unknown is sought; `so_far`: hypotheses with their
+/// evidence.
+std::vector<UnknownPlace> unknown_places(const Problem &problem, const Which &so_far,
+                                         const std::vector<int> &best, const Priors &priors);
+
+} // namespace calendem::inference
+
+#endif

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "electrode/pack/pack.h"
+#include "base/liggghts_job.h"
+#include "base/provenance.h"
+#include "electrode/pack/description.h"
+#include "electrode/pack/electrode_files.h"
+#include "electrode/pack/measured_bodies.h"
+#include <chrono>
+#include <filesystem>
+#include <fmt/format.h>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace calendem {
+
+namespace fs = std::filesystem;
+namespace {
+
+void show_progress(const PackOptions &o, const Recipe &r, std::string &shown) {
+  const LastRow row = last_row(o.folder + "/packing.csv");
+  const std::string text =
+      fmt::format("packing: gap {:.1f} um of {:.1f}, platen {:.3f} MPa, kinetic {:.3g} fJ",
+                  row.gap_um, r.thickness(), row.pressure_MPa, row.kinetic_fJ);
+  if (row.gap_um > 0.0 && text != shown)
+    std::cout << "\r\033[K" << text << std::flush;
+  shown = text;
+}
+
+void densify(const PackOptions &o, const Recipe &r) {
+  const FinalMaterial m;
+  LiggghtsJob job;
+  job.program = o.liggghts;
+  job.ranks = o.ranks;
+  job.script = input_scripts() + "/in.pack";
+  job.log = o.folder + "/packing.log";
+  job.screen = o.folder + "/packing.screen";
+  job.variables = {{"out", o.folder},
+                   {"scripts", input_scripts()},
+                   {"E_am_GPa", fmt::format("{}", m.E_am_GPa)},
+                   {"E_cbd_GPa", fmt::format("{}", m.E_cbd_GPa)},
+                   {"ced_am_J_m3", fmt::format("{}", m.ced_am_J_m3)},
+                   {"ced_cbd_J_m3", fmt::format("{}", m.ced_cbd_J_m3)}};
+  const bool terminal = isatty(1);
+  std::string shown;
+  run_liggghts(job, [&] {
+    if (terminal)
+      show_progress(o, r, shown);
+  });
+  if (terminal)
+    std::cout << "\r\033[K";
+}
+
+void check_machine(const Recipe &r, const PackOptions &o) {
+  Mistakes mistakes("pack");
+  const int most = most_ranks(r.cell_x, r.cell_y, std::max(r.primary_diameter, r.cbd_diameter));
+  if (o.ranks > most)
+    mistakes.add(0,
+                 fmt::format("--ranks {}: a cell of {} x {} um can be shared by at most {} ranks "
+                             "whose parts are wider than a cut-off.",
+                             o.ranks, r.cell_x, r.cell_y, most));
+  if (const std::string wrong = wrong_program(o.liggghts); !wrong.empty())
+    mistakes.add(0, wrong);
+  mistakes.stop_if_any();
+}
+
+nlohmann::json finish(const PackInput &in, Start &start, const std::string &folder) {
+  const Recipe &recipe = in.recipe;
+  const std::vector<Body> &bodies = start.made.bodies;
+  std::vector<Particle> &particles = start.placed.loose.particles;
+  read_positions(folder + "/packed.dump", particles);
+  const PackingState state = examine(recipe, bodies, particles);
+  const std::vector<Pose> poses = find_poses(recipe, bodies, particles);
+  const double height = std::max(recipe.thickness(), state.highest_um) + 1.0;
+  write_file(folder + "/electrode.data", data_file(recipe, particles, height));
+  write_file(folder + "/bodies.csv", bodies_table(bodies, poses, state));
+  write_file(folder + "/vtk/electrode.vtp", picture_file(particles));
+  nlohmann::json j =
+      describe({recipe, bodies, particles, poses, state, last_row(folder + "/packing.csv")});
+  add_origin(j, in, start, poses);
+  return j;
+}
+
+// Throws Failure(4).
+void check(const nlohmann::json &electrode, const Recipe &recipe, const std::string &folder) {
+  if (recipe.structure.given())
+    check_kept(electrode["structure"], folder);
+  check_targets(electrode, recipe, folder);
+}
+
+} // namespace
+
+std::string packing_tools(const std::string &liggghts) {
+  return version() + hash_of_file(liggghts) + hash_of_file(input_scripts() + "/in.pack");
+}
+
+std::string packing_identity(const Recipe &recipe, const std::string &tools) {
+  std::string text = tools;
+  for (const auto &[key, value] : recipe.settings.all())
+    if ((recipe.shapes.given() || key.rfind("shapes.", 0) != 0) &&
+        (recipe.structure.given() || key.rfind("structure.", 0) != 0))
+      text += key + "=" + value + "\n";
+  return hash_of_text(text + hash_of_shapes(recipe) + hash_of_structure(recipe.structure));
+}
+
+void pack_electrode(const Recipe &as_given, PackOptions o) {
+  o.folder = fs::absolute(o.folder).lexically_normal().string(); // LIGGGHTS runs in that folder
+  o.liggghts = fs::absolute(o.liggghts).lexically_normal().string();
+  const std::string summary = o.folder + "/electrode.json",
+                    identity = packing_identity(as_given, packing_tools(o.liggghts));
+  if (made_of(summary, identity)) {
+    fmt::print("pack: {} already holds this electrode\n", o.folder);
+    return;
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const PackInput in = read_input(as_given);
+  check_machine(in.recipe, o);
+  make_output_folder(o.folder);
+  fs::create_directories(o.folder + "/vtk");
+  std::error_code none;
+  fs::remove(summary, none);
+  fs::remove(o.folder + "/electrode.rejected.json", none);
+  Start start = make_start(in, o.folder);
+  densify(o, in.recipe);
+  nlohmann::json j = finish(in, start, o.folder);
+  j["wall_clock_s"] =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  j["ranks"] = o.ranks;
+  fmt::print("pack: loading {:.2f} mg/cm2, total porosity {:.2f} %, platen {:.3f} MPa, largest "
+             "force between bodies {:.0f} nN, {:.0f} s\n",
+             j["loading_mg_cm2"].get<double>(), 100 * j["porosity_total"].get<double>(),
+             j["platen_pressure_MPa"].get<double>(), j["largest_body_force_nN"].get<double>(),
+             j["wall_clock_s"].get<double>());
+  try {
+    check(j, in.recipe, o.folder);
+  } catch (const Failure &) {
+    write_file(o.folder + "/electrode.rejected.json", j.dump(2) + "\n");
+    throw;
+  }
+  j["identity"] = identity;
+  write_file(summary, j.dump(2) + "\n");
+}
+
+namespace {
+
+const char *const kLargest = "largest_equivalent_diameter_allowed_um";
+const char *const kCutOff = "volume_fraction_cut_off_by_size_limit";
+
+ShapeLibrary open_library(const Recipe &recipe, const std::string &folder) {
+  ShapeLibrary library = library_of(recipe);
+  fmt::print("pack: {} shapes of {} labels; the border cuts {}, {} have too few voxels\n",
+             library.shapes.size(), library.labels, library.cut.size(), library.coarse.size());
+  if (!recipe.shapes.image.empty())
+    write_library(library, folder + "/shapes");
+  return library;
+}
+
+BodiesOfStructure bodies_with(const PackInput &in, const ShapeLibrary *library) {
+  const Recipe &r = in.recipe;
+  if (!r.structure.given())
+    return {library ? make_bodies(r, *library) : make_bodies(r), {}, {}};
+  if (r.structure.clusters)
+    return bodies_of_clusters(r, in.structure);
+  return bodies_of_spheres(r, in.structure, [&](int count, Random &random) {
+    return library ? make_body(r, *library, count, random) : make_body(r, count, random);
+  });
+}
+
+// Bodies and, with measured shapes, what electrode.json says of them.
+Start make_all_bodies(const PackInput &in, const std::string &folder) {
+  const Recipe &r = in.recipe;
+  Start out;
+  if (!r.shapes.given()) {
+    out.made = bodies_with(in, nullptr);
+    return out;
+  }
+  const ShapeLibrary library = open_library(r, folder);
+  out.made = bodies_with(in, &library);
+  write_file(folder + "/shapes_used.csv", shapes_used(library, out.made.bodies));
+  out.shapes = describe_shapes(r, library, out.made.bodies);
+  if (r.shapes.measured_sizes && !r.structure.given()) {
+    const double limit = largest_diameter(r, library);
+    out.shapes[kLargest] = limit;
+    out.shapes[kCutOff] = library.volume_above(limit);
+  }
+  return out;
+}
+
+} // namespace
+
+Start make_start(const PackInput &in, const std::string &folder) {
+  const Recipe &r = in.recipe;
+  Start out = make_all_bodies(in, folder);
+  if (r.structure.given()) {
+    out.placed = place_as_in_structure(r, in.structure, out.made);
+    write_file(folder + "/structure.csv", structure_table(in.structure, out.made));
+  } else
+    out.placed.loose = place(r, out.made.bodies);
+  const Placement &loose = out.placed.loose;
+  fmt::print("pack: {} bodies, {} particles, densifying from {:.0f} to {:.1f} um\n",
+             out.made.bodies.size(), loose.particles.size(), loose.height, r.thickness());
+  std::cout << std::flush;
+  write_file(folder + "/start.data", data_file(r, loose.particles, loose.height));
+  write_file(folder + "/bodies.map", body_map(loose.particles));
+  write_file(folder + "/electrode.in", script_variables(r, r.thickness()));
+  return out;
+}
+
+void add_origin(nlohmann::json &electrode, const PackInput &in, const Start &start,
+                const std::vector<Pose> &poses) {
+  const Recipe &r = in.recipe;
+  nlohmann::json shapes = start.shapes;
+  for (const char *key : {kLargest, kCutOff})
+    if (shapes.contains(key)) {
+      electrode[key] = shapes[key];
+      shapes.erase(key);
+    }
+  if (!shapes.is_null() || r.structure.clusters)
+    electrode["sphericity_how"] =
+        fmt::format("surface of the sphere of equal volume over the smoothed surface of the {}",
+                    r.structure.clusters ? "given cluster" : "measured particle");
+  if (!shapes.is_null())
+    electrode["shapes"] = shapes;
+  if (!r.structure.given())
+    return;
+  for (const char *key : {kLargest, kCutOff}) // a structure comes through whole
+    electrode.erase(key);
+  electrode["structure"] = describe_structure(r, in.structure, start.made, start.placed, poses,
+                                              start.placed.loose.particles);
+}
+
+} // namespace calendem

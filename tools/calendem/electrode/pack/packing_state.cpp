@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "electrode/pack/packing_state.h"
+#include "physics/hertz_contact.h"
+#include "physics/sjkr_cohesion.h"
+#include "registry/settings.h"
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+namespace calendem {
+
+namespace {
+
+double pair_force(const Particle &p, const Particle &q, double r, const FinalMaterial &m) {
+  constexpr double kGPa = 1e6, kJ_m3 = 1e-3; // in kPa
+  const auto E = [&](const Particle &a) { return kGPa * (a.type == 1 ? m.E_am_GPa : m.E_cbd_GPa); };
+  const auto nu = [&](const Particle &a) { return a.type == 1 ? m.nu_am : m.nu_cbd; };
+  const auto ced = [&](const Particle &a) {
+    return kJ_m3 * (a.type == 1 ? m.ced_am_J_m3 : m.ced_cbd_J_m3);
+  };
+  const double Rp = 0.5 * p.diameter, Rq = 0.5 * q.diameter;
+  const double repulsion = hertz_force(effective_modulus(E(p), nu(p), E(q), nu(q)),
+                                       effective_radius(Rp, Rq), Rp + Rq - r);
+  return std::fabs(repulsion - sjkr_force(std::sqrt(ced(p) * ced(q)), r, Rp, Rq));
+}
+
+void note(Overlaps &o, double overlap) {
+  ++o.pairs;
+  o.mean += (overlap - o.mean) / o.pairs;
+  o.largest = std::max(o.largest, overlap);
+}
+
+void note_contact(PackingState &s, const Particle &p, const Particle &q, double r,
+                  const Recipe &recipe, const FinalMaterial &material) {
+  const double overlap = 0.5 * (p.diameter + q.diameter) - r;
+  if (p.type == 1 && q.type == 1 && p.body == q.body) {
+    ++s.bonds;
+    ++s.body_bonds[p.body - 1];
+  } else if (p.type == 1 && q.type == 1) {
+    s.body_force_nN = std::max(s.body_force_nN, pair_force(p, q, r, material));
+  } else if (p.type == 2 && q.type == 2) {
+    note(s.cbd_cbd, overlap / (0.5 * recipe.cbd_diameter));
+  } else {
+    note(s.cbd_am, overlap / (0.5 * recipe.cbd_diameter));
+    s.am_cbd_force_nN = std::max(s.am_cbd_force_nN, pair_force(p, q, r, material));
+  }
+}
+
+// Pairs of the body's primaries that touch as it was made, and how far those that still do are
+// stretched; `first`: its first particle.
+void note_pairs(PackingState &s, const Body &b, const Particle *first, const Recipe &recipe) {
+  for (size_t i = 0; i < b.primaries.size(); ++i)
+    for (size_t j = i + 1; j < b.primaries.size(); ++j) {
+      const double made = (b.primaries[i] - b.primaries[j]).norm();
+      if (made >= recipe.primary_diameter)
+        continue;
+      ++s.lattice_pairs;
+      const double r = periodic_difference(recipe, first[i].x, first[j].x).norm();
+      if (r < recipe.primary_diameter)
+        s.bond_strain = std::max(s.bond_strain, std::fabs(r / made - 1.0));
+    }
+}
+
+} // namespace
+
+double case_default(const std::string &key) {
+  const auto is = [&](const Key &k) { return k.name == key; };
+  return std::stod(std::find_if(case_keys().begin(), case_keys().end(), is)->fallback);
+}
+
+PackingState examine(const Recipe &recipe, const std::vector<Body> &bodies,
+                     const std::vector<Particle> &particles, const FinalMaterial &material) {
+  PackingState s;
+  s.body_bonds.assign(bodies.size(), 0);
+  const Particle *first = particles.data();
+  for (const Body &b : bodies) {
+    note_pairs(s, b, first, recipe);
+    first += b.primaries.size();
+  }
+  for (size_t i = 0; i < particles.size(); ++i) {
+    const Particle &p = particles[i];
+    s.highest_um = std::max(s.highest_um, p.x.z() + 0.5 * p.diameter);
+    for (size_t j = i + 1; j < particles.size(); ++j) {
+      const Particle &q = particles[j];
+      const double sum = 0.5 * (p.diameter + q.diameter);
+      if (std::fabs(p.x.z() - q.x.z()) >= sum)
+        continue;
+      const double r = periodic_difference(recipe, p.x, q.x).norm();
+      if (r < sum)
+        note_contact(s, p, q, r, recipe, material);
+    }
+  }
+  return s;
+}
+
+std::vector<std::pair<int, int>> bonds_by_distance(const std::vector<Particle> &particles,
+                                                   double lx, double ly) {
+  std::map<int, std::vector<int>> members;
+  for (size_t i = 0; i < particles.size(); ++i)
+    if (particles[i].body > 0)
+      members[particles[i].body].push_back(static_cast<int>(i));
+  std::vector<std::pair<int, int>> bonds;
+  for (const auto &[body, list] : members)
+    for (size_t a = 0; a < list.size(); ++a)
+      for (size_t b = a + 1; b < list.size(); ++b) {
+        const Particle &p = particles[list[a]], &q = particles[list[b]];
+        Eigen::Vector3d d = p.x - q.x;
+        d.x() -= lx * std::round(d.x() / lx);
+        d.y() -= ly * std::round(d.y() / ly);
+        if (d.norm() < 0.5 * (p.diameter + q.diameter))
+          bonds.emplace_back(list[a], list[b]);
+      }
+  return bonds;
+}
+
+namespace {
+
+// Voxels of a cell that is periodic in x and y and as high as its particles.
+class Grid {
+public:
+  Grid(const Recipe &r, double height, double voxel)
+      : n_{std::max(1, int(std::ceil(r.cell_x / voxel))),
+           std::max(1, int(std::ceil(r.cell_y / voxel))),
+           std::max(1, int(std::ceil(height / voxel)))},
+        step_(r.cell_x / n_[0], r.cell_y / n_[1], height / n_[2]),
+        mark_(size_t(n_[0]) * n_[1] * n_[2], 0) {}
+
+  // Marks the voxels within `reach` of x whose centre is inside and that bear no mark yet.
+  void fill(const Eigen::Vector3d &x, double reach, char mark,
+            const std::function<bool(const Eigen::Vector3d &)> &inside) {
+    const Eigen::Array3d lo = ((x.array() - reach) / step_.array()).floor();
+    const Eigen::Array3d hi = ((x.array() + reach) / step_.array()).ceil();
+    for (int k = std::max(0, int(lo[2])); k <= std::min(n_[2] - 1, int(hi[2])); ++k)
+      for (int j = int(lo[1]); j <= int(hi[1]); ++j)
+        for (int i = int(lo[0]); i <= int(hi[0]); ++i) {
+          char &m = mark_[(size_t(k) * n_[1] + wrap(j, n_[1])) * n_[0] + wrap(i, n_[0])];
+          const Eigen::Vector3d centre =
+              (Eigen::Array3d(i, j, k) + 0.5).matrix().cwiseProduct(step_);
+          if (!m && inside(centre - x))
+            m = mark;
+        }
+  }
+  double volume(char mark) const {
+    return step_.prod() * double(std::count(mark_.begin(), mark_.end(), mark));
+  }
+
+private:
+  static int wrap(int i, int n) { return ((i % n) + n) % n; }
+  int n_[3];
+  Eigen::Vector3d step_;
+  std::vector<char> mark_;
+};
+
+} // namespace
+
+Envelope measure_envelope(const Recipe &recipe, const std::vector<Particle> &particles,
+                          const std::vector<Pose> &poses, double voxel) {
+  double height = 0.0;
+  for (const Particle &p : particles)
+    height = std::max(height, p.x.z() + 0.5 * p.diameter + recipe.lattice);
+  Grid grid(recipe, height, voxel);
+  const double half = 0.5 * recipe.lattice;
+  for (const Particle &p : particles)
+    if (p.body > 0) {
+      const Eigen::Matrix3d back = poses[p.body - 1].turn.toRotationMatrix().transpose();
+      grid.fill(p.x, std::sqrt(3.0) * half, 1,
+                [&](const Eigen::Vector3d &d) { return (back * d).cwiseAbs().maxCoeff() <= half; });
+    }
+  for (const Particle &p : particles)
+    if (p.body == 0)
+      grid.fill(p.x, 0.5 * p.diameter, 2, [&](const Eigen::Vector3d &d) {
+        return d.squaredNorm() <= 0.25 * p.diameter * p.diameter;
+      });
+  return {grid.volume(1), grid.volume(1) + grid.volume(2)};
+}
+
+namespace {
+
+// Each primary touches an earlier one (bodies are grown that way): take its image next to that one.
+Eigen::Matrix3Xd join(const Recipe &recipe, const Body &body, const Particle *first) {
+  const Eigen::Index n = static_cast<Eigen::Index>(body.primaries.size());
+  Eigen::Matrix3Xd x(3, n);
+  x.col(0) = first[0].x;
+  for (Eigen::Index k = 1; k < n; ++k) {
+    Eigen::Index j = 0;
+    while (j < k - 1 && (body.primaries[k] - body.primaries[j]).norm() >= recipe.primary_diameter)
+      ++j;
+    x.col(k) = x.col(j) + periodic_difference(recipe, first[k].x, x.col(j));
+  }
+  return x;
+}
+
+} // namespace
+
+std::vector<Pose> find_poses(const Recipe &recipe, const std::vector<Body> &bodies,
+                             const std::vector<Particle> &particles) {
+  std::vector<Pose> poses;
+  const Particle *first = particles.data();
+  for (const Body &b : bodies) {
+    const Eigen::Matrix3Xd x = join(recipe, b, first);
+    const Eigen::Map<const Eigen::Matrix3Xd> shape(b.primaries.front().data(), 3, x.cols());
+    first += b.primaries.size();
+    const Eigen::Vector3d mean = x.rowwise().mean();
+    Pose pose{in_cell(recipe, mean), b.lattice, 0.0};
+    if (x.cols() > 1) {
+      const Eigen::Matrix3d R = Eigen::umeyama(shape, x, false).topLeftCorner<3, 3>();
+      pose.turn = (Eigen::Quaterniond(R) * b.lattice).normalized();
+      pose.distortion = ((x.colwise() - mean) - R * shape).colwise().norm().maxCoeff();
+    }
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+} // namespace calendem

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "electrode/structure/existing_structure.h"
+#include "base/provenance.h"
+#include "electrode/structure/data_rows.h"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <map>
+
+namespace calendem {
+
+namespace {
+
+constexpr int kMostTold = 10; // mistakes in rows
+
+// Particles of each type that is not listed, and listed types without particles.
+void check_types(const StructureSource &s, const ParticleData &data, Mistakes &mistakes) {
+  std::map<int, std::pair<long, int>> found; // number, first line
+  for (const DataParticle &p : data.particles)
+    if (found[p.type].first++ == 0)
+      found[p.type].second = p.line;
+  for (const auto &[type, seen] : found)
+    if (!s.am_types.count(type) && !s.cbd_types.count(type) && !s.left_out_types.count(type))
+      mistakes.add(0,
+                   fmt::format("type {} (particles: {}, first in line {}) is in none of "
+                               "structure.am_types, cbd_types and left_out_types. Name it in one "
+                               "of them.",
+                               type, seen.first, seen.second));
+  for (const auto &[name, types] :
+       {std::pair("am_types", &s.am_types), std::pair("cbd_types", &s.cbd_types),
+        std::pair("left_out_types", &s.left_out_types)})
+    for (int type : *types)
+      if (!data.particles.empty() && !found.count(type))
+        mistakes.add(0, fmt::format("structure.{} names type {}, but no particle is of that type. "
+                                    "Name the types that the file has.",
+                                    name, type));
+}
+
+// id -> body, of rows 'id body'.
+std::map<long, long> read_body_map(const std::string &file, Mistakes &mistakes) {
+  std::map<long, long> out;
+  std::ifstream in(file, std::ios::binary);
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    const std::vector<std::string> words = words_of(line.substr(0, line.find('#')));
+    if (words.empty())
+      continue;
+    const long id = whole_number_in(words[0]).value_or(0);
+    const long body = words.size() == 2 ? whole_number_in(words[1]).value_or(0) : 0;
+    if (id < 1 || body < 1)
+      mistakes.add(number, fmt::format("'{}' is not a row 'id body' with whole numbers from 1.",
+                                       joined(words).substr(0, 60)));
+    else if (!out.emplace(id, body).second)
+      mistakes.add(number, fmt::format("particle {} is there twice; every primary belongs to one "
+                                       "body.",
+                                       id));
+  }
+  return out;
+}
+
+void set_clusters(std::map<long, long> body, std::vector<ExistingSphere> &am, Mistakes &mistakes) {
+  if (body.empty())
+    mistakes.add(0, "it holds no rows 'id body'. Give the map of the data file.");
+  int missing = 0;
+  for (ExistingSphere &p : am) {
+    const auto at = body.find(p.id);
+    if (at != body.end()) {
+      p.cluster = at->second;
+      body.erase(at);
+    } else if (missing++ == 0)
+      mistakes.add(0, fmt::format("particle {} of the active material is not in the map. Give the "
+                                  "map of this data file.",
+                                  p.id));
+  }
+  if (!body.empty())
+    mistakes.add(0, fmt::format("{} rows name particles that are no active material of the data "
+                                "file, first {}. Give the map of this data file.",
+                                body.size(), body.begin()->first));
+}
+
+// z from the lowest point; how high the film is.
+void measure_height(double box_z, bool z_periodic, ExistingStructure &g) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const auto *phase : {&g.am, &g.cbd})
+    for (const ExistingSphere &p : *phase) {
+      low = std::min(low, p.x.z() - 0.5 * p.diameter);
+      high = std::max(high, p.x.z() + 0.5 * p.diameter);
+    }
+  for (auto *phase : {&g.am, &g.cbd})
+    for (ExistingSphere &p : *phase)
+      p.x.z() -= low;
+  g.extent = high - low;
+  g.thickness = z_periodic ? std::min(box_z, g.extent) : g.extent;
+}
+
+void sort_by_id(std::vector<ExistingSphere> &spheres) {
+  std::sort(spheres.begin(), spheres.end(),
+            [](const ExistingSphere &a, const ExistingSphere &b) { return a.id < b.id; });
+}
+
+} // namespace
+
+ExistingStructure read_structure(const StructureSource &s) {
+  Mistakes mistakes(s.file, kMostTold), in_map(s.body_map, kMostTold);
+  const ParticleData data = read_particle_data(
+      s.file, {s.atom_style, s.length_um, s.density_g_cm3, s.z_periodic}, mistakes);
+  check_types(s, data, mistakes);
+  ExistingStructure g;
+  g.lx = data.box.x();
+  g.ly = data.box.y();
+  for (const DataParticle &p : data.particles) {
+    const ExistingSphere sphere{p.id, p.type, p.molecule, p.diameter, p.density, p.x};
+    if (s.am_types.count(p.type))
+      g.am.push_back(sphere);
+    else if (s.cbd_types.count(p.type))
+      g.cbd.push_back(sphere);
+    else
+      ++g.left_out;
+  }
+  sort_by_id(g.am);
+  sort_by_id(g.cbd);
+  if (s.clusters && !s.body_map.empty()) {
+    const std::map<long, long> bodies = read_body_map(s.body_map, in_map);
+    if (mistakes.empty() && in_map.empty())
+      set_clusters(bodies, g.am, in_map);
+  } else if (s.clusters && !data.molecules)
+    mistakes.add(0, fmt::format("its rows ({}) have no molecule ids to tell the clusters. Give "
+                                "structure.body_map, or write it with atom_style hybrid sphere "
+                                "molecular.",
+                                columns_of(s.atom_style)));
+  if (!mistakes.empty() || !in_map.empty())
+    throw Failure(kBadInput, mistakes.text() + (mistakes.empty() || in_map.empty() ? "" : "\n") +
+                                 in_map.text());
+  measure_height(data.box.z(), s.z_periodic, g);
+  return g;
+}
+
+std::string hash_of_structure(const StructureSource &s) {
+  if (!s.given())
+    return "";
+  return hash_of_text(hash_of_file(s.file) + (s.body_map.empty() ? "" : hash_of_file(s.body_map)));
+}
+
+} // namespace calendem

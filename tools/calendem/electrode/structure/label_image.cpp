@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "electrode/structure/label_image.h"
+#include "base/messages.h"
+#include "base/provenance.h"
+#include "electrode/structure/image_header.h"
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkIntArray.h>
+#include <vtkLogger.h>
+#include <vtkMetaImageReader.h>
+#include <vtkMetaImageWriter.h>
+#include <vtkNew.h>
+#include <vtkNrrdReader.h>
+#include <vtkPointData.h>
+#include <vtkStringOutputWindow.h>
+#include <vtkTIFFReader.h>
+#include <vtkXMLImageDataReader.h>
+#include <vtkXMLImageDataWriter.h>
+
+namespace calendem {
+
+namespace {
+
+constexpr const char *kVoxelSizeKeys =
+    "shapes.voxel_size_um in a recipe, labels_voxel_um in an experiment, --voxel-um to measure";
+
+// What VTK complains about while this lives goes here instead of to the terminal.
+class Complaints {
+public:
+  Complaints() : before_(vtkOutputWindow::GetInstance()) {
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+    vtkOutputWindow::SetInstance(window_);
+  }
+  ~Complaints() {
+    vtkOutputWindow::SetInstance(before_);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_INFO);
+  }
+  Complaints(const Complaints &) = delete;
+  Complaints &operator=(const Complaints &) = delete;
+  std::string text() { return window_->GetOutput(); }
+
+private:
+  vtkSmartPointer<vtkOutputWindow> before_;
+  vtkNew<vtkStringOutputWindow> window_;
+};
+
+// The line of VTK's complaint that says something, without its address and class.
+std::string gist(std::string text) {
+  const size_t colon = text.find("): ");
+  if (colon != std::string::npos)
+    text = text.substr(colon + 3);
+  text = text.substr(0, text.find('\n'));
+  return text.empty() ? "it is cut or not of that format" : text;
+}
+
+template <class Reader>
+vtkSmartPointer<vtkImageData> read_with(const std::string &file, vtkNew<Reader> &reader) {
+  Complaints complaints;
+  if (!reader->CanReadFile(file.c_str()))
+    refuse_image(file,
+                 "this is not a file of the format that its ending says, or its header is cut. "
+                 "Give the file as the program that segmented it wrote it.");
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  vtkSmartPointer<vtkImageData> image = reader->GetOutput();
+  const std::string said = complaints.text();
+  if (said.find("ERR") != std::string::npos || said.find("rror") != std::string::npos ||
+      reader->GetErrorCode() != 0)
+    refuse_image(file,
+                 fmt::format("VTK cannot read it: {}. Give the whole file, and the data file that "
+                             "a header names beside it.",
+                             gist(said)));
+  return image;
+}
+
+vtkSmartPointer<vtkImageData> read_one(const std::string &file) {
+  if (!std::filesystem::is_regular_file(file))
+    refuse_image(file, "no such file. Give the path of a label image that exists.");
+  const std::string ending = image_ending(file);
+  vtkSmartPointer<vtkImageData> image;
+  if (ending == ".vti") {
+    check_vti(file);
+    vtkNew<vtkXMLImageDataReader> reader;
+    image = read_with(file, reader);
+  } else if (ending == ".mhd" || ending == ".mha") {
+    check_meta_image(file);
+    vtkNew<vtkMetaImageReader> reader;
+    image = read_with(file, reader);
+  } else if (ending == ".nrrd" || ending == ".nhdr") {
+    check_nrrd(file);
+    vtkNew<vtkNrrdReader> reader;
+    image = read_with(file, reader);
+  } else {
+    check_tiff(file);
+    vtkNew<vtkTIFFReader> reader;
+    image = read_with(file, reader);
+  }
+  if (!image || image->GetNumberOfPoints() == 0 || !image->GetPointData()->GetScalars())
+    refuse_image(file, "it holds no voxels. Point data with one whole number per voxel is wanted.");
+  return image;
+}
+
+// One number per voxel as a label; anything but a whole number is refused with its place.
+void append_labels(const std::string &file, vtkImageData &image, LabelImage &out) {
+  vtkDataArray &values = *image.GetPointData()->GetScalars();
+  if (values.GetNumberOfComponents() != 1)
+    refuse_image(file,
+                 fmt::format("a voxel has {} numbers (a colour picture?); a label image has one. "
+                             "Export the labels, not a rendering.",
+                             values.GetNumberOfComponents()));
+  for (vtkIdType p = 0; p < values.GetNumberOfTuples(); ++p) {
+    const double v = values.GetComponent(p, 0);
+    if (v != std::floor(v) || std::fabs(v) > 2147483647.0)
+      refuse_image(file, fmt::format("voxel ({}, {}, {}) is {}; a label is a whole number up to "
+                                     "2147483647. Give the label image, not grey values.",
+                                     p % out.n[0], p / out.n[0] % out.n[1],
+                                     p / out.n[0] / out.n[1] + out.n[2], v));
+    out.label.push_back(static_cast<std::int32_t>(v));
+  }
+  // VTK turns a single page of TIFF upside down and leaves the pages of a stack as they are.
+  if (is_tiff(file) && image.GetDimensions()[2] == 1)
+    for (int j = 0; 2 * j + 1 < out.n[1]; ++j)
+      std::swap_ranges(out.label.end() - long(out.n[0]) * (out.n[1] - j),
+                       out.label.end() - long(out.n[0]) * (out.n[1] - j - 1),
+                       out.label.end() - long(out.n[0]) * (j + 1));
+}
+
+void append(const std::string &file, LabelImage &out) {
+  const vtkSmartPointer<vtkImageData> image = read_one(file);
+  int n[3];
+  image->GetDimensions(n);
+  if (out.n[2] > 0 && (n[0] != out.n[0] || n[1] != out.n[1]))
+    refuse_image(file,
+                 fmt::format("this slice has {} x {} voxels, those before it {} x {}. All slices "
+                             "of a series must be of one size.",
+                             n[0], n[1], out.n[0], out.n[1]));
+  out.n[0] = n[0];
+  out.n[1] = n[1];
+  image->GetSpacing(out.voxel.data());
+  append_labels(file, *image, out);
+  out.n[2] += n[2];
+}
+
+void set_voxel_size(const std::string &file, double voxel_um, LabelImage &image) {
+  const bool stated = !is_tiff(file) && image.voxel != Eigen::Vector3d::Ones();
+  if (voxel_um > 0.0)
+    image.voxel.setConstant(voxel_um);
+  else if (!stated)
+    refuse_image(file, fmt::format("the file states no voxel size. Give {}.", kVoxelSizeKeys));
+  image.voxel = image.voxel.cwiseAbs();
+  if (image.voxel.minCoeff() < 1e-3 || image.voxel.maxCoeff() > 10.0)
+    refuse_image(file,
+                 fmt::format("a voxel is {:g} x {:g} x {:g} um by its header; allowed is 0.001 to "
+                             "10 um. If the header is in mm or m, give {}.",
+                             image.voxel[0], image.voxel[1], image.voxel[2], kVoxelSizeKeys));
+}
+
+template <class Writer>
+void write_with(vtkNew<Writer> &writer, vtkImageData *data, const std::string &file) {
+  Complaints complaints;
+  writer->SetFileName(file.c_str());
+  writer->SetInputData(data);
+  writer->Write();
+  if (!std::filesystem::exists(file))
+    refuse_image(file, "cannot be written. Check the folder, its rights and the disk.");
+}
+
+} // namespace
+
+LabelImage read_label_image(const std::string &file, double voxel_um) {
+  if (!is_readable_image(file))
+    refuse_image(file,
+                 fmt::format("label images with the ending '{}' are not read; allowed are {}. "
+                             "Convert it.",
+                             image_ending(file), readable_images()));
+  LabelImage image;
+  for (const std::string &slice : files_of_series(file))
+    append(slice, image);
+  set_voxel_size(file, voxel_um, image);
+  return image;
+}
+
+void write_label_image(const LabelImage &image, const std::string &file) {
+  vtkNew<vtkImageData> data;
+  data->SetDimensions(image.n.data());
+  data->SetSpacing(image.voxel.data());
+  vtkNew<vtkIntArray> values;
+  values->SetName("label");
+  values->SetArray(const_cast<int *>(image.label.data()), vtkIdType(image.label.size()), 1);
+  data->GetPointData()->SetScalars(values);
+  const std::string ending = image_ending(file);
+  if (ending == ".vti") {
+    vtkNew<vtkXMLImageDataWriter> writer;
+    write_with(writer, data, file);
+  } else if (ending == ".mhd" || ending == ".mha") {
+    vtkNew<vtkMetaImageWriter> writer;
+    write_with(writer, data, file);
+  } else
+    refuse_image(
+        file,
+        fmt::format("'{}' is not written; give a name that ends in .mhd, .mha or .vti.", ending));
+}
+
+namespace fs = std::filesystem;
+namespace {
+
+const char *const kEndings[] = {".vti", ".mhd", ".mha", ".nrrd", ".nhdr", ".tif", ".tiff"};
+
+} // namespace
+
+std::string image_ending(const std::string &file) {
+  std::string ending = fs::path(file).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), ::tolower);
+  return ending;
+}
+
+bool is_tiff(const std::string &file) { return image_ending(file).rfind(".tif", 0) == 0; }
+
+std::string readable_images() { return fmt::format("{}", fmt::join(kEndings, " ")); }
+
+bool is_readable_image(const std::string &file) {
+  const std::string ending = image_ending(file);
+  return std::find(std::begin(kEndings), std::end(kEndings), ending) != std::end(kEndings);
+}
+
+std::vector<std::string> files_of_series(const std::string &file) {
+  const std::regex place("%0?[0-9]*d");
+  const std::string name = fs::path(file).filename().string();
+  std::smatch hit;
+  if (!is_tiff(file) || !std::regex_search(name, hit, place))
+    return {file};
+  const std::string before = hit.prefix(), after = hit.suffix();
+  const fs::path folder = fs::absolute(file).parent_path();
+  std::map<long, std::string> slices;
+  if (fs::is_directory(folder))
+    for (const auto &entry : fs::directory_iterator(folder)) {
+      const std::string f = entry.path().filename().string();
+      if (f.size() <= before.size() + after.size() || f.rfind(before, 0) != 0 ||
+          f.compare(f.size() - after.size(), after.size(), after) != 0)
+        continue;
+      const std::string number = f.substr(before.size(), f.size() - before.size() - after.size());
+      if (number.size() < 10 && number.find_first_not_of("0123456789") == std::string::npos)
+        slices[std::stol(number)] = entry.path().string();
+    }
+  if (slices.empty())
+    throw Failure(kBadInput, fmt::format("{}: no file has such a name. Give a pattern like "
+                                         "slice_%04d.tif in a folder that holds the slices.",
+                                         file));
+  const long first = slices.begin()->first, last = slices.rbegin()->first;
+  for (long k = first; k <= last; ++k)
+    if (!slices.count(k))
+      throw Failure(kBadInput, fmt::format("{}: slice {} is missing; there are {} to {}. All "
+                                           "slices in between must be there.",
+                                           file, k, first, last));
+  std::vector<std::string> out;
+  for (const auto &[number, f] : slices)
+    out.push_back(f);
+  return out;
+}
+
+std::string data_file_of(const std::string &header) {
+  const std::string ending = image_ending(header);
+  const bool meta = ending == ".mhd" || ending == ".mha";
+  if (!meta && ending != ".nrrd" && ending != ".nhdr")
+    return "";
+  const ImageHeader h(header, meta ? "=" : ": ");
+  const std::string name = meta                ? h.text("ElementDataFile")
+                           : h.has("datafile") ? h.text("datafile")
+                                               : h.text("data file");
+  if (name.empty() || (meta && name == "LOCAL"))
+    return "";
+  if (name.find('%') != std::string::npos || name.rfind("LIST", 0) == 0)
+    refuse_image(header,
+                 fmt::format("the voxels are spread over several files ('{}'), which is not "
+                             "read. Save them to one file.",
+                             name.substr(0, 60)));
+  const fs::path data = fs::path(header).parent_path() / name;
+  std::error_code none;
+  if (!fs::is_regular_file(data, none))
+    refuse_image(header,
+                 fmt::format("the data file '{}' that the header names is not there. Put it "
+                             "beside the header.",
+                             name.substr(0, 200)));
+  return data.string();
+}
+
+std::string hash_of_image(const std::string &file) {
+  std::string text;
+  for (const std::string &slice : files_of_series(file))
+    text += hash_of_file(slice);
+  const std::string data = data_file_of(file);
+  return hash_of_text(text + (data.empty() ? "" : hash_of_file(data)));
+}
+
+} // namespace calendem

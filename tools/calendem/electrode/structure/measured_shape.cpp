@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "electrode/structure/measured_shape.h"
+#include "electrode/structure/particle_mask.h"
+#include "physics/pi.h"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace calendem {
+
+namespace {
+
+// Cells whose volume lies to one half or more inside.
+void coarsen(const ParticleMask &m, MeasuredShape &s) {
+  for (int axis = 0; axis < 3; ++axis)
+    s.n[axis] = int(std::ceil(m.n[axis] * m.voxel[axis] / s.cell)) + 2;
+  const auto cell_of = [&](int axis, int i) { return 1 + int((i + 0.5) * m.voxel[axis] / s.cell); };
+  std::vector<std::array<int, 2>> count(size_t(s.n[0]) * s.n[1] * s.n[2], {0, 0});
+  for (int k = 0; k < m.n[2]; ++k)
+    for (int j = 0; j < m.n[1]; ++j)
+      for (int i = 0; i < m.n[0]; ++i) {
+        auto &c = count[(size_t(cell_of(2, k)) * s.n[1] + cell_of(1, j)) * s.n[0] + cell_of(0, i)];
+        ++c[0];
+        c[1] += m.inside[m.index(i, j, k)];
+      }
+  for (const auto &c : count)
+    s.inside.push_back(c[0] > 0 && 2 * c[1] >= c[0]);
+}
+
+// What follows from the cells: depth, centre, reach.
+void complete(MeasuredShape &s) {
+  s.depth = signed_distance(s.inside, s.n, s.cell);
+  std::vector<Eigen::Vector3d> cells;
+  for (int k = 0; k < s.n[2]; ++k)
+    for (int j = 0; j < s.n[1]; ++j)
+      for (int i = 0; i < s.n[0]; ++i)
+        if (s.inside[(size_t(k) * s.n[1] + j) * s.n[0] + i])
+          cells.emplace_back((i + 0.5) * s.cell, (j + 0.5) * s.cell, (k + 0.5) * s.cell);
+  if (cells.empty())
+    throw std::runtime_error("no cell is inside");
+  s.centre.setZero();
+  for (const Eigen::Vector3d &c : cells)
+    s.centre += c / double(cells.size());
+  for (const Eigen::Vector3d &c : cells)
+    s.reach = std::max(s.reach, (c - s.centre).norm() + 0.87 * s.cell);
+}
+
+} // namespace
+
+double MeasuredShape::depth_at(const Eigen::Vector3d &x) const {
+  const Eigen::Array3d at = ((x + centre) / cell).array() - 0.5;
+  const Eigen::Array3d top(n[0] - 1.001, n[1] - 1.001, n[2] - 1.001);
+  const Eigen::Array3d in_box = at.max(0.0).min(top);
+  const Eigen::Array3i low = in_box.cast<int>();
+  const Eigen::Array3d f = in_box - low.cast<double>();
+  double sum = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const int i = corner & 1, j = corner >> 1 & 1, k = corner >> 2;
+    const double share = (i ? f[0] : 1 - f[0]) * (j ? f[1] : 1 - f[1]) * (k ? f[2] : 1 - f[2]);
+    sum += share * depth[(size_t(low[2] + k) * n[1] + low[1] + j) * n[0] + low[0] + i];
+  }
+  return sum + (at - in_box).matrix().norm() * cell;
+}
+
+MeasuredShape make_shape(const ParticleMask &mask, int cells) {
+  MeasuredShape s;
+  s.volume = mask.volume();
+  s.equivalent_diameter = std::cbrt(6.0 / kPi * s.volume);
+  s.sphericity = std::min(1.0, measure_surface(mask).sphericity);
+  s.closed_pore_fraction = double(mask.pore_voxels) / double(mask.pore_voxels + mask.solid_voxels);
+  double longest = 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+    longest = std::max(longest, (mask.n[axis] - 2) * mask.voxel[axis]);
+  s.cell = std::max(mask.voxel.maxCoeff(), longest / cells);
+  coarsen(mask, s);
+  complete(s);
+  return s;
+}
+
+nlohmann::json to_json(const MeasuredShape &s) {
+  std::vector<int> runs;
+  char value = 0;
+  int length = 0;
+  for (const char v : s.inside) {
+    if (v != value) {
+      runs.push_back(length);
+      length = 0;
+      value = v;
+    }
+    ++length;
+  }
+  runs.push_back(length);
+  return {{"name", s.name},
+          {"label", s.label},
+          {"volume_um3", s.volume},
+          {"equivalent_diameter_um", s.equivalent_diameter},
+          {"sphericity", s.sphericity},
+          {"closed_pore_fraction", s.closed_pore_fraction},
+          {"number_weight", s.weight},
+          {"cells", s.n},
+          {"cell_um", s.cell},
+          {"runs_outside_inside", runs}};
+}
+
+MeasuredShape shape_from_json(const nlohmann::json &j) {
+  MeasuredShape s;
+  s.name = j.at("name");
+  s.label = j.at("label");
+  s.volume = j.at("volume_um3");
+  s.equivalent_diameter = j.at("equivalent_diameter_um");
+  s.sphericity = j.at("sphericity");
+  s.closed_pore_fraction = j.at("closed_pore_fraction");
+  s.weight = j.at("number_weight");
+  s.n = j.at("cells");
+  s.cell = j.at("cell_um");
+  const size_t size = size_t(std::max(0, s.n[0])) * std::max(0, s.n[1]) * std::max(0, s.n[2]);
+  if (size < 27 || size > 1000000 || !(s.cell > 0.0) || !(s.volume > 0.0) || !(s.weight > 0.0))
+    throw std::runtime_error(fmt::format("cells {} x {} x {} of {} um, volume {} um3, weight {}: "
+                                         "all must be positive",
+                                         s.n[0], s.n[1], s.n[2], s.cell, s.volume, s.weight));
+  char value = 0;
+  for (const int length : j.at("runs_outside_inside")) {
+    if (length < 0 || s.inside.size() + length > size)
+      break;
+    s.inside.insert(s.inside.end(), length, value);
+    value = value ? 0 : 1;
+  }
+  if (s.inside.size() != size)
+    throw std::runtime_error(
+        fmt::format("runs_outside_inside fill {} of {} cells", s.inside.size(), size));
+  complete(s);
+  return s;
+}
+
+namespace {
+
+constexpr double kFar = 1e12; // squared, in cells: no seed on the line
+
+// Lower envelope of the parabolas f[q] + (p - q)^2 at p = 0..n-1.
+void transform_line(std::vector<double> &f) {
+  const int n = static_cast<int>(f.size());
+  std::vector<int> vertex(n);
+  std::vector<double> from(n + 1), out(n);
+  int last = 0;
+  from[0] = -HUGE_VAL;
+  from[1] = HUGE_VAL;
+  const auto crossing = [&](int q, int p) {
+    return ((f[q] + double(q) * q) - (f[p] + double(p) * p)) / (2.0 * (q - p));
+  };
+  for (int q = 1; q < n; ++q) {
+    while (last > 0 && crossing(q, vertex[last]) <= from[last])
+      --last;
+    const double at = crossing(q, vertex[last]);
+    if (at > from[last]) {
+      ++last;
+      vertex[last] = q;
+      from[last] = at;
+      from[last + 1] = HUGE_VAL;
+    }
+  }
+  for (int p = 0, k = 0; p < n; ++p) {
+    while (from[k + 1] < p)
+      ++k;
+    out[p] = f[vertex[k]] + double(p - vertex[k]) * (p - vertex[k]);
+  }
+  f = std::move(out);
+}
+
+// Squared distance in cells to the nearest cell with inside == value.
+std::vector<double> squared_distance(const std::vector<char> &inside, const std::array<int, 3> &n,
+                                     char value) {
+  std::vector<double> d(inside.size());
+  std::transform(inside.begin(), inside.end(), d.begin(),
+                 [&](char v) { return v == value ? 0.0 : kFar; });
+  const size_t step[3] = {1, size_t(n[0]), size_t(n[0]) * n[1]};
+  std::vector<double> line;
+  for (int axis = 0; axis < 3; ++axis) {
+    line.resize(n[axis]);
+    for (size_t v = 0; v < d.size(); ++v) {
+      if (v / step[axis] % n[axis] != 0)
+        continue;
+      for (int p = 0; p < n[axis]; ++p)
+        line[p] = d[v + p * step[axis]];
+      transform_line(line);
+      for (int p = 0; p < n[axis]; ++p)
+        d[v + p * step[axis]] = line[p];
+    }
+  }
+  return d;
+}
+
+} // namespace
+
+std::vector<float> signed_distance(const std::vector<char> &inside, const std::array<int, 3> &n,
+                                   double cell) {
+  const std::vector<double> to_inside = squared_distance(inside, n, 1);
+  const std::vector<double> to_outside = squared_distance(inside, n, 0);
+  std::vector<float> out(inside.size());
+  for (size_t v = 0; v < out.size(); ++v)
+    out[v] = static_cast<float>(
+        cell * (inside[v] ? 0.5 - std::sqrt(to_outside[v]) : std::sqrt(to_inside[v]) - 0.5));
+  return out;
+}
+
+} // namespace calendem

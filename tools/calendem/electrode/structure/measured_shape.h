@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The outer shape of a measured particle, coarse enough for a small file: cells inside or outside,
+// and the distance to the surface made of them.
+#ifndef CALENDEM_ELECTRODE_STRUCTURE_MEASURED_SHAPE_H
+#define CALENDEM_ELECTRODE_STRUCTURE_MEASURED_SHAPE_H
+
+#include "electrode/structure/particle_mask.h"
+#include <array>
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+namespace calendem {
+
+struct MeasuredShape {
+  std::string name;
+  std::int32_t label = 0;
+  double volume = 0.0;              ///< envelope, pores closed; from all voxels [um3]
+  double equivalent_diameter = 0.0; ///< [um]
+  double sphericity = 0.0;
+  double closed_pore_fraction = 0.0; ///< of the envelope
+  double weight = 1.0;               ///< 1/chance that the image's border spares it
+  std::array<int, 3> n = {0, 0, 0};  ///< cells, one empty all around
+  double cell = 0.0;                 ///< side of a cell [um]
+  std::vector<char> inside;          ///< x runs fastest
+  std::vector<float> depth; ///< signed distance to the surface, < 0 inside, at cell centres [um]
+  Eigen::Vector3d centre;   ///< of mass [um] from the corner of the box
+  double reach = 0.0;       ///< farthest cell's corner from the centre [um]
+
+  /// Signed distance [um] at x [um] from the centre; beyond the box it grows with the distance.
+  double depth_at(const Eigen::Vector3d &x) const;
+};
+
+/// At most `cells` cells along the longest side. Name, label and weight are the caller's.
+MeasuredShape make_shape(const ParticleMask &mask, int cells = 48);
+
+nlohmann::json to_json(const MeasuredShape &shape);
+/// Throws std::exception where a field is missing or the cells do not fill the box.
+MeasuredShape shape_from_json(const nlohmann::json &j);
+
+// Exact distance transform on voxels.
+
+/// Distance [unit of `cell`] from every cell's centre to the face between inside and outside: > 0
+/// outside, < 0 inside; half a cell is taken off because the face lies between two centres.
+/// Felzenszwalb & Huttenlocher, Theory of Computing 8 (2012) 415, algorithm 1, per axis.
+std::vector<float> signed_distance(const std::vector<char> &inside, const std::array<int, 3> &n,
+                                   double cell);
+
+} // namespace calendem
+
+#endif

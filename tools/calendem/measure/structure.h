@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Everything that is measured of a structure, simulated or imaged.
+#ifndef CALENDEM_MEASURE_STRUCTURE_H
+#define CALENDEM_MEASURE_STRUCTURE_H
+
+#include "measure/contacts.h"
+#include "measure/diffusion.h"
+#include "measure/phases.h"
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+namespace calendem {
+
+constexpr double kSimulatedVoxel = 0.15; ///< [um]
+
+struct MeasureOptions {
+  /// Of a simulated structure (kSimulatedVoxel), or in place of an image's own.
+  std::optional<double> voxel_um;
+  double slice_um = 1.0;                 ///< of the profiles
+  bool tortuosity = true;                ///< takes most of the time
+  std::int32_t background = 0;           ///< label of an image's pores
+  std::optional<std::int32_t> cbd_label; ///< none: an image shows no CBD
+  std::optional<double> nanoporosity;    ///< of an image's CBD, 0-1; none: no total porosity
+};
+
+/// One structure at one moment.
+struct StructureMeasures {
+  std::string moment; ///< before, max, after; image
+  std::optional<double> time_us, pressure_MPa;
+  double thickness_um = 0.0; ///< h of the porosities
+  std::array<int, 3> voxels = {0, 0, 0};
+  Eigen::Vector3d voxel;   ///< [um]
+  PhaseFractions fraction; ///< of the voxels
+  Porosity porosity;       ///< total and nano are NaN for an image whose nanoporosity is not known
+  std::optional<double> am_on_voxels; ///< volume of AM on voxels over N s^3
+  SurfaceArea surface;
+  std::optional<Coordination> coordination; ///< only where spheres are known
+  VoxelBodies bodies;
+  std::vector<Tortuosity> tortuosity; ///< along x, y, z; empty if not asked for
+  std::vector<Slice> slices;
+  bool has_bonds = false;
+};
+
+/// What the voxels show; what only a simulation knows is left empty.
+StructureMeasures measure_phases(const PhaseImage &image, const Density &density,
+                                 const MeasureOptions &options);
+
+/// A label image. Throws Failure(2) as read_label_image does.
+StructureMeasures measure_image(const std::string &file, const MeasureOptions &options);
+
+/// Spheres between collector and platen, with the volumes of their solids.
+struct SimulatedStructure {
+  std::vector<Sphere> spheres;
+  Cell cell{};
+  double lattice = 0.0;   ///< [um]
+  double cbd_solid = 0.0; ///< carbon and binder [um3]
+  std::vector<BondAt> bonds;
+};
+StructureMeasures measure_spheres(const SimulatedStructure &structure,
+                                  const MeasureOptions &options);
+
+/// A frame of a run: before, max (the frame nearest the maximum pressure), after.
+struct RunMoment {
+  std::string name;
+  double time_us = 0.0, pressure_MPa = 0.0;
+  SimulatedStructure structure;
+};
+
+/// Moments that an unfinished run has not reached are left out. Throws Failure(2) with every file
+/// that is missing or damaged.
+std::vector<RunMoment> moments_of_run(const std::string &folder);
+
+/// The moments of a run's directory, measured. Throws as moments_of_run does.
+std::vector<StructureMeasures> measure_run(const std::string &folder,
+                                           const MeasureOptions &options);
+
+/// structure.csv and structure.json.
+std::string profile_table(const std::vector<StructureMeasures> &moments);
+nlohmann::json to_json(const StructureMeasures &measures);
+/// What every number in structure.json means.
+nlohmann::json structure_definitions();
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/study_charts.h"
+#include "report/tables.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace calendem {
+using report::Chart;
+using report::Mark;
+using report::Series;
+using report::Symbol;
+namespace {
+
+const char *const kMaxPressure = "case.platen.max_pressure_MPa";
+const char *const kBlack = "#222222";
+constexpr std::array kDashes = {"", "9 4", "3 3", "9 3 2 3"};
+
+/// The look of the k-th series of a chart.
+Series styled(std::size_t k, const std::string &name) {
+  Series s;
+  s.name = name;
+  s.colour = report::kSeriesColours[k % report::kSeriesColours.size()];
+  s.symbol = report::kSeriesSymbols[k % report::kSeriesSymbols.size()];
+  s.dash = kDashes[k % kDashes.size()];
+  return s;
+}
+
+void add(Series &series, double x, const MeanAndSd &y, double factor) {
+  if (!std::isfinite(x) || y.n == 0)
+    return;
+  series.x.push_back(x);
+  series.y.push_back(factor * y.mean);
+  series.y_error.push_back(factor * y.sd);
+}
+
+Series paper(const std::string &name) {
+  Series s;
+  s.name = name;
+  s.mark = Mark::points;
+  s.symbol = Symbol::diamond;
+  s.colour = kBlack;
+  return s;
+}
+
+Series paper_broken() {
+  Series s = paper("paper (simulation)");
+  for (const report::PublishedBreaks &p : report::paper_breaks()) {
+    s.x.push_back(p.pressure_MPa);
+    s.y.push_back(p.broken_percent);
+  }
+  return s;
+}
+
+/// The paper's Figure 4a: a point for every maximum pressure, a line for all other settings.
+Chart porosity_chart(const StudyTable &table) {
+  Chart chart;
+  chart.id = "porosity";
+  chart.title = "Porosity after relaxation against maximum pressure";
+  chart.x_label = "Maximum pressure (MPa)";
+  chart.y_label = "Total porosity after relaxation (%)";
+  std::size_t k = 0;
+  for (const StudyGroup &line : table.groups({kMaxPressure})) {
+    std::map<double, std::vector<double>> by_pressure;
+    const std::vector<double> top = table.numbers(line, "max_pressure_MPa"),
+                              after = table.numbers(line, "porosity_after_relaxation");
+    for (std::size_t i = 0; i < top.size(); ++i)
+      by_pressure[std::round(top[i])].push_back(after[i]);
+    const std::string label = StudyTable::label(line);
+    Series s = styled(k++, label.empty() ? "simulation" : label);
+    for (const auto &[pressure, values] : by_pressure)
+      add(s, pressure, mean_and_sd(values), 100.0);
+    chart.series.push_back(s);
+  }
+  Series measured = paper("measured (paper, Table 1)");
+  for (const report::MeasuredPorosity &p : report::paper_porosity()) {
+    measured.x.push_back(p.pressure_MPa);
+    measured.y.push_back(p.porosity_percent);
+    measured.y_error.push_back(p.sd_percent);
+  }
+  chart.series.push_back(measured);
+  chart.note = "Mean and standard deviation over packings. At 0 MPa the porosity is the recipe's "
+               "input. The measured pressures are uncertain by 10-25 %.";
+  return chart;
+}
+
+/// Breaks of the paper's Figure 4b, against pressure.
+Chart broken_chart(const StudyTable &table) {
+  Chart chart;
+  chart.id = "broken";
+  chart.title = "Broken bonds against pressure";
+  chart.x_label = "Pressure on the platen (MPa)";
+  chart.y_label = "Broken bonds (% of initial)";
+  const std::vector<double> pressures = table.pressures("broken_fraction");
+  if (pressures.empty())
+    return chart;
+  std::size_t k = 0;
+  for (const StudyGroup &group : table.groups()) {
+    const std::string label = StudyTable::label(group);
+    Series s = styled(k++, label.empty() ? "simulation" : label);
+    for (const double p : pressures)
+      add(s, p, table.mean_and_sd(group, fmt::format("broken_fraction_at_{:g}_MPa", p)), 100.0);
+    chart.series.push_back(s);
+  }
+  chart.series.push_back(paper_broken());
+  chart.note = "When the pressure is first reached; mean and standard deviation over packings.";
+  return chart;
+}
+
+Series curve_series(Series s, const CsvTable &curve, const char *column, double factor) {
+  const std::vector<double> x = curve.numbers("displacement_um"), y = curve.numbers(column);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    s.x.push_back(x[i]);
+    s.y.push_back(factor * y[i]);
+  }
+  s.symbol = Symbol::none;
+  return s;
+}
+
+/// The paper's Figure 4b of the first packing of each setting.
+Chart curve_chart(const StudyTable &table, const CurveOfRun &curve_of) {
+  Chart chart;
+  chart.id = "curves";
+  chart.title = "Pressure and broken bonds against displacement";
+  chart.x_label = "Displacement of the platen (µm)";
+  chart.y_label = "Pressure on the platen (MPa)";
+  chart.right_label = "Broken bonds (% of initial)";
+  const std::vector<StudyGroup> groups = table.groups();
+  for (std::size_t k = 0;
+       k < groups.size() && chart.series.size() < 2 * report::kSeriesColours.size(); ++k) {
+    const CsvTable curve = curve_of(table.texts(groups[k], "run").front());
+    if (curve.rows() == 0)
+      continue;
+    const std::string label = StudyTable::label(groups[k]);
+    Series s = styled(k, (label.empty() ? "" : label + ": ") + "pressure");
+    s.dash.clear();
+    chart.series.push_back(curve_series(s, curve, "pressure_MPa", 1.0));
+    s.name = "broken (right)";
+    s.dash = "2 3";
+    s.right_axis = true;
+    chart.series.push_back(curve_series(s, curve, "broken_fraction", 100.0));
+  }
+  chart.note = fmt::format("First packing of each setting; {} of {} settings are drawn.",
+                           chart.series.size() / 2, groups.size());
+  return chart;
+}
+
+/// One result against one setting; a line for every combination of the others.
+Chart against(const StudyTable &table, const std::string &setting, const std::string &result,
+              const std::string &title, double factor) {
+  Chart chart;
+  chart.id = short_name(setting) + "-" + result;
+  chart.title = fmt::format("{} against {}", title, short_name(setting));
+  chart.x_label = setting.substr(setting.find('.') + 1);
+  chart.y_label = title;
+  std::size_t k = 0;
+  for (const StudyGroup &line : table.groups({setting})) {
+    std::map<double, std::vector<double>> by_value;
+    const std::vector<double> x = table.numbers(line, setting), y = table.numbers(line, result);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      by_value[x[i]].push_back(y[i]);
+    Series s = styled(k++, StudyTable::label(line));
+    for (const auto &[value, values] : by_value)
+      add(s, value, mean_and_sd(values), factor);
+    chart.series.push_back(s);
+  }
+  return chart;
+}
+
+std::vector<Chart> charts_of_setting(const StudyTable &table, const std::string &setting) {
+  std::vector<Chart> out;
+  const auto published = report::paper_breaks();
+  for (const double p : table.pressures("broken_fraction")) {
+    Chart chart = against(table, setting, fmt::format("broken_fraction_at_{:g}_MPa", p),
+                          fmt::format("Broken bonds at {:g} MPa (%)", p), 100.0);
+    for (const report::PublishedBreaks &b : published)
+      if (std::fabs(b.pressure_MPa - p) < 0.5)
+        chart.limits.push_back({b.broken_percent, "paper"});
+    out.push_back(chart);
+  }
+  if (setting != kMaxPressure)
+    out.push_back(against(table, setting, "porosity_after_relaxation",
+                          "Total porosity after relaxation (%)", 100.0));
+  out.push_back(against(table, setting, "springback", "Springback (%)", 100.0));
+  return out;
+}
+
+} // namespace
+
+std::vector<Chart> study_charts(const StudyTable &table, const CurveOfRun &curve) {
+  std::vector<Chart> out = {porosity_chart(table), broken_chart(table), curve_chart(table, curve)};
+  for (const std::string &setting : table.numeric_settings())
+    for (const Chart &chart : charts_of_setting(table, setting))
+      out.push_back(chart);
+  out.erase(std::remove_if(out.begin(), out.end(), [](const Chart &c) { return c.series.empty(); }),
+            out.end());
+  return out;
+}
+
+} // namespace calendem

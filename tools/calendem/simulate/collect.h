@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Turns what the input scripts wrote into the files of a run's directory: curve.csv, summary.json,
+// bodies.csv, vtk/*.pvd; and checks them against each other.
+#ifndef CALENDEM_SIMULATE_COLLECT_H
+#define CALENDEM_SIMULATE_COLLECT_H
+
+#include "physics/contact_range.h"
+#include "simulate/fracture.h"
+#include "simulate/run.h"
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+namespace calendem {
+
+/// Contacts of one kind by overlap over the smaller radius (physics/contact_range.h), as `compute
+/// contact/range` gives them.
+struct RangeOfContacts {
+  double contacts, force, mean, largest, beyond[kRangeLimits], force_beyond[kRangeLimits];
+};
+
+enum KindOfContact { kWallContacts, kInsideBodies, kAmAm, kAmCbd, kCbdCbd, kKindsOfContact };
+
+/// One row of curve_raw.csv: doubles in the order of its columns. Pressures, gap and displacement
+/// are averages over one window; energies of contacts are NaN in a run that kept no ledger.
+struct RawRow {
+  double step, time, stage, displacement, gap, p_top, p_bottom, made, broken, tension, bending,
+      shear, torsion, kinetic, strain, work_platen, work_lost, work_collector, contact_elastic,
+      cohesion, damped, friction, speed;
+  RangeOfContacts ranges[kKindsOfContact];
+};
+
+/// |P platen - P collector| / P platen within which a run counts as quasi-static.
+constexpr double kQuasiStatic = 0.05;
+
+/// Rows by time; after a resumption the last of equal steps counts. Cut lines are dropped.
+std::vector<RawRow> read_raw(const std::string &file);
+
+/// Gap at which the averaged pressure first falls below `fraction` of the maximum during the last
+/// relaxation, linear between rows; none if the platen stopped before that.
+std::optional<double> gap_at_loss(const std::vector<RawRow> &rows, double fraction,
+                                  double max_pressure);
+
+/// Union volume [um3] of body envelopes and CBD spheres against time, from the frames.
+struct UnionVolume {
+  std::vector<double> time, volume;
+  double at(double t) const;
+};
+
+/// Facts of the run that only its caller knows; 0 ranks: nobody does.
+struct RunFacts {
+  double wall_clock_s = 0.0; ///< of this call
+  double earlier_s = 0.0;    ///< of the calls that this one resumed, as far as they could tell
+  double first_step = 0.0;   ///< about where this call began
+  int ranks = 0;
+  std::string case_hash;
+  std::string program;         ///< hash of LIGGGHTS
+  std::string stopped_because; ///< empty: it ran to its end
+};
+
+/// Writes the files; returns the summary. Checks that did not hold are in its "failed_checks": the
+/// target was not reached, the log of breaks and the curve disagree, or the bonds made are not
+/// those of the electrode. A run that was stopped is not checked. Throws Failure(3) if there is no
+/// curve.
+nlohmann::json collect(const std::string &folder, const Settings &settings,
+                       const ElectrodeFacts &electrode, const RunFacts &facts);
+
+/// Throws Failure(4) with the summary's failed checks, if there are any.
+void stop_if_checks_failed(const nlohmann::json &summary, const std::string &folder);
+
+/// vtk/{particles,bonds,platen}.pvd over the frames; frames that
+/// were not written to their end are left out. Returns step -> time of the particle frames.
+std::vector<std::pair<long, double>> write_series(const std::string &folder, double dt);
+/// Height [um] below which 99.9 % of the particle tops of a frame lie.
+double height_of_tops(const std::string &folder, long step);
+UnionVolume union_volumes(const std::string &folder, const ElectrodeFacts &electrode,
+                          const std::vector<std::pair<long, double>> &frames);
+
+/// bodies.csv, cracks.csv and thresholds.csv; returns {bodies, cracked}. `moments`: the rows of
+/// curve.csv.
+std::pair<int, int> write_bodies(const std::string &folder, const ElectrodeFacts &electrode,
+                                 const std::string &electrode_folder,
+                                 const std::vector<std::pair<long, double>> &frames,
+                                 const std::vector<MomentOfRun> &moments);
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "simulate/roll_passes.h"
+#include <algorithm>
+
+namespace calendem {
+namespace {
+
+using Rows = std::vector<RawRow>;
+
+/// Rows of each pass: it begins with a compression and ends with a release.
+std::vector<Rows> passes_of(const Rows &rows) {
+  std::vector<Rows> passes;
+  for (const RawRow &r : rows) {
+    if (passes.empty() || (r.stage < 1.5 && passes.back().back().stage > 2.5))
+      passes.emplace_back();
+    passes.back().push_back(r);
+  }
+  return passes;
+}
+
+/// Along the web [um] with pressure above `least`, and line load [MPa um = N/m], of one side of the
+/// nip.
+struct Side {
+  double length = 0.0, load = 0.0;
+};
+
+Side side_of(const Rows &pass, bool way_out, const RollNip &nip, double gap, double least) {
+  Side side;
+  const RawRow *last = nullptr;
+  for (const RawRow &r : pass) {
+    if ((r.stage > 2.5) != way_out)
+      continue;
+    if (last) {
+      const double way = std::fabs(nip.distance(r.gap - gap) - nip.distance(last->gap - gap));
+      side.load += 0.5 * (r.p_top + last->p_top) * way;
+      if (std::max(r.p_top, last->p_top) > least)
+        side.length += way;
+    }
+    last = &r;
+  }
+  return side;
+}
+
+nlohmann::json pass_of(const Rows &pass, const RollNip &nip, double lost) {
+  double gap = pass.front().gap, largest = 0.0;
+  for (const RawRow &r : pass) {
+    gap = std::min(gap, r.gap);
+    largest = std::max(largest, r.p_top);
+  }
+  const Side in = side_of(pass, false, nip, gap, lost * largest),
+             out = side_of(pass, true, nip, gap, lost * largest);
+  return {{"gap_um", gap},
+          {"max_pressure_MPa", largest},
+          {"line_load_N_mm", 1e-3 * (in.load + out.load)},
+          {"line_load_before_the_nip_N_mm", 1e-3 * in.load},
+          {"contact_length_um", in.length + out.length},
+          {"contact_length_before_the_nip_um", in.length}};
+}
+
+} // namespace
+
+RollNip roll_nip(const Settings &s) {
+  return {1e3 * s.number("roll.radius_mm"), 1e3 * s.number("roll.counter_radius_mm"),
+          s.number("roll.slip")};
+}
+
+nlohmann::json roll_passes(const std::vector<RawRow> &rows, const Settings &s) {
+  const RollNip nip = roll_nip(s);
+  nlohmann::json passes = nlohmann::json::array();
+  for (const Rows &pass : passes_of(rows))
+    passes.push_back(pass_of(pass, nip, s.number("platen.contact_lost_fraction")));
+  const double way = rows.front().gap + rows.front().displacement - s.number("platen.roll_gap_um");
+  const double web_speed = s.number("roll.line_speed_m_min") / 60.0; // m/s
+  return {{"passes", passes},
+          {"web_speed_of_the_run_m_s", nip.web_speed(s.number("platen.speed_m_s"), way)},
+          {"run_faster_by", nip.web_speed(s.number("platen.speed_m_s"), way) / web_speed},
+          {"time_in_the_last_nip_ms",
+           1e-3 * passes.back()["contact_length_um"].get<double>() / web_speed}};
+}
+
+} // namespace calendem

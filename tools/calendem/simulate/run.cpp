@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "simulate/run.h"
+#include "base/case.h"
+#include "base/child.h"
+#include "base/liggghts_job.h"
+#include "base/provenance.h"
+#include "base/recipe.h"
+#include "simulate/collect.h"
+#include "simulate/line_load.h"
+#include "simulate/progress.h"
+#include "simulate/run_folder.h"
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <iostream>
+#include <unistd.h>
+
+namespace calendem {
+namespace fs = std::filesystem;
+namespace {
+
+void check_cell(const ElectrodeFacts &e, int ranks, Mistakes &mistakes) {
+  const double cut_off = neighbour_cut_off(e.widest);
+  if (std::min(e.lx, e.ly) < 2.0 * cut_off)
+    mistakes.add(0, fmt::format("the cell is {} x {} um; a periodic side must be at least two "
+                                "cut-offs, {:.2f} um, or a particle touches two images of another. "
+                                "Pack a larger cell.",
+                                e.lx, e.ly, 2.0 * cut_off));
+  const int most = most_ranks(e.lx, e.ly, e.widest);
+  if (ranks > most)
+    mistakes.add(0,
+                 fmt::format("--ranks {}: a cell of {} x {} um can be shared by at most {} ranks "
+                             "whose parts are wider than a cut-off ({:.2f} um).",
+                             ranks, e.lx, e.ly, most, cut_off));
+}
+
+double lowest_gap(const ElectrodeFacts &e) { return 1.02 * e.solid / e.area; }
+
+void check_target(const Settings &s, const ElectrodeFacts &e, Mistakes &mistakes) {
+  const double lowest = lowest_gap(e);
+  const std::string &control = s.text("platen.control");
+  if (control == "pressure")
+    return;
+  const std::string key = "platen." + control + "_um";
+  const double target = control == "displacement" ? e.thickness - s.number(key) : s.number(key);
+  if (target < lowest)
+    mistakes.add(0,
+                 fmt::format("{} = {} sends the platen to {:.2f} um, but the solid alone fills "
+                             "{:.2f} um: no film can be thinner. Ask for a thickness above that.",
+                             key, s.text(key), target, lowest));
+  if (target >= e.thickness)
+    mistakes.add(0, fmt::format("{} = {} sends the platen to {:.2f} um and it starts at {:.2f} um: "
+                                "nothing would be compressed.",
+                                key, s.text(key), target, e.thickness));
+  const std::string first = "roll.first_gap_um";
+  if (control == "roll_gap" && s.number(first) >= e.thickness)
+    mistakes.add(0, fmt::format("{} = {} is no less than the electrode's {:.2f} um: the first pass "
+                                "would compress nothing. Give a smaller one, or 0.",
+                                first, s.text(first), e.thickness));
+}
+
+/// Where nanopores may fall, they start from what the electrode was packed with.
+void check_nanoporosity(const Settings &s, const ElectrodeFacts &e, Mistakes &mistakes) {
+  constexpr double kSame = 0.005;
+  const std::string key = "effects.cbd_collapse.initial_nanoporosity";
+  const bool falls = s.number("effects.cbd_collapse.yield_pressure_MPa") > 0.0 ||
+                     s.number("imposed.cbd_nanoporosity_until_MPa") > 0.0;
+  if (falls && e.nanoporosity > 0.0 && std::fabs(e.nanoporosity - s.number(key)) > kSame)
+    mistakes.add(0, fmt::format("{} is {}, but the electrode was packed with a nanoporosity of "
+                                "{:.3g} (cbd.nanoporosity_percent of its recipe). Give that.",
+                                key, s.text(key), e.nanoporosity));
+}
+
+void check_case(const Settings &s, const ElectrodeFacts &e, const RunOptions &o) {
+  Mistakes mistakes("case");
+  check_nanoporosity(s, e, mistakes);
+  check_cell(e, o.ranks, mistakes);
+  check_target(s, e, mistakes);
+  if (const std::string wrong = wrong_program(o.liggghts); !wrong.empty())
+    mistakes.add(0, wrong);
+  for (const std::string &path :
+       {fs::absolute(o.folder).string(), s.text("electrode"), input_scripts()})
+    if (const std::string wrong = wrong_path(path); !wrong.empty())
+      mistakes.add(0, wrong);
+  mistakes.stop_if_any();
+}
+
+std::vector<std::pair<std::string, std::string>> script_settings(const Settings &s) {
+  std::vector<std::pair<std::string, std::string>> out;
+  for (const Key &key : case_keys())
+    if (!key.variable.empty())
+      out.emplace_back(key.variable, s.text(key.name));
+  return out;
+}
+
+/// A restart file and a frame; measured: 1.2 kB and 0.3 kB per atom.
+std::uintmax_t room_for_next_files(const ElectrodeFacts &e) { return 1000000 + 4000 * e.atoms; }
+
+LiggghtsJob job_of(const Settings &s, const ElectrodeFacts &e, const RunOptions &o,
+                   const std::string &folder, bool resume) {
+  LiggghtsJob job;
+  job.program = o.liggghts;
+  job.ranks = o.ranks;
+  job.script = input_scripts() + "/in.calendering";
+  job.log = folder + "/log.liggghts";
+  job.screen = folder + "/screen.txt";
+  job.room = room_for_next_files(e);
+  job.variables = script_settings(s);
+  job.variables.insert(
+      job.variables.end(),
+      {{"out", folder}, {"scripts", input_scripts()}, {"resuming", resume ? "1" : "0"}});
+  return job;
+}
+
+/// Collects what a failed run has computed; returns what to tell the user about it.
+std::string keep_what_there_is(const std::string &folder, const Settings &settings,
+                               const ElectrodeFacts &electrode, const RunFacts &facts) {
+  std::string told;
+  try {
+    const nlohmann::json s = collect(folder, settings, electrode, facts);
+    told = fmt::format("What was computed is kept: curve.csv up to {:.1f} MPa, summary.json marked "
+                       "as not finished.",
+                       s["max_pressure_MPa"].get<double>());
+  } catch (const std::exception &e) {
+    told = fmt::format("What was computed is kept as LIGGGHTS wrote it; it could not be collected: "
+                       "{}.",
+                       e.what());
+  }
+  if (std::filesystem::exists(folder + "/running.restart"))
+    told += " --resume goes on from the newest restart file.";
+  return told;
+}
+
+/// Steps and time that a run which goes on has behind it.
+void remember_what_was_done(const std::string &folder, RunFacts &facts) {
+  std::ifstream in(folder + "/summary.json");
+  const nlohmann::json old = nlohmann::json::parse(in, nullptr, false);
+  if (old.is_object() && old.contains("wall_clock_s") && old["wall_clock_s"].is_number())
+    facts.earlier_s = old["wall_clock_s"];
+  const std::vector<RawRow> rows = read_raw(folder + "/curve_raw.csv");
+  facts.first_step = rows.empty() ? 0.0 : rows.back().step;
+}
+
+/// Writes what the run needs; true if it goes on from a restart file.
+bool prepare(const Settings &settings, const ElectrodeFacts &electrode, const RunOptions &o,
+             const std::string &electrode_hash, RunFacts &facts) {
+  const std::string &folder = o.folder;
+  const bool resume =
+      o.resume && fs::exists(folder + "/time_step.in") && find_restart(folder, electrode.atoms);
+  if (o.resume && !resume)
+    fmt::print("run: no restart file in {}; starting from the electrode\n", o.folder);
+  if (resume)
+    remember_what_was_done(folder, facts);
+  else
+    clear_old_results(folder);
+  write_file(
+      folder + "/case.toml",
+      write_toml(settings, case_keys(),
+                 fmt::format("# as run by calendem {}; every default filled in\n", version())));
+  fs::copy_file(settings.text("electrode") + "/electrode.json", folder + "/electrode.json",
+                fs::copy_options::overwrite_existing);
+  mark_as_running(folder, facts.case_hash, electrode_hash, facts.earlier_s);
+  return resume;
+}
+
+/// A run is collected with the electrode that it began with, or not at all.
+void stop_if_packed_anew(const Settings &settings, const std::string &then) {
+  const std::string file = settings.text("electrode") + "/electrode.data";
+  const std::string now = hash_of_file(file);
+  if (now != then)
+    throw Failure(kBadInput,
+                  fmt::format("'{}' has changed while the run went on (hash then {}, now {}): the "
+                              "electrode was packed anew. What was computed is kept as LIGGGHTS "
+                              "wrote it and is of neither. Run again with --force, and pack into "
+                              "another folder while a run goes on.",
+                              file, then, now));
+}
+
+/// Runs LIGGGHTS to its end; a run that fails is collected as far as it came.
+void simulate(const Settings &settings, const ElectrodeFacts &electrode, const RunOptions &o,
+              const std::string &electrode_hash, RunFacts &facts) {
+  const std::string &folder = o.folder;
+  facts.earlier_s += facts.wall_clock_s; // of rehearsals
+  facts.first_step = 0.0;
+  const bool resume = prepare(settings, electrode, o, electrode_hash, facts);
+  std::cout << std::flush;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto stop_watch = [&] {
+    facts.wall_clock_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  Progress progress(folder + "/curve_raw.csv", settings);
+  try {
+    run_liggghts(job_of(settings, electrode, o, folder, resume), [&] { progress(); });
+  } catch (const Failure &f) {
+    const StopRequests not_now; // a second Ctrl-C would lose what is being collected
+    stop_watch();
+    stop_if_packed_anew(settings, electrode_hash);
+    facts.stopped_because = f.what();
+    throw Failure(f.exit_status(), std::string(f.what()) + "\n" +
+                                       keep_what_there_is(folder, settings, electrode, facts));
+  }
+  stop_watch();
+  if (isatty(1))
+    std::cout << "\r\033[K";
+  stop_if_packed_anew(settings, electrode_hash);
+}
+
+} // namespace
+
+std::string run_tools(const std::string &liggghts) {
+  return version() + hash_of_file(liggghts) + hash_of_file(input_scripts() + "/in.compression") +
+         hash_of_file(input_scripts() + "/in.relaxation") +
+         hash_of_folder(input_scripts() + "/common");
+}
+
+std::string run_identity(const Settings &settings, const std::string &tools) {
+  std::string identity = tools;
+  for (const auto &[key, value] : settings.all())
+    if (key != "electrode")
+      identity += key + "=" + value + "\n";
+  return identity;
+}
+
+void run_case(const Settings &settings, RunOptions o) {
+  o.liggghts = fs::absolute(o.liggghts).lexically_normal().string(); // it runs in the run's folder
+  const ElectrodeFacts electrode = read_electrode(settings.text("electrode"));
+  check_case(settings, electrode, o);
+  const std::string electrode_hash = hash_of_file(settings.text("electrode") + "/electrode.data");
+  const std::string hash =
+      hash_of_text(run_identity(settings, run_tools(o.liggghts)) + electrode_hash);
+  const std::string folder = fs::absolute(o.folder).lexically_normal().string();
+  o.folder = folder;
+  make_output_folder(folder, 2 * room_for_next_files(electrode));
+  fs::create_directories(folder + "/vtk");
+  const FolderLock lock(folder);
+  if (holds_this_run(o, settings, hash, electrode_hash)) {
+    fmt::print("run: {} already holds this run\n", folder);
+    return;
+  }
+  RunFacts facts;
+  facts.ranks = o.ranks;
+  facts.case_hash = hash;
+  facts.program = hash_of_file(o.liggghts);
+  fmt::print("run: {} atoms, {} bonds, {} ranks -> {}\n", electrode.atoms, electrode.bonds, o.ranks,
+             folder);
+  Rehearsals rehearsals(folder, settings, lowest_gap(electrode), o.resume);
+  do {
+    simulate(rehearsals.settings(), electrode, o, electrode_hash, facts);
+    o.resume = false;
+  } while (rehearsals.again());
+  const nlohmann::json s = collect(folder, rehearsals.settings(), electrode, facts);
+  fmt::print("run: maximum {:.1f} MPa, {:.2f} % of bonds broken, total porosity {:.2f} % after "
+             "relaxation, {:.0f} s\n",
+             s["max_pressure_MPa"].get<double>(), 100 * s["broken_fraction_at_max"].get<double>(),
+             100 * s["porosity_after_relaxation"].get<double>(), facts.wall_clock_s);
+  stop_if_checks_failed(s, folder);
+}
+
+} // namespace calendem

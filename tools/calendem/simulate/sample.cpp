@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "simulate/sample.h"
+#include "base/case.h"
+#include "base/csv_table.h"
+#include "base/provenance.h"
+#include "simulate/sample_cells.h"
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace calendem {
+namespace {
+
+constexpr double kSameTurn = 0.02; // of the pressure
+
+struct Cell {
+  PressedCell pressed;
+  double solid = 0.0, loading = 0.0; ///< [um], [mg/cm2]
+  Settings settings;
+  nlohmann::json summary, electrode;
+};
+
+nlohmann::json json_of(const std::string &file, Mistakes &mistakes) {
+  nlohmann::json j = nlohmann::json::parse(text_of_file(file), nullptr, false);
+  if (!j.is_object())
+    mistakes.add(0, fmt::format("{} is missing, cut or damaged. Give a directory made by calendem "
+                                "run.",
+                                file));
+  return j;
+}
+
+void read_paths(const std::string &file, Cell &cell, Mistakes &mistakes) {
+  const CsvTable table = CsvTable::parse(text_of_file(file));
+  for (const char *column : {"stage", "thickness_um", "pressure_MPa", "porosity_total"})
+    if (!table.has(column))
+      return mistakes.add(0, fmt::format("{} has no column '{}'.", file, column));
+  const std::vector<std::string> stage = table.texts("stage");
+  const std::vector<double> gap = table.numbers("thickness_um"), p = table.numbers("pressure_MPa"),
+                            porosity = table.numbers("porosity_total");
+  PressPath down, up;
+  for (std::size_t k = 0; k < stage.size(); ++k) {
+    if (stage[k] != "relaxation" && !up.gap.empty())
+      return mistakes.add(0, fmt::format("{} is of a run that was pressed again after a release: a "
+                                         "sample is made of single passes.",
+                                         file));
+    PressPath &path = stage[k] == "relaxation" ? up : down;
+    path.gap.push_back(gap[k]);
+    path.pressure.push_back(p[k]);
+  }
+  if (down.gap.empty() || up.gap.empty())
+    return mistakes.add(
+        0, fmt::format("{} has no {}.", file, up.gap.empty() ? "relaxation" : "compression"));
+  cell.solid = gap[0] * (1.0 - porosity[0]);
+  cell.pressed.down = monotone(down, false);
+  cell.pressed.up = monotone(up, true);
+}
+
+Cell read_cell(const std::string &folder, Mistakes &mistakes) {
+  Cell cell;
+  cell.summary = json_of(folder + "/summary.json", mistakes);
+  cell.electrode = json_of(folder + "/electrode.json", mistakes);
+  if (!cell.summary.is_object() || !cell.electrode.is_object())
+    return cell;
+  if (!cell.summary.value("finished", false))
+    mistakes.add(0, fmt::format("{} is of a run that is not finished. Go on with calendem run "
+                                "--resume.",
+                                folder));
+  Mistakes of_case(folder + "/case.toml");
+  cell.settings = read_toml(folder + "/case.toml", FileKind::Case, case_keys(), of_case);
+  of_case.stop_if_any();
+  cell.loading = cell.electrode.value("loading_mg_cm2", std::nan(""));
+  read_paths(folder + "/curve.csv", cell, mistakes);
+  cell.pressed.thickness =
+      cell.solid / (1.0 - cell.summary.value("porosity_initial", std::nan("")));
+  return cell;
+}
+
+double turning_point(const Cell &c, OneFor shared) {
+  const PressPath &path = c.pressed.down;
+  return shared == OneFor::Gap ? path.gap.back()
+                               : *std::max_element(path.pressure.begin(), path.pressure.end());
+}
+
+/// All cells turn together: a window's travel apart at most, or the press's tolerance.
+void check_turns(const std::vector<std::string> &folders, const std::vector<Cell> &cells,
+                 OneFor shared, Mistakes &mistakes) {
+  const double first = turning_point(cells[0], shared),
+               apart = shared == OneFor::Gap ? kAverageTravel : kSameTurn * first;
+  const char *unit = shared == OneFor::Gap ? "um" : "MPa";
+  for (std::size_t k = 1; k < cells.size(); ++k)
+    if (const double turn = turning_point(cells[k], shared); !(std::fabs(turn - first) <= apart))
+      mistakes.add(0, fmt::format("{} was pressed to {:.3f} {}, {} to {:.3f} {}; cells of one {} "
+                                  "turn within {:.2g} {} of each other. Press them all with the "
+                                  "same {}.",
+                                  folders[0], first, unit, folders[k], turn, unit,
+                                  shared == OneFor::Gap ? "gap" : "pressure", apart, unit,
+                                  shared == OneFor::Gap
+                                      ? "platen.thickness_um, control = \"thickness\""
+                                      : "platen.max_pressure_MPa"));
+}
+
+template <class Value> double mean(const std::vector<Cell> &cells, Value value) {
+  double sum = 0.0;
+  for (const Cell &c : cells)
+    sum += value(c);
+  return sum / double(cells.size());
+}
+
+/// The sample's own numbers, and what a press with these instruments shows of them.
+struct Pressed {
+  std::vector<SampleRow> rows;
+  double thickness, solid; ///< means before [um]
+  PressInstruments press;
+
+  double porosity(double gap) const { return 1.0 - solid / gap; }
+
+  std::string curve() const {
+    std::string out = "stage,displacement_um,thickness_um,pressure_MPa,porosity_total,"
+                      "displacement_shown_um,thickness_shown_um,pressure_shown_MPa\n";
+    for (const SampleRow &r : rows)
+      out += fmt::format("{},{:.6f},{:.6f},{:.6g},{:.6f},{:.6f},{:.6f},{:.6g}\n",
+                         r.released ? "relaxation" : "compression", thickness - r.gap, r.gap,
+                         r.pressure, porosity(r.gap),
+                         press.displacement_shown(thickness - r.gap, r.pressure),
+                         press.thickness_shown(r.gap), press.pressure_shown(r.pressure));
+    return out;
+  }
+
+  SampleRow top() const {
+    return *std::max_element(rows.begin(), rows.end(), [](const SampleRow &a, const SampleRow &b) {
+      return a.pressure < b.pressure;
+    });
+  }
+
+  /// Gap at which the pressure first falls below this one in the release; of the last row if it
+  /// never does.
+  double gap_at_loss(double pressure) const {
+    for (std::size_t k = 1; k < rows.size(); ++k) {
+      const SampleRow &a = rows[k - 1], &b = rows[k];
+      if (b.released && b.pressure < pressure)
+        return a.pressure <= pressure
+                   ? a.gap
+                   : a.gap + (b.gap - a.gap) * (a.pressure - pressure) / (a.pressure - b.pressure);
+    }
+    return rows.back().gap;
+  }
+
+  nlohmann::json summary(double lost) const {
+    const SampleRow most = top();
+    const double after = gap_at_loss(lost * most.pressure);
+    return {{"max_pressure_MPa", most.pressure},
+            {"thickness_at_max_um", most.gap},
+            {"porosity_at_max", porosity(most.gap)},
+            {"thickness_after_relaxation_um", after},
+            {"porosity_after_relaxation", porosity(after)},
+            {"porosity_initial", porosity(thickness)},
+            {"springback", (after - most.gap) / most.gap},
+            {"contact_lost_fraction", lost},
+            {"max_pressure_shown_MPa", press.pressure_shown(most.pressure)},
+            {"thickness_at_max_shown_um", press.thickness_shown(most.gap)},
+            {"thickness_after_relaxation_shown_um", press.thickness_shown(after)},
+            {"porosity_initial_shown", porosity(press.thickness_shown(thickness))},
+            {"porosity_after_relaxation_shown", porosity(press.thickness_shown(after))},
+            {"finished", true}};
+  }
+};
+
+nlohmann::json description(const std::vector<std::string> &folders, const std::vector<Cell> &cells,
+                           OneFor shared) {
+  nlohmann::json list = nlohmann::json::array();
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    list.push_back({{"run", folders[k]},
+                    {"summary", hash_of_file(folders[k] + "/summary.json")},
+                    {"loading_mg_cm2", cells[k].loading},
+                    {"thickness_um", cells[k].pressed.thickness},
+                    {"turned_at", turning_point(cells[k], shared)}});
+  return {{"one", shared == OneFor::Gap ? "gap" : "pressure"}, {"cells", list}};
+}
+
+/// The recipe is the first cell's with the mean loading.
+nlohmann::json electrode_of(const std::vector<Cell> &cells, const nlohmann::json &sample) {
+  nlohmann::json j = {{"sample", sample},
+                      {"recipe", cells[0].electrode.value("recipe", nlohmann::json::object())}};
+  j["loading_mg_cm2"] = mean(cells, [](const Cell &c) { return c.loading; });
+  j["recipe"]["coating.loading_mg_cm2"] = fmt::format("{:.6g}", j["loading_mg_cm2"].get<double>());
+  return j;
+}
+
+/// The bodies are those of all cells.
+nlohmann::json summary_of(const std::vector<Cell> &cells, const Pressed &sample,
+                          const nlohmann::json &what) {
+  nlohmann::json j = sample.summary(cells[0].settings.number("platen.contact_lost_fraction"));
+  for (const char *key : {"bodies", "cracked_bodies"}) {
+    double sum = 0.0;
+    for (const Cell &c : cells)
+      sum += c.summary.value(key, 0.0);
+    j[key] = sum;
+  }
+  j["sample"] = what;
+  j["provenance"] = {{"calendem", version()}};
+  return j;
+}
+
+/// The first cell's; who presses a sample knows its pressure.
+std::string case_of(const std::vector<Cell> &cells, const Pressed &sample) {
+  Settings settings = cells[0].settings;
+  settings.set("platen.control", "pressure");
+  settings.set("platen.max_pressure_MPa", fmt::format("{:.6g}", sample.top().pressure));
+  return write_toml(settings, case_keys(), fmt::format("# a sample of {} cells\n", cells.size()));
+}
+
+std::vector<Cell> read_cells(const std::vector<std::string> &runs, OneFor shared) {
+  Mistakes mistakes("sample", 20);
+  std::vector<Cell> cells;
+  for (const std::string &run : runs)
+    cells.push_back(read_cell(run, mistakes));
+  mistakes.stop_if_any();
+  check_turns(runs, cells, shared, mistakes);
+  mistakes.stop_if_any();
+  return cells;
+}
+
+} // namespace
+
+void make_sample(const std::vector<std::string> &runs, OneFor shared, const std::string &folder) {
+  const std::vector<Cell> cells = read_cells(runs, shared);
+  std::vector<PressedCell> pressed;
+  for (const Cell &c : cells)
+    pressed.push_back(c.pressed);
+  const Pressed sample = {
+      shared == OneFor::Gap ? under_one_gap(pressed) : under_one_pressure(pressed),
+      mean(cells, [](const Cell &c) { return c.pressed.thickness; }),
+      mean(cells, [](const Cell &c) { return c.solid; }), instruments_of(cells[0].settings)};
+  const nlohmann::json what = description(runs, cells, shared),
+                       electrode = electrode_of(cells, what),
+                       summary = summary_of(cells, sample, what);
+  make_output_folder(folder);
+  write_file(folder + "/curve.csv", sample.curve());
+  write_file(folder + "/electrode.json", electrode.dump(2) + "\n");
+  write_file(folder + "/case.toml", case_of(cells, sample));
+  write_file(folder + "/summary.json", summary.dump(2) + "\n");
+  fmt::print("sample: {} cells under one {}, {:.2f} mg/cm2, {:.1f} MPa at {:.2f} um, {:.2f} um and "
+             "{:.2f} % porosity after release -> {}\n",
+             cells.size(), what["one"].get<std::string>(),
+             electrode["loading_mg_cm2"].get<double>(), sample.top().pressure, sample.top().gap,
+             summary["thickness_after_relaxation_um"].get<double>(),
+             100.0 * summary["porosity_after_relaxation"].get<double>(), folder);
+}
+
+} // namespace calendem

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "simulate/study.h"
+#include "base/child.h"
+#include "base/csv_table.h"
+#include "base/liggghts_job.h"
+#include "base/provenance.h"
+#include "simulate/making.h"
+#include "simulate/slurm.h"
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <iostream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+namespace calendem {
+
+namespace fs = std::filesystem;
+namespace {
+
+void stop_if_failed(const Making &making) {
+  if (stop_requested())
+    throw Failure(kSimulationFailed, "study: stopped on request. What was computed is kept; the "
+                                     "same command goes on.");
+  if (const std::string failures = making.failures(); !failures.empty())
+    throw Failure(making.count("failed") > 0 ? kSimulationFailed : kCheckFailed,
+                  "study: some runs are not usable:" + failures);
+}
+
+} // namespace
+
+std::vector<std::string> finished_runs(const Study &study, StudyOptions o) {
+  o.folder = fs::absolute(o.folder).lexically_normal().string();
+  o.liggghts = fs::absolute(o.liggghts).lexically_normal().string();
+  return Making(study, o).finished();
+}
+
+void make_study(const Study &study, StudyOptions o) {
+  o.folder = fs::absolute(o.folder).lexically_normal().string();
+  o.liggghts = fs::absolute(o.liggghts).lexically_normal().string();
+  o.slurm.on = o.slurm.on || o.slurm.dry_run;
+  const int n = static_cast<int>(study.runs.size());
+  if (o.only > n)
+    throw Failure(kBadInput, fmt::format("--only {}: the study has {} runs.", o.only, n));
+  if (const std::string wrong = wrong_program(o.liggghts); !wrong.empty())
+    throw Failure(kBadInput, wrong);
+  make_output_folder(o.folder);
+  fs::create_directories(o.folder + "/packings");
+  fs::create_directories(o.folder + "/runs");
+  Making making(study, o);
+  write_file(o.folder + "/study.json", making.description().dump(2) + "\n");
+  fmt::print("study: {} runs, {} of them there -> {}\n", n, n - making.runs_to_make().size(),
+             o.folder);
+  std::cout << std::flush;
+  if (o.slurm.on)
+    make_by_slurm(making, study, o);
+  else if (o.only > 0)
+    in_parallel(1, 1, [&](int) { making.make(o.only - 1); });
+  else if (!o.table)
+    in_parallel(n, std::max(1, o.jobs), [&](int k) { making.make(k); });
+  if (o.step == StudyStep::Packing || o.slurm.dry_run)
+    return stop_if_failed(making);
+  making.write_table();
+  fmt::print("study: {} of {} runs done, {}/study.csv\n", making.count("done"), n, o.folder);
+  stop_if_failed(making);
+}
+
+namespace {
+
+const char *const kNumbers[] = {"max_pressure_MPa",
+                                "broken_fraction_at_max",
+                                "broken_fraction_after",
+                                "porosity_initial",
+                                "porosity_at_max",
+                                "porosity_after_relaxation",
+                                "thickness_at_max_um",
+                                "thickness_after_relaxation_um",
+                                "springback",
+                                "bodies",
+                                "cracked_bodies",
+                                "bonds_initial",
+                                "ranks",
+                                "steps",
+                                "wall_clock_s"};
+/// Where in summary.json, and the column's name.
+struct Nested {
+  const char *place, *name;
+};
+const Nested kNested[] = {
+    {"/quasi_static/pressure_difference_max_above_5_MPa", "pressure_difference_max_above_5_MPa"},
+    {"/quasi_static/inertial_number_max_above_5_MPa", "inertial_number_max_above_5_MPa"},
+    {"/quasi_static/kinetic_to_elastic_max_above_5_MPa", "kinetic_to_elastic_max_above_5_MPa"},
+    {"/contact_range/at_max_pressure/all/force_beyond_0.2_R", "force_beyond_0.2_R_at_max"}};
+const char *const kAtPressure[] = {"displacement_um", "thickness_um", "broken_fraction",
+                                   "porosity_total"};
+
+std::string number(double v) { return std::isfinite(v) ? fmt::format("{:.10g}", v) : ""; }
+
+/// Values of `columns` where the compression first reaches `pressure`, linear between rows.
+std::vector<double> at_pressure(const CsvTable &curve, double pressure) {
+  std::vector<double> out(std::size(kAtPressure), std::nan(""));
+  if (!curve.has("pressure_MPa") || !curve.has("stage"))
+    return out;
+  const std::vector<std::string> stage = curve.texts("stage");
+  const std::vector<double> p = curve.numbers("pressure_MPa");
+  for (std::size_t k = 1; k < p.size() && stage[k] == "compression"; ++k) {
+    if (p[k] < pressure)
+      continue;
+    const double share = p[k] > p[k - 1] ? (pressure - p[k - 1]) / (p[k] - p[k - 1]) : 1.0;
+    for (std::size_t c = 0; c < out.size(); ++c)
+      if (curve.has(kAtPressure[c])) {
+        const std::vector<double> v = curve.numbers(kAtPressure[c]);
+        out[c] = v[k - 1] + share * (v[k] - v[k - 1]);
+      }
+    return out;
+  }
+  return out;
+}
+
+constexpr std::size_t kOwn = std::size(kNumbers) + std::size(kNested);
+
+} // namespace
+
+std::string study_header(const Study &study) {
+  std::string out = "number,status,run,packing";
+  for (const std::string &c : study.columns)
+    out += "," + c;
+  for (const char *key : kNumbers)
+    out += std::string(",") + key;
+  for (const Nested &n : kNested)
+    out += std::string(",") + n.name;
+  for (const double p : study.at_pressure)
+    for (const char *key : kAtPressure)
+      out += fmt::format(",{}_at_{:g}_MPa", key, p);
+  return out + "\n";
+}
+
+std::string no_results(const std::vector<double> &pressures) {
+  return std::string(kOwn + pressures.size() * std::size(kAtPressure), ',');
+}
+
+std::string results_of(const std::string &folder, const std::vector<double> &pressures) {
+  const nlohmann::json s =
+      nlohmann::json::parse(text_of_file(folder + "/summary.json"), nullptr, false);
+  if (!s.is_object())
+    return no_results(pressures);
+  const auto value = [&s](const std::string &place) {
+    const nlohmann::json::json_pointer at(place);
+    return s.contains(at) && s[at].is_number() ? s[at].get<double>() : std::nan("");
+  };
+  std::string out;
+  for (const char *key : kNumbers)
+    out += "," + number(value(std::string("/") + key));
+  for (const Nested &n : kNested)
+    out += "," + number(value(n.place));
+  if (pressures.empty())
+    return out;
+  const CsvTable curve = CsvTable::parse(text_of_file(folder + "/curve.csv"));
+  for (const double p : pressures)
+    for (const double v : at_pressure(curve, p))
+      out += "," + number(v);
+  return out;
+}
+
+} // namespace calendem

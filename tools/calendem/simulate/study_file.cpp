@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "simulate/study_file.h"
+#include "base/case.h"
+#include "base/csv_table.h"
+#include "base/table_reader.h"
+#include "base/toml_file.h"
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+
+namespace calendem {
+namespace {
+
+constexpr std::size_t kMostRuns = 100000;
+constexpr int kMostRunsTold = 5;
+
+/// Keys that change together; each row is one combination of their values.
+struct Group {
+  std::vector<std::string> keys;
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// The key "case.…" or "recipe.…" is the name of; null if there is none.
+const Key *find_key(const std::string &name) {
+  const bool of_recipe = name.rfind("recipe.", 0) == 0;
+  if (!of_recipe && name.rfind("case.", 0) != 0)
+    return nullptr;
+  const std::vector<Key> &keys = of_recipe ? recipe_keys() : case_keys();
+  const std::string bare = name.substr(name.find('.') + 1);
+  const auto at =
+      std::find_if(keys.begin(), keys.end(), [&](const Key &k) { return k.name == bare; });
+  return at == keys.end() || bare == "electrode" ? nullptr : &*at;
+}
+
+std::string unknown_key(const std::string &name) {
+  std::vector<std::string> all;
+  for (const Key &k : case_keys())
+    if (k.name != "electrode")
+      all.push_back("case." + k.name);
+  for (const Key &k : recipe_keys())
+    all.push_back("recipe." + k.name);
+  return fmt::format("'{}' is no key that can be varied. Did you mean '{}'?", name,
+                     closest(name, all));
+}
+
+/// Reads the file, table by table.
+class Reader : TableReader {
+public:
+  using TableReader::TableReader;
+
+  void read_head(const toml::table &t, Study &out) {
+    tell_unknown(t, {"name", "recipe", "case", "at_pressure_MPa", "keep"});
+    out.name = text(t, {"name", "", "study", 0, 0, "", "for reports", "", true});
+    out.recipe_file = path(t, {"recipe", "", "", 0, 0, "", "electrode recipe", "", true});
+    out.case_file = path(t, {"case", "", "", 0, 0, "", "its electrode is replaced", "", true});
+    out.keep_all = text(t, {"keep", "", "all", 0, 0, "", "of each run", "all|tables"}) != "tables";
+    out.at_pressure =
+        numbers(t, {"at_pressure_MPa", "", "-", 1e-3, 1e4, "MPa", "columns of the table"});
+    std::sort(out.at_pressure.begin(), out.at_pressure.end());
+  }
+
+  Group read_group(const toml::node &node) {
+    const toml::table *t = node.as_table();
+    if (!t) {
+      mistakes_.add(line_of(node), "write what is varied as tables: [[vary]].");
+      return {};
+    }
+    tell_unknown(*t, {"keys", "values", "normal", "design"});
+    if (t->contains("design") && (t->contains("keys") || t->contains("values"))) {
+      mistakes_.add(line_of(node), "give either keys and values, or a design.");
+      return {};
+    }
+    return t->contains("design") ? read_design(*t) : read_values(*t, line_of(node));
+  }
+
+private:
+  /// The value as text if the key may hold it.
+  std::string checked(const std::string &name, const std::string &cell, int line) {
+    const Key *key = find_key(name);
+    if (const auto wrong = key ? wrong_cell(*key, cell) : std::nullopt)
+      mistakes_.add(line, *wrong);
+    else if (cell.find_first_of(",\n\"") != std::string::npos)
+      mistakes_.add(line, fmt::format("{}: '{}' holds a comma, a quote or a line's end, which the "
+                                      "table of results cannot hold.",
+                                      name, cell));
+    return cell;
+  }
+
+  static std::string cell_of(const toml::node &node) {
+    return node.is_string() ? **node.as_string() : shown(node);
+  }
+
+  void add_row(Group &group, const toml::node &value) {
+    std::vector<std::string> row;
+    if (const toml::array *list = value.as_array()) {
+      if (list->size() != group.keys.size())
+        return mistakes_.add(line_of(value), fmt::format("a row of values has {} entries for {} "
+                                                         "keys.",
+                                                         list->size(), group.keys.size()));
+      for (std::size_t k = 0; k < group.keys.size(); ++k)
+        row.push_back(checked(group.keys[k], cell_of((*list)[k]), line_of((*list)[k])));
+    } else {
+      for (const std::string &key : group.keys)
+        row.push_back(checked(key, cell_of(value), line_of(value)));
+    }
+    group.rows.push_back(row);
+  }
+
+  /// normal = { mean, sd, cells }: the law at the middle of as many equal shares, drawn apart until
+  /// the cells' standard deviation is the law's.
+  void add_normal(Group &group, const toml::table &t, int line) {
+    tell_unknown(t, {"mean", "sd", "cells"}, "normal.");
+    const double mean = number(t, {"mean", "", "", -1e9, 1e9, "", "of the cells"}),
+                 sd = number(t, {"sd", "", "", 0, 1e9, "", "of the cells"});
+    const int cells = int(number(t, {"cells", "", "", 2, 1000, "", "how many", "", false, true}));
+    std::vector<double> score;
+    double squares = 0.0;
+    for (int k = 0; k < cells; ++k) {
+      score.push_back(boost::math::quantile(boost::math::normal(), (k + 0.5) / cells));
+      squares += score.back() * score.back() / cells;
+    }
+    for (const double z : score) {
+      const std::string cell = fmt::format("{:.6g}", mean + sd * z / std::sqrt(squares));
+      std::vector<std::string> row;
+      for (const std::string &key : group.keys)
+        row.push_back(checked(key, cell, line));
+      group.rows.push_back(row);
+    }
+  }
+
+  Group read_values(const toml::table &t, int line) {
+    Group group;
+    const toml::array *keys = t["keys"].as_array(), *values = t["values"].as_array();
+    const toml::table *normal = t["normal"].as_table();
+    if (!keys || keys->empty() || (values && !values->empty()) == (normal != nullptr)) {
+      mistakes_.add(line, "a group [[vary]] needs a list 'keys' and either a list 'values' or a "
+                          "table 'normal'.");
+      return group;
+    }
+    for (const toml::node &k : *keys) {
+      group.keys.push_back(cell_of(k));
+      if (!find_key(group.keys.back()))
+        mistakes_.add(line_of(k), unknown_key(group.keys.back()));
+    }
+    if (normal)
+      add_normal(group, *normal, line);
+    else
+      for (const toml::node &v : *values)
+        add_row(group, v);
+    return group;
+  }
+
+  Group read_design(const toml::table &t) {
+    Group group;
+    const int line = line_of(*t.get("design"));
+    const std::string file = path(t, {"design", "", "", 0, 0, "", "table (CSV)", "", true});
+    std::ifstream in(file, std::ios::binary);
+    if (!in) {
+      mistakes_.add(line, fmt::format("design: there is no file '{}'.", file));
+      return group;
+    }
+    const CsvTable table =
+        CsvTable::parse({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+    if (table.rows() == 0)
+      mistakes_.add(line, fmt::format("{} holds no rows.", file));
+    for (const int bad : table.bad_lines())
+      mistakes_.add(line, fmt::format("{}:{}: the row has another number of cells than the header.",
+                                      file, bad));
+    for (const std::string &name : table.header())
+      if (!find_key(name))
+        mistakes_.add(line, fmt::format("{}: column {}", file, unknown_key(name)));
+    group.keys = table.header();
+    group.rows.resize(table.rows());
+    for (const std::string &name : group.keys) {
+      const std::vector<std::string> cells = table.texts(name);
+      for (std::size_t k = 0; k < cells.size(); ++k)
+        group.rows[k].push_back(checked(name, cells[k], line));
+    }
+    return group;
+  }
+};
+
+/// Paths in the recipe are relative to its file; the study writes it elsewhere.
+void make_paths_absolute(Settings &s, const std::string &file) {
+  for (const Key &key : recipe_keys())
+    if (key.text && key.name != "name" && s.text(key.name) != "none")
+      s.set(key.name, path_of(s, key.name, file));
+}
+
+/// The settings of the given combination, and what they contradict.
+StudyRun make_run(const Study &study, const Recipe &recipe, const Settings &settings,
+                  const std::vector<std::string> &values, Mistakes &mistakes) {
+  StudyRun run;
+  run.values = values;
+  run.settings = settings;
+  Settings changed = recipe.settings;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const std::string &name = study.columns[k], bare = name.substr(name.find('.') + 1);
+    if (const auto wrong = wrong_cell(*find_key(name), values[k]))
+      mistakes.add(0, *wrong);
+    (name[0] == 'r' ? changed : run.settings).set(bare, values[k]);
+  }
+  run.recipe = recipe_of(changed);
+  run.recipe.shapes = recipe.shapes;
+  run.recipe.structure = recipe.structure;
+  check_recipe(changed, run.recipe, mistakes);
+  check_case(run.settings, mistakes);
+  return run;
+}
+
+/// Every combination of the groups' rows.
+std::vector<std::vector<std::string>> combinations(const std::vector<Group> &groups,
+                                                   Mistakes &mistakes) {
+  std::vector<std::vector<std::string>> rows(1);
+  for (const Group &group : groups) {
+    std::vector<std::vector<std::string>> next;
+    for (const auto &head : rows)
+      for (const auto &tail : group.rows) {
+        next.push_back(head);
+        next.back().insert(next.back().end(), tail.begin(), tail.end());
+      }
+    rows = next;
+    if (rows.size() > kMostRuns) {
+      mistakes.add(0, fmt::format("the study has more than {} runs.", kMostRuns));
+      return {};
+    }
+  }
+  return rows;
+}
+
+void stop_at_twice(const std::vector<Group> &groups, Mistakes &mistakes) {
+  std::vector<std::string> keys;
+  for (const Group &group : groups)
+    for (const std::string &key : group.keys) {
+      if (std::find(keys.begin(), keys.end(), key) != keys.end())
+        mistakes.add(0, fmt::format("'{}' is varied twice; a key belongs to one group.", key));
+      keys.push_back(key);
+    }
+}
+
+} // namespace
+
+void check_column(const std::string &name, Mistakes &mistakes) {
+  if (!find_key(name))
+    mistakes.add(0, unknown_key(name));
+}
+
+void add_runs(Study &out, const std::vector<std::vector<std::string>> &rows, Mistakes &mistakes) {
+  Recipe recipe = read_recipe(out.recipe_file);
+  make_paths_absolute(recipe.settings, out.recipe_file);
+  const Settings settings = read_case(out.case_file);
+  int wrong = 0;
+  for (const auto &row : rows) {
+    Mistakes of_run(fmt::format("run {}", out.runs.size() + 1));
+    out.runs.push_back(make_run(out, recipe, settings, row, of_run));
+    out.runs.back().number = static_cast<int>(out.runs.size());
+    if (!of_run.empty() && ++wrong <= kMostRunsTold)
+      mistakes.add(0, of_run.text());
+  }
+  if (wrong > kMostRunsTold)
+    mistakes.add(0, fmt::format("{} more runs have mistakes.", wrong - kMostRunsTold));
+}
+
+Study read_study(const std::string &file) {
+  Mistakes mistakes(file, 20);
+  Study out;
+  out.file = file;
+  const TomlFile parsed = parse_toml(file, FileKind::Study, mistakes);
+  Reader reader(file, parsed.whole, mistakes);
+  std::vector<Group> groups;
+  for (const auto &[key, node] : parsed.root) {
+    if (key.str() == "study" && node.is_table())
+      reader.read_head(*node.as_table(), out);
+    else if (key.str() == "vary" && node.is_array())
+      for (const toml::node &group : *node.as_array())
+        groups.push_back(reader.read_group(group));
+    else
+      mistakes.add(line_of(node), fmt::format("unknown '{}'; a study has a table [study] and "
+                                              "groups [[vary]].",
+                                              key.str()));
+  }
+  if (parsed.whole && !parsed.root.empty() && !parsed.root.contains("study"))
+    mistakes.add(0, "has no table [study].");
+  stop_at_twice(groups, mistakes);
+  mistakes.stop_if_any();
+  for (const Group &group : groups)
+    out.columns.insert(out.columns.end(), group.keys.begin(), group.keys.end());
+  add_runs(out, combinations(groups, mistakes), mistakes);
+  mistakes.stop_if_any();
+  return out;
+}
+
+} // namespace calendem
