@@ -6,8 +6,9 @@
 //   moment                       <2 z - 1> = g / 3
 //   spheres' scatter of it       sd(3 <2 z - 1>) = sqrt((3 - g^2) / N)
 // z = 0 at the collector, 1 at the surface; g > 0: more at the surface, (1 + g) / (1 - g) times as
-// much as at the collector. Range: -1 <= g <= 1; 0: none. Spheres that are everywhere alike follow
-// c if each is kept with the chance c / (1 + |g|), whatever room the bodies leave: all at g = 0.
+// much as at the collector. Range: -1 <= g <= 1; 0: none. Spheres follow c if
+// each of a film without gradient is kept with the chance c / (1 + |g|): all at g = 0. Where bodies
+// leave them more room, as at the film's ends, c is what multiplies their content there.
 // Energy: none, it is where the spheres are placed. Source: Font et al. 2018 compute binder drawn
 // to the surface by fast drying, Nikpour et al. 2022 measure gradients either way; a straight line
 // is their first term. Deviations: g is not computed from the drying rate; carbon goes with the

@@ -16,9 +16,7 @@ inline Effect cbd_gradient() {
                  "content at the surface less that at the collector, over their sum"}};
   e.parameter = strength(e.settings[0], -0.6, 0.9, Spread::Uniform);
   e.in_recipe = true;
-  e.moves =
-      "profiles of porosity and of carbon-binder over the height; bodies crack where there is "
-      "less of it, the curve hardly changes";
+  e.moves = "profiles of carbon-binder and porosity over the height, before and after";
   e.source = "Font et al. 2018 (towards the surface in fast drying), Nikpour et al. 2022 (either "
              "way); the range is an unsourced prior";
   e.law = "cbd_gradient.h";

@@ -12,15 +12,20 @@ recipe() { # FILE LOADING SIDE [LINE...]
 
 mkdir -p "$work"
 case $case in
-  gradient) # the film that LIGGGHTS densified has the slope that was asked for, towards either side
-    for asked in -0.8 0.8; do
-      out=$work/gradient_$asked
-      recipe "$work/gradient.toml" 8 8 "[effects.cbd_gradient]" "slope = $asked"
+  gradient) # the film that LIGGGHTS densified: the content is the gradient's times that of the film without one
+    for asked in 0 -0.8 0.8; do
+      recipe "$work/gradient.toml" 8 10 "[effects.cbd_gradient]" "slope = $asked"
       "$bin/calendem" validate "$work/gradient.toml"
-      rm -rf "$out"
-      "$bin/calendem" pack "$work/gradient.toml" -o "$out" --ranks 1
-      slope=$(number slope "$out/electrode.json") scatter=$(number slope_scatter "$out/electrode.json")
-      holds "($slope - $asked)^2 <= (3 * $scatter)^2" "slope $slope instead of $asked, scatter of the draw $scatter"
+      rm -rf "$work/gradient_$asked"
+      "$bin/calendem" pack "$work/gradient.toml" -o "$work/gradient_$asked" --ranks 1
+    done
+    height=$(number thickness_um "$work/gradient_0/electrode.json")
+    for asked in -0.8 0.8; do
+      slope=$(number slope "$work/gradient_$asked/electrode.json") scatter=$(number slope_scatter "$work/gradient_$asked/electrode.json")
+      due=$(awk -v g="$asked" -v height="$height" 'rows && $2 == 2 { z = ($7 - $3 / 2) / (height - $3); w = 1 + g * (2 * z - 1); all += w; sum += w * z }
+        /^Atoms/ { rows = 1 } END { print 3 * (2 * sum / all - 1) }' "$work/gradient_0/electrode.data")
+      echo "slope $slope, due $due, scatter of a draw $scatter"
+      holds "($slope - ($due))^2 <= 2 * (3 * $scatter)^2" "slope $slope instead of $due, both draws with scatter $scatter"
     done ;;
   uneven) # two cells under one plate: the sample bears the mean of what they bear at the same gap
     recipe "$work/uneven.toml" 4 6

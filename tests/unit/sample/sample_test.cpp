@@ -13,50 +13,55 @@ namespace {
 using namespace calendem;
 using calendem_test::test_folder;
 
-/// A run of a spring of 4 MPa/um, a fifth of it solid, from `height` to `lowest` [um] and back.
-std::string spring_run(const std::string &name, double height, double lowest,
-                       const std::string &more = "") {
-  const auto folder = test_folder() / name;
-  std::filesystem::create_directories(folder);
-  std::string curve = "stage,thickness_um,pressure_MPa,porosity_total\n";
-  const auto add = [&](const char *stage, double gap) {
-    curve +=
-        fmt::format("{},{},{},{}\n", stage, gap, 4.0 * (height - gap), 1.0 - 0.2 * height / gap);
-  };
-  for (int k = 0; k <= 20; ++k)
-    add("compression", height - (height - lowest) * k / 20);
-  for (int k = 1; k <= 20; ++k)
-    add("relaxation", lowest + (height - lowest) * k / 20);
-  write_file((folder / "curve.csv").string(), curve + more);
-  write_file((folder / "summary.json").string(),
-             "{\"finished\": true, \"porosity_initial\": 0.8, \"bodies\": 10, \"cracked_bodies\": "
-             "2}");
-  write_file((folder / "electrode.json").string(),
-             fmt::format("{{\"loading_mg_cm2\": {}, \"recipe\": {{\"coating.loading_mg_cm2\": "
-                         "\"4\", \"seed\": \"1\"}}}}",
-                         0.2 * height));
-  write_file((folder / "case.toml").string(),
-             fmt::format("electrode = \"none\"\n[platen]\ncontrol = \"thickness\"\nthickness_um = "
-                         "{}\n",
-                         lowest));
-  return folder.string();
-}
+class SampleOfRuns : public testing::Test {
+protected:
+  std::filesystem::path folder_ = test_folder();
 
-std::string refusal(const std::vector<std::string> &runs, OneFor shared) {
-  try {
-    make_sample(runs, shared, (test_folder() / "out").string());
-  } catch (const Failure &f) {
-    EXPECT_EQ(f.exit_status(), kBadInput);
-    return f.what();
+  /// A run of a spring of 4 MPa/um, a fifth of it solid, from `height` to `lowest` [um] and back.
+  std::string spring(const std::string &name, double height, double lowest,
+                     const std::string &more = "") {
+    std::filesystem::create_directories(folder_ / name);
+    std::string curve = "stage,thickness_um,pressure_MPa,porosity_total\n";
+    const auto add = [&](const char *stage, double gap) {
+      curve +=
+          fmt::format("{},{},{},{}\n", stage, gap, 4.0 * (height - gap), 1.0 - 0.2 * height / gap);
+    };
+    for (int k = 0; k <= 20; ++k)
+      add("compression", height - (height - lowest) * k / 20);
+    for (int k = 1; k <= 20; ++k)
+      add("relaxation", lowest + (height - lowest) * k / 20);
+    write(name + "/curve.csv", curve + more);
+    write(name + "/summary.json", "{\"finished\": true, \"porosity_initial\": 0.8, \"bodies\": 10, "
+                                  "\"cracked_bodies\": 2}");
+    write(name + "/electrode.json",
+          fmt::format("{{\"loading_mg_cm2\": {}, \"recipe\": {{\"coating.loading_mg_cm2\": \"4\", "
+                      "\"seed\": \"1\"}}}}",
+                      0.2 * height));
+    write(name + "/case.toml", fmt::format("electrode = \"none\"\n[platen]\ncontrol = "
+                                           "\"thickness\"\nthickness_um = {}\n",
+                                           lowest));
+    return in(name);
   }
-  return "";
-}
+
+  std::string in(const std::string &name) const { return (folder_ / name).string(); }
+  void write(const std::string &name, const std::string &text) { write_file(in(name), text); }
+
+  std::string refusal(const std::vector<std::string> &runs, OneFor shared) {
+    try {
+      make_sample(runs, shared, in("out"));
+    } catch (const Failure &f) {
+      EXPECT_EQ(f.exit_status(), kBadInput);
+      return f.what();
+    }
+    return "";
+  }
+};
 
 // Heights 20 and 22 um, 4 MPa/um: at 16 um 16 and 24 MPa. 1 % of the mean, 0.2 MPa, are left where
 // the higher one alone bears 0.4.
-TEST(Sample, IsAFolderThatReadsAsARun) {
-  const std::string out = (test_folder() / "sample").string();
-  make_sample({spring_run("a", 20, 16), spring_run("b", 22, 16)}, OneFor::Gap, out);
+TEST_F(SampleOfRuns, IsAFolderThatReadsAsARun) {
+  const std::string out = in("sample");
+  make_sample({spring("a", 20, 16), spring("b", 22, 16)}, OneFor::Gap, out);
   const SimulatedRun run = read_simulated_run(out);
   EXPECT_EQ(run.control, "pressure");
   EXPECT_NEAR(run.target, 20.0, 1e-4);
@@ -70,24 +75,24 @@ TEST(Sample, IsAFolderThatReadsAsARun) {
   EXPECT_EQ(run.recipe.at("seed"), "1");
 }
 
-TEST(Sample, UnderOnePressureHeightsAreAveraged) {
-  const std::string out = (test_folder() / "sample").string();
-  make_sample({spring_run("a", 20, 15), spring_run("b", 22, 17)}, OneFor::Pressure, out);
+TEST_F(SampleOfRuns, UnderOnePressureHeightsAreAveraged) {
+  const std::string out = in("sample");
+  make_sample({spring("a", 20, 15), spring("b", 22, 17)}, OneFor::Pressure, out);
   const SimulatedRun run = read_simulated_run(out);
   EXPECT_NEAR(run.max_pressure, 20.0, 1e-9);
   EXPECT_NEAR(run.thickness_at_max, 16.0, 1e-9);
   EXPECT_NEAR(run.thickness_after, 20.95, 1e-9); // 0.2 MPa
 }
 
-TEST(Sample, OfCellsThatTurnApartIsRefused) {
-  const std::vector<std::string> runs = {spring_run("a", 20, 16), spring_run("b", 22, 17)};
+TEST_F(SampleOfRuns, CellsThatTurnApartAreRefused) {
+  const std::vector<std::string> runs = {spring("a", 20, 16), spring("b", 22, 17)};
   EXPECT_NE(refusal(runs, OneFor::Gap).find("to 16.000 um"), std::string::npos);
   EXPECT_NE(refusal(runs, OneFor::Pressure).find("to 20.000 MPa"), std::string::npos);
 }
 
-TEST(Sample, OfWhatIsNoRunIsRefusedWithEveryReason) {
-  const std::string twice = spring_run("a", 20, 16, "compression,16,16,0.75\n");
-  const std::string said = refusal({twice, (test_folder() / "none").string()}, OneFor::Gap);
+TEST_F(SampleOfRuns, WhatIsNoRunIsRefusedWithEveryReason) {
+  const std::string twice = spring("a", 20, 16, "compression,16,16,0.75\n");
+  const std::string said = refusal({twice, in("none")}, OneFor::Gap);
   EXPECT_NE(said.find("pressed again after a release"), std::string::npos) << said;
   EXPECT_NE(said.find("none/summary.json is missing"), std::string::npos) << said;
 }

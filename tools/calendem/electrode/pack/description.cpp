@@ -48,28 +48,35 @@ void add_composition(nlohmann::json &j, const FinishedPacking &f) {
   j["am_envelope_overlap_fraction"] = 1.0 - envelope.am * r.am_density / am_mass;
 }
 
-// Spheres by volume, from the lowest place that they can have to the highest.
-nlohmann::json cbd_profile(const FinishedPacking &f) {
+// Spheres of a type by volume, from the lowest place that they can have to the highest: their slope
+// and shares by fifths.
+std::pair<double, std::vector<double>> over_height(const FinishedPacking &f, int type) {
   std::vector<double> fifths(5, 0.0);
-  double sum = 0.0, moment = 0.0, n = 0.0;
+  double sum = 0.0, moment = 0.0;
   for (const Particle &p : f.particles) {
-    if (p.type != 2)
+    if (p.type != type)
       continue;
     const double volume = std::pow(p.diameter, 3);
     const double z = (p.x.z() - 0.5 * p.diameter) / (f.recipe.thickness() - p.diameter);
     fifths[std::clamp(int(5.0 * z), 0, 4)] += volume;
     moment += volume * z;
     sum += volume;
-    n += 1.0;
   }
-  if (n == 0.0)
-    return nullptr;
   for (double &share : fifths)
     share /= sum;
-  const CbdGradient &asked = f.recipe.cbd_gradient;
-  return {{"slope", CbdGradient::slope_of(moment / sum)},
-          {"slope_asked", asked.slope},
-          {"slope_scatter", asked.scatter(n)},
+  return {CbdGradient::slope_of(moment / sum), fifths};
+}
+
+nlohmann::json cbd_profile(const FinishedPacking &f) {
+  const auto n = std::count_if(f.particles.begin(), f.particles.end(),
+                               [](const Particle &p) { return p.type == 2; });
+  if (n == 0)
+    return nullptr;
+  const auto [slope, fifths] = over_height(f, 2);
+  return {{"slope", slope},
+          {"slope_asked", f.recipe.cbd_gradient.slope},
+          {"slope_scatter", f.recipe.cbd_gradient.scatter(double(n))},
+          {"slope_of_am", over_height(f, 1).first},
           {"share_by_fifths_of_height", fifths}};
 }
 

@@ -29,49 +29,82 @@ int cbd_count(const Recipe &r) {
   return static_cast<int>(std::lround(r.cbd_solid_column() * r.area() / sphere));
 }
 
+namespace {
+
+class Placer {
+public:
+  explicit Placer(const Recipe &r)
+      : recipe_(r), random_(r.seed, 3), choice_(r.seed, 4),
+        bins_(r, 1.05 * std::max(r.primary_diameter, r.cbd_diameter)) {
+    out_.height = 3.0 * (r.am_column() + r.cbd_solid_column() / (1.0 - r.nanoporosity));
+  }
+
+  void place_body(const Body &b, int number) {
+    const double R = 0.5 * recipe_.primary_diameter;
+    const Eigen::Vector3d at =
+        find(b.reach, [&](const Eigen::Vector3d &to) { return bins_.hits(b, to, 1.02 * R); });
+    for (const Eigen::Vector3d &p : b.primaries)
+      add(1, R, primary_density(recipe_), at + p, number);
+  }
+
+  /// False if the gradient does not keep it. Its place stays taken, or the next ones would find
+  /// more room there than elsewhere.
+  bool place_cbd() {
+    const double R = 0.5 * recipe_.cbd_diameter;
+    const Eigen::Vector3d at =
+        find(R, [&](const Eigen::Vector3d &to) { return bins_.hits(to, R); });
+    const double z = (at.z() - R) / (out_.height - 2.0 * R);
+    const bool kept = choice_.uniform() < recipe_.cbd_gradient.kept(z);
+    if (kept)
+      add(2, R, cbd_density(recipe_), at, 0);
+    else
+      bins_.add(at, R);
+    return kept;
+  }
+
+  Placement finish() {
+    for (Particle &p : out_.particles)
+      p.x = in_cell(recipe_, p.x);
+    return std::move(out_);
+  }
+
+private:
+  const Recipe &recipe_;
+  Random random_, choice_;
+  SphereBins bins_;
+  Placement out_;
+
+  Eigen::Vector3d anywhere(double reach) {
+    const Eigen::Vector3d u = random_.uniform3();
+    return {recipe_.cell_x * u.x(), recipe_.cell_y * u.y(),
+            reach + (out_.height - 2.0 * reach) * u.z()};
+  }
+
+  template <class Hits> Eigen::Vector3d find(double reach, Hits hits) {
+    Eigen::Vector3d at = anywhere(reach);
+    for (int tries = 1; hits(at); ++tries, at = anywhere(reach))
+      if (tries % 20000 == 0)
+        out_.height *= 1.1; // no room: a taller cell
+    return at;
+  }
+
+  void add(int type, double radius, double density, const Eigen::Vector3d &x, int body) {
+    bins_.add(x, radius);
+    const int tag = static_cast<int>(out_.particles.size()) + 1;
+    out_.particles.push_back({tag, type, 2.0 * radius, density, x, body});
+  }
+};
+
+} // namespace
+
 Placement place(const Recipe &recipe, const std::vector<Body> &bodies) {
-  Random random(recipe.seed, 3);
-  const double R = 0.5 * recipe.primary_diameter, Rc = 0.5 * recipe.cbd_diameter;
-  const double envelope =
-      recipe.am_column() + recipe.cbd_solid_column() / (1.0 - recipe.nanoporosity);
-  Placement out;
-  out.height = 3.0 * envelope;
-  SphereBins bins(recipe, 1.05 * std::max(recipe.primary_diameter, recipe.cbd_diameter));
-  const auto anywhere = [&](double reach) {
-    const Eigen::Vector3d u = random.uniform3();
-    return Eigen::Vector3d(recipe.cell_x * u.x(), recipe.cell_y * u.y(),
-                           reach + (out.height - 2.0 * reach) * u.z());
-  };
+  Placer placer(recipe);
   int number = 0;
-  for (const Body &b : bodies) {
-    ++number;
-    Eigen::Vector3d at = anywhere(b.reach);
-    for (int tries = 1; bins.hits(b, at, 1.02 * R); ++tries, at = anywhere(b.reach))
-      if (tries % 20000 == 0)
-        out.height *= 1.1; // no room: a taller cell
-    for (const Eigen::Vector3d &p : b.primaries) {
-      bins.add(at + p, R);
-      out.particles.push_back({static_cast<int>(out.particles.size()) + 1, 1,
-                               recipe.primary_diameter, primary_density(recipe), at + p, number});
-    }
-  }
-  Random choice(recipe.seed, 4);
-  for (int n = cbd_count(recipe); n > 0;) {
-    Eigen::Vector3d at = anywhere(Rc);
-    for (int tries = 1; bins.hits(at, Rc); ++tries, at = anywhere(Rc))
-      if (tries % 20000 == 0)
-        out.height *= 1.1;
-    bins.add(at,
-             Rc); // also if it is not kept: the next ones then find the room of all heights alike
-    if (choice.uniform() >= recipe.cbd_gradient.kept((at.z() - Rc) / (out.height - 2.0 * Rc)))
-      continue;
-    --n;
-    out.particles.push_back({static_cast<int>(out.particles.size()) + 1, 2, recipe.cbd_diameter,
-                             cbd_density(recipe), at, 0});
-  }
-  for (Particle &p : out.particles)
-    p.x = in_cell(recipe, p.x);
-  return out;
+  for (const Body &b : bodies)
+    placer.place_body(b, ++number);
+  for (int n = cbd_count(recipe); n > 0;)
+    n -= placer.place_cbd();
+  return placer.finish();
 }
 
 } // namespace calendem
