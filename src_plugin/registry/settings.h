@@ -79,6 +79,8 @@ inline std::vector<Key> base_settings() {
       {"roll.line_load_N_mm", "", "0", 0, 1e5, "N/mm",
        "of the last pass; the passage is rehearsed with other gaps until it agrees; 0: "
        "platen.roll_gap_um is the gap"},
+      {"roll.line_load_tolerance", "", "0.02", 1e-3, 0.5, "",
+       "fraction of the line load within which it counts as met"},
       {"roll.line_speed_m_min", "line_speed_m_min", "0.5", 1e-3, 1000, "m/min",
        "of the web; tells how much faster the passage is run"},
       {"roll.slip", "roll_slip", "0", 0, 0.1, "", "surface of the roll ahead of the web, fraction"},

@@ -11,8 +11,9 @@
 
 namespace calendem {
 
-constexpr double kLineLoadTolerance = 0.02; ///< of the load that is asked for
 constexpr int kMostRehearsals = 12;
+/// Gaps so near to each other carry the same but for the scatter of breaks [um].
+constexpr double kSameGap = 0.02;
 
 /// The last pass of a run at `gap`.
 struct Rehearsal {
@@ -26,6 +27,10 @@ struct Rehearsal {
 /// the square of the depth. Stays above `lowest`, and goes at most half of the way there at once.
 double next_gap(const std::vector<Rehearsal> &done, double asked, double lowest);
 
+/// True if less and more than asked was carried at gaps that are as good as the same: another
+/// rehearsal would meet it by chance only.
+bool is_scatter(const std::vector<Rehearsal> &done, double asked);
+
 /// What a folder's runs so far were; kept in it as rehearsals.csv.
 class Rehearsals {
 public:
@@ -34,8 +39,8 @@ public:
 
   /// The case of the next run.
   const Settings &settings() const { return now_; }
-  /// Looks at the run that has ended; true if another is needed, for which the folder is made
-  /// ready.
+  /// Looks at the run that has ended; true if another is needed and may help, for which the folder
+  /// is made ready.
   bool again();
 
 private:
