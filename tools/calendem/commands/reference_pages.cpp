@@ -82,7 +82,7 @@ std::string case_page() {
               "required.\nPaths are relative to the file. The run's folder keeps `case.toml` with "
               "every default filled in.\n\n"
               "Keys under `[effects...]` switch on what the base model leaves out: see "
-              "[](effects.md).\nThe input scripts know the same settings by the names in "
+              "[Effects](effects.md).\nThe input scripts know the same settings by the names in "
               "`input_scripts/common/defaults.in`.",
               tables(case_keys()));
 }
@@ -93,7 +93,7 @@ std::string recipe_page() {
               "required: the defaults\nare the electrode of the paper on a cell of 15 × 15 µm.\n"
               "`[shapes]` takes particles from a tomogram, `[structure]` from a data file of "
               "LAMMPS or LIGGGHTS.\n`calendem dry` reads a recipe with two more tables: see "
-              "[](film.md).",
+              "[Keys of a film](film.md).",
               tables(recipe_keys()));
 }
 
