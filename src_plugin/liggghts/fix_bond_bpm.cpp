@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_bond_bpm.h"
+#include "bpm_pair_loop.h"
 #include "comm.h"
 #include "contact_effects.h"
 #include "domain.h"
@@ -134,7 +135,23 @@ void FixBondBpm::put_on_grid() {
   }
 }
 
-void FixBondBpm::setup_pre_exchange() { put_on_grid(); }
+void FixBondBpm::setup_pre_exchange() {
+  put_on_grid();
+  pre_exchange();
+}
+
+// New lists follow. The host has saved the old ones before it calls any other fix.
+void FixBondBpm::pre_exchange() {
+  if (!loop_ || !loop_->holds_histories())
+    return;
+  loop_->release_histories();
+  static_cast<PairGran *>(force->pair_match("gran", 1))->get_fix_history()->pre_exchange();
+}
+
+void FixBondBpm::store_histories() {
+  if (loop_)
+    loop_->store_histories();
+}
 
 void FixBondBpm::post_integrate() { put_on_grid(); }
 
@@ -285,7 +302,9 @@ void FixBondBpm::post_run() { gather_breaks(); }
 void FixBondBpm::check_acting(bool new_lists) {
   if (new_lists) {
     expected_ = 0;
-    for_each_acting_copy([this](int i, int j, const BondHistory &) { expected_ += decides(i, j); });
+    for_each_neighbor([this](int i, int j, const BondHistory &bond) {
+      expected_ += bond.acts() && decides(i, j);
+    });
   }
   if (missing_ == 0)
     missing_ = expected_ - acting_;

@@ -75,6 +75,7 @@ public:
   int modify_param(int narg, char **arg);
   void init();
   void setup_pre_exchange();
+  void pre_exchange();
   void setup_pre_force(int);
   void setup(int);
   void pre_force(int);
@@ -128,6 +129,13 @@ public:
   void acts(int i, int j) { acting_ += decides(i, j); }
   void count_acting(bigint bonds) { acting_ += bonds; }
   int friction_history_offset(int bond_offset);
+  /// Who keeps values of histories from step to step, NULL for nobody.
+  void set_loop(class BpmPairLoop *loop) { loop_ = loop; }
+
+  // Neighbours are listed, and histories kept, up to this multiple of the sum of radii. 1.1 is
+  // ample for brittle bonds; 1.2 would list the lattice's diagonal neighbours.
+  static constexpr double kContactDistanceFactor = 1.1;
+  static constexpr double kStretchLimit = 0.98 * kContactDistanceFactor;
 
   // for computes and dumps
   int body(int i) const { return body_[i]; }
@@ -152,11 +160,6 @@ public:
   bool decides(int i, int j) const;
 
 private:
-  // Neighbours are listed, and histories kept, up to this multiple of the sum of radii. 1.1 is
-  // ample for brittle bonds; 1.2 would list the lattice's diagonal neighbours.
-  static constexpr double kContactDistanceFactor = 1.1;
-  static constexpr double kStretchLimit = 0.98 * kContactDistanceFactor;
-
   BondSettings settings_, bridge_settings_; // of a bridge the strength's factor is sigma_c
   calendem::BinderBridges bridges_;
   class FixEnergyBpm *energy_; // NULL when no ledger is kept
@@ -165,6 +168,7 @@ private:
   std::map<int, double> body_diameter_; // of the sphere of the primaries' volume; likewise
   int *body_, *broken_;
   int history_offset_;
+  class BpmPairLoop *loop_ = nullptr;
   bool created_, creating_, log_ready_;
   bigint initial_;
   bigint by_mode_[5];
@@ -215,6 +219,7 @@ private:
   bool copies_agree();
   bigint broken() const;
   template <class Visit> void for_each_neighbor(Visit visit);
+  void store_histories();
   void choose_grid();
   void put_on_grid();
   void check_acting(bool new_lists);

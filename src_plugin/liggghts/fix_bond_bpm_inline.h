@@ -55,6 +55,7 @@ template <class Visit> void FixBondBpm::for_each_neighbor(Visit visit) {
 }
 
 template <class Visit> void FixBondBpm::for_each_copy(Visit visit) {
+  store_histories();
   for_each_neighbor([&](int i, int j, BondHistory &bond) {
     if (bond.state() == kIntact)
       visit(i, j, bond);
@@ -62,6 +63,7 @@ template <class Visit> void FixBondBpm::for_each_copy(Visit visit) {
 }
 
 template <class Visit> void FixBondBpm::for_each_acting_copy(Visit visit) {
+  store_histories();
   for_each_neighbor([&](int i, int j, BondHistory &bond) {
     if (bond.acts())
       visit(i, j, bond);
@@ -69,6 +71,7 @@ template <class Visit> void FixBondBpm::for_each_acting_copy(Visit visit) {
 }
 
 template <class Visit> void FixBondBpm::for_each_touching_copy(Visit visit) {
+  store_histories();
   for_each_neighbor([&](int i, int j, const BondHistory &bond) {
     const double r = norm(calendem::load(atom->x[i]) - calendem::load(atom->x[j]));
     if (r < atom->radius[i] + atom->radius[j])

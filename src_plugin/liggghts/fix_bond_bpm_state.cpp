@@ -81,6 +81,7 @@ void FixBondBpm::end_of_step() {
   if (neighbor->ago != 0 || !output->restart_requested(update->ntimestep))
     return; // such a step always rebuilds the lists
   PairGran *pair = static_cast<PairGran *>(force->pair_match("gran", 1));
+  store_histories();
   if (pair && pair->get_fix_history())
     pair->get_fix_history()->pre_exchange();
 }

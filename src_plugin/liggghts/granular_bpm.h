@@ -64,8 +64,10 @@ public:
   }
 
   void compute_force(LAMMPS_NS::PairGran *pair, int eflag, int vflag, int addflag) {
-    if (!fused_ || eflag || vflag || addflag || !loop_.serves(pair))
+    if (!fused_ || eflag || vflag || addflag || !loop_.serves(pair)) {
+      loop_.release_histories();
       return Reference::compute_force(pair, eflag, vflag, addflag);
+    }
     pair->evflag = pair->vflag_fdotr = 0;
     loop_.compute_force(pair);
   }

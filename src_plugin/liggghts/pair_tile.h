@@ -12,8 +12,8 @@
 
 namespace LAMMPS_NS {
 
-/// Small enough for the cache; rows of 72 numbers do not fall onto the same lines of it.
-constexpr int kTilePairs = 72;
+/// Small enough for the cache; rows of 40 numbers do not fall onto the same lines of it.
+constexpr int kTilePairs = 40;
 
 /// One number for each pair of a tile.
 struct Row {
@@ -33,43 +33,68 @@ struct VectorRow {
   }
 };
 
-/// What acts on the two spheres of each pair, in units of a FixedPoint.
-struct WholeRow {
-  alignas(64) long long at[kTilePairs];
-  long long operator[](int p) const { return at[p]; }
+/// Of a pair of atom types.
+struct PairMaterial {
+  double modulus, shear_modulus, damping, friction, cohesion;
 };
 
-/// Pairs of one kind and what acts between them: on i, the opposite force and torque_j on j.
+/// Pairs that stay together for many steps, and what is remembered of them from step to step.
 struct PairTile {
   int size = 0;
+  int i[kTilePairs], j[kTilePairs];
+  int material[kTilePairs];    // of their types
+  double *history[kTilePairs]; // in the host's lists, as are the flags
+  int *flags[kTilePairs];
+  Row reference;          // overlap from which the contact counts
+  VectorRow displacement; // tangential, of the contact
+
+  void copy(int to, const PairTile &t, int from);
+};
+
+/// Intact bonds; they touch as well where they are shorter than at creation.
+struct BondTile : PairTile {
+  Row length, strength, twist;
+  VectorRow shear, bending;
+
+  void copy(int to, const BondTile &t, int from);
+  calendem::BondLoads loads(int p) const { return {shear[p], bending[p], twist[p]}; }
+};
+
+/// Other pairs, near enough to touch.
+struct ContactTile : PairTile {
+  Row parts; // 1 of a broken bond whose spheres have not separated yet
+
+  void copy(int to, const ContactTile &t, int from);
+};
+
+/// What a step makes of a tile, on i and the opposite force and torque_j on j.
+struct PairStep {
   // both spheres; d = x_i - x_j, v = v_i - v_j
   VectorRow d, v, spin_i, spin_j;
   Row r_squared, radius_i, radius_j, mass_i, mass_j;
-  // results
+  Row contact_radius, elastic; // of the contact's area; force without damping
   VectorRow force, torque_i, torque_j;
-  WholeRow whole[9]; // force, torque_i, torque_j as whole numbers
   // of these, for the energy ledger: by damping of the bond, of the contact, by its friction
   VectorRow bond_damping, bond_damping_torque_i, bond_damping_torque_j;
   VectorRow contact_damping, friction_force, friction_torque_i, friction_torque_j;
-  // the bond
-  Row length, strength, twist;
-  VectorRow shear, bending;
-  Row stretch, failed; // distance over the sum of radii; 1 if it fails
-  // the contact
-  Row modulus, shear_modulus, damping, friction, cohesion; // of its materials
-  Row reference;                                           // overlap from which it counts
-  Row contact_radius, elastic;                             // of its area; force without damping
-  VectorRow displacement;                                  // tangential
+  Row failed; // 1 of a bond that fails
+  /// Force, torque_i, torque_j as whole numbers, in units of a FixedPoint.
+  alignas(64) unsigned long long whole[3][kTilePairs][4];
+
+  double radius_sum(int p) const { return radius_i[p] + radius_j[p]; }
+  bool touches(int p) const { return r_squared[p] < radius_sum(p) * radius_sum(p); }
 };
 
 /// Overlap beyond the reference [um], 0 where the contact rests.
-inline double acting_overlap(const PairTile &t, int p) {
-  const double beyond = t.radius_i[p] + t.radius_j[p] - std::sqrt(t.r_squared[p]) - t.reference[p];
+inline double acting_overlap(const PairTile &t, const PairStep &s, int p) {
+  const double beyond = s.radius_sum(p) - std::sqrt(s.r_squared[p]) - t.reference[p];
   return beyond > 0.0 ? beyond : 0.0;
 }
 
-inline calendem::BondLoads loads_of(const PairTile &t, int p) {
-  return {t.shear[p], t.bending[p], t.twist[p]};
+/// True where the contact acts: spheres touch, and the bond is not longer than at creation.
+inline bool acts(const ContactTile &, const PairStep &s, int p) { return s.touches(p); }
+inline bool acts(const BondTile &t, const PairStep &s, int p) {
+  return s.touches(p) & (s.r_squared[p] < t.length[p] * t.length[p]);
 }
 
 /// A bond of a tile as its law sees it.
@@ -79,27 +104,29 @@ struct BondPair {
   calendem::PairMotion motion;
   double tension; ///< [nN]
 
-  BondPair(const calendem::BondMaterial &m, const PairTile &t, int p)
-      : section(m.radius_ratio * std::min(t.radius_i[p], t.radius_j[p])),
+  BondPair(const calendem::BondMaterial &m, const BondTile &t, const PairStep &s, int p)
+      : section(m.radius_ratio * std::min(s.radius_i[p], s.radius_j[p])),
         stiffness(m, section, t.length[p]) {
-    const double r = std::sqrt(t.r_squared[p]);
-    const calendem::Vec3 d = t.d[p];
-    motion = {d, t.v[p], t.spin_i[p], t.spin_j[p], (1.0 / r) * d, r};
+    const double r = std::sqrt(s.r_squared[p]);
+    const calendem::Vec3 d = s.d[p];
+    motion = {d, s.v[p], s.spin_i[p], s.spin_j[p], (1.0 / r) * d, r};
     tension = stiffness.normal * (r - t.length[p]);
   }
 };
 
 /// Loads after a step of length dt [us], which bonds fail, and what they exert; without `update`,
 /// as during set-up, loads stay and nothing fails.
-void run_bonds(PairTile &, const calendem::BondMaterial &, const calendem::BondStrength &,
-               calendem::FailureCriterion, bool update, double dt);
+void run_bonds(BondTile &, PairStep &, const calendem::BondMaterial &,
+               const calendem::BondStrength &, calendem::FailureCriterion, bool update, double dt);
 /// Contact radius and elastic force by Hertz' law.
-void run_hertz(PairTile &);
-/// Damping, friction and cohesion over a step. `bonded`: the results hold the bonds' actions, the
-/// contacts' are added and cohesion does not act.
-void run_contacts(PairTile &, bool bonded, bool update, double dt);
-/// Force and torques as whole numbers.
-void round_off(PairTile &, const calendem::FixedPoint &force, const calendem::FixedPoint &torque);
+void run_hertz(const PairTile &, PairStep &, const PairMaterial *);
+/// Damping, friction and cohesion over a step. Of bonds the results hold the bonds' actions, the
+/// contacts' are added and cohesion does not act. A contact that does not act forgets.
+void run_contacts(BondTile &, PairStep &, const PairMaterial *, bool update, double dt);
+void run_contacts(ContactTile &, PairStep &, const PairMaterial *, bool update, double dt);
+/// Force and torques as whole numbers; as doubles they are gone then.
+void round_off(int size, PairStep &, const calendem::FixedPoint &force,
+               const calendem::FixedPoint &torque);
 
 } // namespace LAMMPS_NS
 

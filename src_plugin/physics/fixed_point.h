@@ -20,7 +20,8 @@ struct FixedPoint {
   explicit FixedPoint(double largest)
       : unit(std::exp2(std::ceil(std::log2(largest)) - 62.0)), per_unit(1.0 / unit) {}
 
-  long long of(double term) const { return static_cast<long long>(std::rint(term * per_unit)); }
+  double rounded(double term) const { return std::rint(term * per_unit); } ///< in units
+  long long of(double term) const { return static_cast<long long>(rounded(term)); }
   double value(long long sum) const { return static_cast<double>(sum) * unit; }
 };
 

@@ -235,3 +235,22 @@ TEST(VerificationContact, ABreakReleasesNoEnergy) {
       EXPECT_NEAR(-l.least / last_pull, 1.0, 0.05);
     }
 }
+
+// Between two builds of the lists: each sphere moves by half of what would ask for new ones before
+// they touch.
+TEST(VerificationContact, SpheresThatComeNearMeetInTime) {
+  const auto meet = [](const char *check) {
+    return CaseRun(
+        "in.body", {{"bonded", "0"}, {"dt", "1e-4"}, {"steps", "600"}, {"check", check}}, 1,
+        files_of({{{-0.9, 0, 0}, 0.795, 1, {5, 0, 0}}, {{0.9, 0.1, 0}, 0.795, 2, {-5, 0, 0}}},
+                 {-6, -6, -6}, {6, 6, 6}));
+  };
+  const CaseRun run = meet("yes");
+  const auto often = meet("no").frames(), seldom = run.frames();
+  ASSERT_FALSE(seldom.empty()) << run.why();
+  EXPECT_LT(seldom.back().at(0).at("vx"), 0.0); // they have parted again
+  ASSERT_EQ(seldom.size(), often.size());
+  for (const size_t n : {0u, 1u})
+    for (const char *value : {"x", "y", "vx", "vy", "omegaz"})
+      EXPECT_EQ(seldom.back().at(n).at(value), often.back().at(n).at(value)) << n << " " << value;
+}
