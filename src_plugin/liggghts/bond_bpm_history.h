@@ -9,7 +9,8 @@
 namespace LAMMPS_NS {
 
 /// State of a pair. The overlap at creation stays the contact's reference until a broken pair's
-/// spheres have separated. A binder bridge stands beside the pair's contact, which has no reference.
+/// spheres have separated. A binder bridge stands beside the pair's contact, which has no
+/// reference.
 enum BondState {
   kNeverBonded = 0,
   kIntact = 1,
