@@ -240,14 +240,7 @@ void BpmPairLoop::sort_bridges() {
     of_kind_[kBridged][count_[kBridged]++] = n;
     acting_ += fix_->decides(pair.i, pair.j);
   }
-  PairTile &t = tiles_[kBridged];
-  t.size = count_[kBridged];
-  for (int p = 0; p < t.size; ++p) {
-    const Pair &pair = pairs_[of_kind_[kBridged][p]];
-    put_spheres(t, p, pair);
-    put_bond(t, p, pair);
-    *pair.flags |= CONTACT_COHESION_MODEL;
-  }
+  fill(kBridged);
 }
 
 const BondSettings &BpmPairLoop::settings_of(Kind kind) const {
@@ -274,10 +267,10 @@ void BpmPairLoop::fill(Kind kind) {
     put_spheres(t, p, pair);
     if (kind != kContact)
       put_bond(t, p, pair);
-    if (kind != kBond)
-      put_contact(t, p, pair);
-    else
+    if (kind == kBond)
       leave(pair);
+    else if (kind != kBridged)
+      put_contact(t, p, pair);
     *pair.flags |= CONTACT_COHESION_MODEL;
   }
 }
