@@ -288,7 +288,7 @@ void BpmPairLoop::add_forces(PairGran *pair) {
     for (int k = 0; k < 3; ++k)
       large |= (sum.force[k] + kMostUnits) | (sum.torque[k] + kMostUnits);
     if (large >> 63)
-      stop_force(i);
+      fix_->force_overflows(atom->tag[i]);
     for (int k = 0; k < 3; ++k) {
       atom->f[i][k] += relax * force_unit_.value(static_cast<long long>(sum.force[k]));
       atom->torque[i][k] += relax * torque_unit_.value(static_cast<long long>(sum.torque[k]));
@@ -296,15 +296,15 @@ void BpmPairLoop::add_forces(PairGran *pair) {
   }
 }
 
-void BpmPairLoop::stop_force(int i) const {
+void BpmPairLoop::stop_overflow(int tag) const {
   char message[400];
   snprintf(
       message, sizeof message,
       "particle %d is under a force or torque of more than the units of its sum hold: %.3g nN, "
       "%.3g nN um, which would press one sphere into another by its radius. The time step is "
       "too large, or something moves too fast: lower the timestep or the speed",
-      atom->tag[i], force_unit_.value(kMostUnits), torque_unit_.value(kMostUnits));
-  error->one(FLERR, message);
+      tag, force_unit_.value(kMostUnits), torque_unit_.value(kMostUnits));
+  error->all(FLERR, message);
 }
 
 void BpmPairLoop::book_bonds(const BondTile &t) {

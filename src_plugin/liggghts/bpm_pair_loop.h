@@ -45,6 +45,9 @@ public:
   void store_histories() { table_.store(); }
   void release_histories() { table_.release(); }
 
+  /// Stops the run: the forces on that atom were beyond the units of their sum.
+  void stop_overflow(int tag) const;
+
 private:
   class FixBondBpm *fix_ = nullptr;
   class FixEnergyBpm *energy_ = nullptr; // NULL when no ledger is kept
@@ -72,7 +75,6 @@ private:
   void choose_units();
   void sum_forces(const PairTile &tile);
   void add_forces(class PairGran *pair);
-  void stop_force(int i) const;
   void book_bonds(const BondTile &tile);
   void book_contacts(const PairTile &tile);
 };

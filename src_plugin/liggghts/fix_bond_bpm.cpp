@@ -248,6 +248,7 @@ void FixBondBpm::stop_if_wrong() {
   MPI_Allreduce(&overstretched_, &stretch, 1, MPI_DOUBLE, MPI_MAX, world);
   if (stretch > 0.0)
     stop_overstretched(stretch);
+  stop_if_overflowed();
   bigint mine[3] = {missing_, expected_, 0}, all[3];
   for (const BreakEvent &e : mine_)
     mine[2] += e.tag_low > 0.0;
@@ -257,6 +258,13 @@ void FixBondBpm::stop_if_wrong() {
     stop_lost(intact - all[0], intact);
   if (all[1] != intact)
     stop_lost(all[1], intact);
+}
+
+void FixBondBpm::stop_if_overflowed() {
+  int tag = 0;
+  MPI_Allreduce(&overflowed_, &tag, 1, MPI_INT, MPI_MAX, world);
+  if (tag > 0)
+    loop_->stop_overflow(tag);
 }
 
 void FixBondBpm::gather_breaks() {
@@ -295,7 +303,10 @@ void FixBondBpm::post_force(int) {
     gather_breaks();
 }
 
-void FixBondBpm::post_run() { gather_breaks(); }
+void FixBondBpm::post_run() {
+  stop_if_overflowed();
+  gather_breaks();
+}
 
 // Every intact bond must act in every step. A rank counts its own; where the lists are new, or the
 // run is, all see that together they have all.

@@ -128,6 +128,7 @@ public:
   }
   void acts(int i, int j) { acting_ += decides(i, j); }
   void count_acting(bigint bonds) { acting_ += bonds; }
+  void force_overflows(int tag) { overflowed_ = tag; }
   int friction_history_offset(int bond_offset);
   /// Who keeps values of histories from step to step, NULL for nobody.
   void set_loop(class BpmPairLoop *loop) { loop_ = loop; }
@@ -185,6 +186,7 @@ private:
   std::vector<BreakEvent> mine_;   // decided here since the last gathering
   std::vector<BreakEvent> breaks_; // gathered
   double overstretched_;           // the first stretch beyond the limit, 0 if none
+  int overflowed_ = 0;             // tag of an atom whose forces are beyond the units of their sum
   // intact bonds and bridges that this rank decides: acted in this step; are there; did not act
   // when they had to
   bigint acting_, expected_, missing_;
@@ -224,6 +226,7 @@ private:
   void put_on_grid();
   void check_acting(bool new_lists);
   void stop_if_wrong();
+  void stop_if_overflowed();
   void apply_breaks();
   void gather_breaks();
   void open_log();
