@@ -12,6 +12,8 @@
 
 namespace fs = std::filesystem;
 using namespace calendem::report;
+using calendem::Column;
+using calendem::Problems;
 using ReportRun = calendem::Run; // a test has a Run of its own
 
 namespace {

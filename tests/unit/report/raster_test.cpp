@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+using calendem::Point;
 using namespace calendem::report;
 
 namespace {

@@ -11,6 +11,7 @@
 
 namespace fs = std::filesystem;
 using namespace calendem::report;
+using calendem::Problems;
 using nlohmann::json;
 using ReportRun = calendem::Run; // a test has a Run of its own
 

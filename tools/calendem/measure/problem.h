@@ -9,13 +9,13 @@
 
 namespace calendem {
 
-struct Problem {
+struct FileProblem {
   std::string file;
   std::string what;   ///< what is wrong, the value met, what is expected
   std::string remedy; ///< what to do
 };
 
-using Problems = std::vector<Problem>;
+using Problems = std::vector<FileProblem>;
 
 } // namespace calendem
 

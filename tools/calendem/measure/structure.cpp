@@ -62,7 +62,7 @@ namespace {
 
 void stop_if_any(const Problems &problems) {
   std::string text;
-  for (const Problem &p : problems)
+  for (const FileProblem &p : problems)
     text += fmt::format("{}{}: {}. What to do: {}.", text.empty() ? "" : "\n", p.file, p.what,
                         p.remedy);
   if (!text.empty())

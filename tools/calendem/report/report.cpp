@@ -196,7 +196,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void print(const char *kind, const Problem &problem) {
+void print(const char *kind, const FileProblem &problem) {
   std::cerr << "calendem report: " << kind << ": " << problem.file << ": " << problem.what
             << "\n  what to do: " << problem.remedy << '\n';
 }

@@ -151,7 +151,7 @@ void score_round(const std::string &round, const std::string &answers, const std
 extern const char *const kScoresHtml;
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 std::string verdict_of(const Metric &m) {
   switch (m.verdict) {
@@ -166,12 +166,13 @@ std::string verdict_of(const Metric &m) {
   }
 }
 
-Json number_or_null(double v) { return std::isfinite(v) ? Json(v) : Json(); }
+OrderedJson number_or_null(double v) { return std::isfinite(v) ? OrderedJson(v) : OrderedJson(); }
 std::string shown(double v) { return std::isfinite(v) ? fmt::format("{:.3f}", v) : "–"; }
 
 /// Everything as one object: scores.json, and what the page is made of.
-Json scores_of(const std::vector<ScoredCase> &cases, const std::string &round) {
-  Json out = {{"round", round}, {"metrics", Json::array()}, {"cases", Json::array()}};
+OrderedJson scores_of(const std::vector<ScoredCase> &cases, const std::string &round) {
+  OrderedJson out = {
+      {"round", round}, {"metrics", OrderedJson::array()}, {"cases", OrderedJson::array()}};
   for (const Metric &m : metrics_of(cases)) {
     const std::string interval =
         std::isfinite(m.low) ? shown(m.low) + " to " + shown(m.high) : shown(m.low);
@@ -207,13 +208,15 @@ Json scores_of(const std::vector<ScoredCase> &cases, const std::string &round) {
   return out;
 }
 
-std::string as_markdown(const Json &scores) {
+std::string as_markdown(const OrderedJson &scores) {
   std::string out =
       fmt::format("# Withheld effects: {}\n\n{}\n\n| what | value | 90 % | cases | "
                   "truths | gate | |\n|---|---|---|---|---|---|---|\n",
                   scores["round"].get<std::string>(), scores["note"].get<std::string>());
-  const auto text = [](const Json &row, const char *key) { return row[key].get<std::string>(); };
-  for (const Json &m : scores["metrics"])
+  const auto text = [](const OrderedJson &row, const char *key) {
+    return row[key].get<std::string>();
+  };
+  for (const OrderedJson &m : scores["metrics"])
     out += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", text(m, "name"), text(m, "shown"),
                        text(m, "interval"), m["cases"].get<int>(), m["truths"].get<int>(),
                        text(m, "gate"), text(m, "verdict"));
@@ -227,7 +230,7 @@ std::string as_markdown(const Json &scores) {
   return out;
 }
 
-std::string as_page(const Json &scores) {
+std::string as_page(const OrderedJson &scores) {
   nlohmann::json values = nlohmann::json::parse(scores.dump());
   values["css"] = report::embedded::kPageCss;
   for (const auto &[truth, claims] : scores["confusion"].items())
@@ -252,7 +255,7 @@ std::string as_page(const Json &scores) {
 
 void write_scores(const std::vector<ScoredCase> &cases, const std::string &round,
                   const std::string &folder) {
-  const Json scores = scores_of(cases, round);
+  const OrderedJson scores = scores_of(cases, round);
   const std::string table = as_markdown(scores);
   write_file(folder + "/scores.json", scores.dump(1) + "\n");
   write_file(folder + "/scores.md", table);
