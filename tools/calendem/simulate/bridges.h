@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Binder bridges along a run: bridges.csv from what the input scripts wrote, and what of it goes
 // into the summary. They are no bonds of bodies and are counted apart from them.
-#ifndef CALENDEM_RUN_BRIDGES_H
-#define CALENDEM_RUN_BRIDGES_H
+#ifndef CALENDEM_SIMULATE_BRIDGES_H
+#define CALENDEM_SIMULATE_BRIDGES_H
 
 #include "simulate/collect.h"
 

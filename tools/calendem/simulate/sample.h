@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Runs of cells of different loading as one sample: a folder with curve.csv, summary.json,
 // electrode.json and case.toml, as far as `calendem compare` reads those of a run.
-#ifndef CALENDEM_SAMPLE_SAMPLE_H
-#define CALENDEM_SAMPLE_SAMPLE_H
+#ifndef CALENDEM_SIMULATE_SAMPLE_H
+#define CALENDEM_SIMULATE_SAMPLE_H
 
 #include <string>
 #include <vector>

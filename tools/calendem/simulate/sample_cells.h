@@ -9,8 +9,8 @@
 // cells of a sample turn at the same gap, or at the same pressure. Sources: elements in parallel
 // and in series (Voigt 1889, Reuss 1929). Deviations: none. Verified by tests/unit/sample and
 // tests/regression/coating.
-#ifndef CALENDEM_SAMPLE_CELLS_H
-#define CALENDEM_SAMPLE_CELLS_H
+#ifndef CALENDEM_SIMULATE_SAMPLE_CELLS_H
+#define CALENDEM_SIMULATE_SAMPLE_CELLS_H
 
 #include <vector>
 

@@ -143,69 +143,58 @@ std::string why_none(const Observable &o, const std::vector<const SimulatedRun *
   return "";
 }
 
-} // namespace
+void say_no_run(const Condition &c, Gap &gap) {
+  gap.not_said.push_back(fmt::format(
+      "{}: no run has its {}; nothing is said about it.", c.id,
+      by_pressure(c) ? fmt::format("pressure of {:g} MPa", c.max_pressure_MPa->value)
+      : c.control == "roll_gap"
+          ? "roll gap: it is set beside runs of a platen, so give max_pressure_MPa as the gap "
+            "was converted into it"
+          : c.control));
+}
 
-Gap find_gap(const Experiment &experiment, const std::vector<SimulatedRun> &runs) {
-  Gap gap;
-  gap.experiment = experiment.name;
-  std::vector<Entry> entries;
-  std::set<const SimulatedRun *> used;
-  for (const Condition &c : experiment.conditions) {
-    std::vector<const SimulatedRun *> mine;
-    for (const SimulatedRun &r : runs)
-      if (belongs(r, c))
-        mine.push_back(&r);
-    used.insert(mine.begin(), mine.end());
-    if (mine.empty()) {
-      gap.not_said.push_back(fmt::format(
-          "{}: no run has its {}; nothing is said about it.", c.id,
-          by_pressure(c) ? fmt::format("pressure of {:g} MPa", c.max_pressure_MPa->value)
-          : c.control == "roll_gap"
-              ? "roll gap: it is set beside runs of a platen, so give max_pressure_MPa as the gap "
-                "was converted into it"
-              : c.control));
-      continue;
-    }
-    if (c.control == "roll_gap")
-      gap.not_said.push_back(
-          fmt::format("{}: it was pressed under a roll, the runs under a platen to the pressure "
-                      "that the roll's "
-                      "gap was converted into. What a nip does besides is taken for a gap of the "
-                      "model; calendem "
-                      "run with platen.control = \"roll_gap\" shows how much that is.",
-                      c.id));
-    std::vector<Observable> observables = observables_of(experiment, c, gap.not_said);
-    const auto on_images = image_observables_of(experiment, c, gap.not_said);
-    observables.insert(observables.end(), on_images.begin(), on_images.end());
-    std::map<std::string, std::vector<std::string>> without; // by the reason
-    for (const Observable &o : observables) {
-      Entry e{{}, per_packing(mine, o.simulated)};
-      e.row.observable = o.name;
-      e.row.stage = o.stage;
-      e.row.condition = c.id;
-      e.row.unit = o.unit;
-      e.row.measured = o.measured;
-      e.row.sd_measurement = std::hypot(o.sd, o.by_loading);
-      e.row.simulated = e.packings.mean;
-      e.row.residual = e.row.simulated - o.measured;
-      e.row.packings = static_cast<int>(e.packings.values.size());
-      if (by_pressure(c))
-        e.row.sd_pressure = std::fabs(per_packing(mine, o.slope).mean) * c.max_pressure_MPa->sd;
-      if (std::isfinite(e.row.residual))
-        entries.push_back(e);
-      else
-        without[why_none(o, mine)].push_back(o.name);
-    }
-    for (const auto &[why, names] : without)
-      gap.not_said.push_back(fmt::format("{}: the runs have no value for {}{}", c.id,
-                                         fmt::join(names, "; "), why.empty() ? "." : ": " + why));
+/// A row for everything that was measured on the condition and that its runs have a value for.
+void add_entries(const Experiment &experiment, const Condition &c,
+                 const std::vector<const SimulatedRun *> &mine, std::vector<Entry> &entries,
+                 Gap &gap) {
+  if (c.control == "roll_gap")
+    gap.not_said.push_back(
+        fmt::format("{}: it was pressed under a roll, the runs under a platen to the pressure "
+                    "that the roll's "
+                    "gap was converted into. What a nip does besides is taken for a gap of the "
+                    "model; calendem "
+                    "run with platen.control = \"roll_gap\" shows how much that is.",
+                    c.id));
+  std::vector<Observable> observables = observables_of(experiment, c, gap.not_said);
+  const auto on_images = image_observables_of(experiment, c, gap.not_said);
+  observables.insert(observables.end(), on_images.begin(), on_images.end());
+  std::map<std::string, std::vector<std::string>> without; // by the reason
+  for (const Observable &o : observables) {
+    Entry e{{}, per_packing(mine, o.simulated)};
+    e.row.observable = o.name;
+    e.row.stage = o.stage;
+    e.row.condition = c.id;
+    e.row.unit = o.unit;
+    e.row.measured = o.measured;
+    e.row.sd_measurement = std::hypot(o.sd, o.by_loading);
+    e.row.simulated = e.packings.mean;
+    e.row.residual = e.row.simulated - o.measured;
+    e.row.packings = static_cast<int>(e.packings.values.size());
+    if (by_pressure(c))
+      e.row.sd_pressure = std::fabs(per_packing(mine, o.slope).mean) * c.max_pressure_MPa->sd;
+    if (std::isfinite(e.row.residual))
+      entries.push_back(e);
+    else
+      without[why_none(o, mine)].push_back(o.name);
   }
-  if (entries.empty())
-    throw Failure(kBadInput,
-                  fmt::format("nothing of '{}' can be compared with these runs. A run belongs to a "
-                              "condition when its platen has the condition's control and target "
-                              "within 2 %.{}",
-                              experiment.name, as_list(gap.not_said)));
+  for (const auto &[why, names] : without)
+    gap.not_said.push_back(fmt::format("{}: the runs have no value for {}{}", c.id,
+                                       fmt::join(names, "; "), why.empty() ? "." : ": " + why));
+}
+
+/// Runs that were not used, or whose electrode or settings make them something else.
+void say_of_runs(const Experiment &experiment, const std::vector<SimulatedRun> &runs,
+                 const std::set<const SimulatedRun *> &used, Gap &gap) {
   for (const SimulatedRun &r : runs)
     if (!used.count(&r))
       gap.not_said.push_back(
@@ -222,6 +211,33 @@ Gap find_gap(const Experiment &experiment, const std::vector<SimulatedRun> &runs
       gap.not_said.push_back(fmt::format("{}: the nanoporosity of CBD is {}. Its porosities are no "
                                          "prediction of the model.",
                                          r->folder, r->imposed));
+}
+
+} // namespace
+
+Gap find_gap(const Experiment &experiment, const std::vector<SimulatedRun> &runs) {
+  Gap gap;
+  gap.experiment = experiment.name;
+  std::vector<Entry> entries;
+  std::set<const SimulatedRun *> used;
+  for (const Condition &c : experiment.conditions) {
+    std::vector<const SimulatedRun *> mine;
+    for (const SimulatedRun &r : runs)
+      if (belongs(r, c))
+        mine.push_back(&r);
+    used.insert(mine.begin(), mine.end());
+    if (mine.empty())
+      say_no_run(c, gap);
+    else
+      add_entries(experiment, c, mine, entries, gap);
+  }
+  if (entries.empty())
+    throw Failure(kBadInput,
+                  fmt::format("nothing of '{}' can be compared with these runs. A run belongs to a "
+                              "condition when its platen has the condition's control and target "
+                              "within 2 %.{}",
+                              experiment.name, as_list(gap.not_said)));
+  say_of_runs(experiment, runs, used, gap);
   pool_seeds(entries, gap.degrees_of_freedom);
   for (const Entry &e : entries)
     gap.rows.push_back(e.row);
