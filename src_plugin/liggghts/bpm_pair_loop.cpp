@@ -20,7 +20,11 @@ using calendem::Vec3;
 
 namespace {
 
-constexpr long long kMostUnits = 1LL << 62; // of the sum of forces on an atom
+// Of the sum of forces on an atom: seven eighths of what a whole number holds. The rest is where a
+// sum that wraps is seen; a term beyond 2^63 becomes -2^63, which is there too.
+constexpr long long kMostUnits = 7LL << 60;
+
+bool overflows(unsigned long long sum) { return sum + kMostUnits > 2ULL * kMostUnits; }
 
 Vec3 difference(const double *a, const double *b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
@@ -283,11 +287,10 @@ void BpmPairLoop::add_forces(PairGran *pair) {
   for (int i = 0; i < atom->nlocal; ++i) {
     const double relax = pair->relax(i);
     const WholeForce &sum = forces_[i];
-    unsigned long long large =
-        0; // top bit: a sum of 2^62 units or more; a term beyond 2^63 makes one
+    bool large = false;
     for (int k = 0; k < 3; ++k)
-      large |= (sum.force[k] + kMostUnits) | (sum.torque[k] + kMostUnits);
-    if (large >> 63)
+      large |= overflows(sum.force[k]) | overflows(sum.torque[k]);
+    if (large)
       fix_->force_overflows(atom->tag[i]);
     for (int k = 0; k < 3; ++k) {
       atom->f[i][k] += relax * force_unit_.value(static_cast<long long>(sum.force[k]));
@@ -301,7 +304,8 @@ void BpmPairLoop::stop_overflow(int tag) const {
   snprintf(
       message, sizeof message,
       "particle %d is under a force or torque of more than the units of its sum hold: %.3g nN, "
-      "%.3g nN um, which would press one sphere into another by its radius. The time step is "
+      "%.3g nN um, more than pressing one sphere into another by its radius takes. The time step "
+      "is "
       "too large, or something moves too fast: lower the timestep or the speed",
       tag, force_unit_.value(kMostUnits), torque_unit_.value(kMostUnits));
   error->all(FLERR, message);

@@ -232,41 +232,6 @@ void FixBondBpm::record_break(int i, int j, BondHistory bond, const calendem::Bo
   failing_.push_back({i, j, bond, e});
 }
 
-void FixBondBpm::stop_overstretched(double stretch) {
-  char message[300];
-  snprintf(
-      message, sizeof message,
-      "an intact bond is stretched to %.4f times the sum of radii; beyond %.2f its history would "
-      "be lost. The time step is too large or the bonds are unbreakable or too strong",
-      stretch, kContactDistanceFactor);
-  error->fix_error(FLERR, this, message);
-}
-
-// What one rank has found wrong stops all of them, where they meet.
-void FixBondBpm::stop_if_wrong() {
-  double stretch = 0.0;
-  MPI_Allreduce(&overstretched_, &stretch, 1, MPI_DOUBLE, MPI_MAX, world);
-  if (stretch > 0.0)
-    stop_overstretched(stretch);
-  stop_if_overflowed();
-  bigint mine[3] = {missing_, expected_, 0}, all[3];
-  for (const BreakEvent &e : mine_)
-    mine[2] += e.tag_low > 0.0;
-  MPI_Allreduce(mine, all, 3, MPI_LMP_BIGINT, MPI_SUM, world);
-  const bigint intact = acting_pairs() - all[2];
-  if (all[0] != 0)
-    stop_lost(intact - all[0], intact);
-  if (all[1] != intact)
-    stop_lost(all[1], intact);
-}
-
-void FixBondBpm::stop_if_overflowed() {
-  int tag = 0;
-  MPI_Allreduce(&overflowed_, &tag, 1, MPI_INT, MPI_MAX, world);
-  if (tag > 0)
-    loop_->stop_overflow(tag);
-}
-
 void FixBondBpm::gather_breaks() {
   const int nprocs = comm->nprocs;
   std::vector<int> counts(nprocs), starts(nprocs, 0);
@@ -299,41 +264,15 @@ void FixBondBpm::post_force(int) {
   if (due || (wrong && comm->nprocs == 1))
     stop_if_wrong();
   apply_breaks();
-  if (update->ntimestep % kGatherEvery == 0)
+  if (update->ntimestep % kGatherEvery == 0) {
+    stop_if_overflowed();
     gather_breaks();
+  }
 }
 
 void FixBondBpm::post_run() {
   stop_if_overflowed();
   gather_breaks();
-}
-
-// Every intact bond must act in every step. A rank counts its own; where the lists are new, or the
-// run is, all see that together they have all.
-void FixBondBpm::check_acting(bool new_lists) {
-  if (new_lists) {
-    expected_ = 0;
-    for_each_neighbor([this](int i, int j, const BondHistory &bond) {
-      expected_ += bond.acts() && decides(i, j);
-    });
-  }
-  if (missing_ == 0)
-    missing_ = expected_ - acting_;
-  acting_ = 0;
-}
-
-// Beyond the range of histories the host calls no contact model: a bond stretched from within that
-// range to beyond it in one step, or one whose history is gone, just does not act any more.
-void FixBondBpm::stop_lost(bigint acting, bigint intact) {
-  char message[500];
-  snprintf(message, sizeof message,
-           BIGINT_FORMAT
-           " of " BIGINT_FORMAT
-           " intact bonds acted in a step. Either a bond was stretched within one step to more "
-           "than %.2f times the sum of radii, where its history is lost: the time step is too "
-           "large. Or the host lost histories: leave 'one' and 'page' of neigh_modify as they are",
-           acting, intact, kContactDistanceFactor);
-  error->fix_error(FLERR, this, message);
 }
 
 bigint FixBondBpm::broken() const { return by_mode_[1] + by_mode_[2] + by_mode_[3] + by_mode_[4]; }
