@@ -51,7 +51,11 @@ case $case in
     rm -rf "$work/electrode"
     "$bin/calendem" pack "$here/electrode.toml" -o "$work/electrode" --ranks 1
     "$bin/calendem" pack "$here/electrode.toml" -o "$work/electrode" --ranks 1 | grep -q already ||
-      fail "a second pack of the same recipe should find it done" ;;
+      fail "a second pack of the same recipe should find it done"
+    # At rest with a case's materials. A packing counts as quiet at 1e-3 m/s; sound of 2 km/s in 2.5 g/cm3 then carries
+    # rho c v = 0.005 MPa.
+    stress=$(number film_stress_MPa "$work/electrode/electrode.json")
+    holds "$stress < 0.005 && $stress > -0.005" "the packed film bears $stress MPa in its plane" ;;
   run)
     rm -rf "$work/run"
     (cd "$work" && "$bin/calendem" run case.toml -o run --ranks 1 \

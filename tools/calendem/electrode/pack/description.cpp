@@ -151,6 +151,7 @@ void add_state(nlohmann::json &j, const FinishedPacking &f) {
   j["largest_body_force_nN"] = s.body_force_nN;
   j["largest_body_force_limit_nN"] = kForceLimit_nN;
   j["largest_am_cbd_force_nN"] = s.am_cbd_force_nN;
+  j["film_stress_MPa"] = s.film_stress_MPa;
   j["cbd_overlap_over_radius"] = {{"cbd_cbd", overlaps(s.cbd_cbd)}, {"cbd_am", overlaps(s.cbd_am)}};
   j["highest_particle_um"] = s.highest_um;
   j["platen_pressure_MPa"] = f.end.pressure_MPa + 0.0;

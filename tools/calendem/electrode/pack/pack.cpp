@@ -39,6 +39,8 @@ void densify(const PackOptions &o, const Recipe &r) {
                    {"scripts", input_scripts()},
                    {"E_am_GPa", fmt::format("{}", m.E_am_GPa)},
                    {"E_cbd_GPa", fmt::format("{}", m.E_cbd_GPa)},
+                   {"nu_am", fmt::format("{}", m.nu_am)},
+                   {"nu_cbd", fmt::format("{}", m.nu_cbd)},
                    {"ced_am_J_m3", fmt::format("{}", m.ced_am_J_m3)},
                    {"ced_cbd_J_m3", fmt::format("{}", m.ced_cbd_J_m3)}};
   const bool terminal = isatty(1);

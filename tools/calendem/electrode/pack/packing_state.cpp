@@ -12,6 +12,7 @@ namespace calendem {
 
 namespace {
 
+// Repulsive ones are positive.
 double pair_force(const Particle &p, const Particle &q, double r, const FinalMaterial &m) {
   constexpr double kGPa = 1e6, kJ_m3 = 1e-3; // in kPa
   const auto E = [&](const Particle &a) { return kGPa * (a.type == 1 ? m.E_am_GPa : m.E_cbd_GPa); };
@@ -22,7 +23,7 @@ double pair_force(const Particle &p, const Particle &q, double r, const FinalMat
   const double Rp = 0.5 * p.diameter, Rq = 0.5 * q.diameter;
   const double repulsion = hertz_force(effective_modulus(E(p), nu(p), E(q), nu(q)),
                                        effective_radius(Rp, Rq), Rp + Rq - r);
-  return std::fabs(repulsion - sjkr_force(std::sqrt(ced(p) * ced(q)), r, Rp, Rq));
+  return repulsion - sjkr_force(std::sqrt(ced(p) * ced(q)), r, Rp, Rq);
 }
 
 void note(Overlaps &o, double overlap) {
@@ -31,19 +32,23 @@ void note(Overlaps &o, double overlap) {
   o.largest = std::max(o.largest, overlap);
 }
 
-void note_contact(PackingState &s, const Particle &p, const Particle &q, double r,
+void note_contact(PackingState &s, const Particle &p, const Particle &q, const Eigen::Vector3d &d,
                   const Recipe &recipe, const FinalMaterial &material) {
+  const double r = d.norm();
+  const bool bonded = p.type == 1 && q.type == 1 && p.body == q.body;
+  const double force = bonded ? 0.0 : pair_force(p, q, r, material);
+  s.film_stress_MPa += 0.5e-3 * force * (d.x() * d.x() + d.y() * d.y()) / r; // times volume
   const double overlap = 0.5 * (p.diameter + q.diameter) - r;
-  if (p.type == 1 && q.type == 1 && p.body == q.body) {
+  if (bonded) {
     ++s.bonds;
     ++s.body_bonds[p.body - 1];
   } else if (p.type == 1 && q.type == 1) {
-    s.body_force_nN = std::max(s.body_force_nN, pair_force(p, q, r, material));
+    s.body_force_nN = std::max(s.body_force_nN, std::fabs(force));
   } else if (p.type == 2 && q.type == 2) {
     note(s.cbd_cbd, overlap / (0.5 * recipe.cbd_diameter));
   } else {
     note(s.cbd_am, overlap / (0.5 * recipe.cbd_diameter));
-    s.am_cbd_force_nN = std::max(s.am_cbd_force_nN, pair_force(p, q, r, material));
+    s.am_cbd_force_nN = std::max(s.am_cbd_force_nN, std::fabs(force));
   }
 }
 
@@ -86,11 +91,12 @@ PackingState examine(const Recipe &recipe, const std::vector<Body> &bodies,
       const double sum = 0.5 * (p.diameter + q.diameter);
       if (std::fabs(p.x.z() - q.x.z()) >= sum)
         continue;
-      const double r = periodic_difference(recipe, p.x, q.x).norm();
-      if (r < sum)
-        note_contact(s, p, q, r, recipe, material);
+      const Eigen::Vector3d d = periodic_difference(recipe, p.x, q.x);
+      if (d.norm() < sum)
+        note_contact(s, p, q, d, recipe, material);
     }
   }
+  s.film_stress_MPa /= recipe.cell_x * recipe.cell_y * s.highest_um;
   return s;
 }
 

@@ -30,6 +30,9 @@ struct Overlaps {
 struct PackingState {
   double body_force_nN = 0.0;   ///< largest |Hertz - SJKR| between primaries of different bodies
   double am_cbd_force_nN = 0.0; ///< the same between primaries and CBD
+  /// In the plane, of the contacts between bodies and CBD, over the film's volume; positive: the
+  /// film would spread. A film at rest has next to none.
+  double film_stress_MPa = 0.0;
   Overlaps cbd_cbd, cbd_am;
   int bonds = 0;               ///< pairs of a body's primaries that touch
   int lattice_pairs = 0;       ///< that touch in the bodies as made: there must be as many bonds
