@@ -82,7 +82,7 @@ inline std::vector<Key> base_settings() {
       {"roll.line_load_tolerance", "", "0.02", 1e-3, 0.5, "",
        "fraction of the line load within which it counts as met"},
       {"roll.line_speed_m_min", "line_speed_m_min", "0.5", 1e-3, 1000, "m/min",
-       "of the web; tells how much faster the passage is run"},
+       "of the web; sets the reported ratio of simulated to real speed"},
       {"roll.slip", "roll_slip", "0", 0, 0.1, "", "surface of the roll ahead of the web, fraction"},
       {"roll.passes", "roll_passes", "1", 1, 20, "", "under the roll", "", false, true},
       {"roll.first_gap_um", "first_gap_um", "0", 0, 1000, "um",
