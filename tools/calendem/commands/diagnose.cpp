@@ -31,7 +31,7 @@ void print(const Diagnosed &diagnosed) {
       fmt::print("  {:<44} {:5.1f} %   fits with p {:.2g}\n",
                  j.place.empty() ? j.hypothesis.name : j.hypothesis.name + ": " + j.place,
                  100.0 * j.probability, j.adequacy_p);
-  fmt::print("where, once recalibrated (beyond |z| = {:.1f} is no chance):\n", d.where.threshold);
+  fmt::print("where, once recalibrated (significant beyond |z| = {:.1f}):\n", d.where.threshold);
   for (const inference::WhereRow &r : d.where.rows) {
     const inference::Block &b = d.blocks[std::size_t(r.block)];
     fmt::print("  {:<8} {:<36} {:<12} z {:+6.1f}  {:3.0f} %{}\n", b.condition, b.name, b.stage, r.z,
