@@ -98,7 +98,7 @@ def part_of(source, association, name, low, high):
 
 
 def whole(run, source):
-    """One body in one piece, if electrode.json tells the cell."""
+    """One body in one piece, if electrode.json gives the cell."""
     file = os.path.join(run, "electrode.json")
     period = json.load(open(file, encoding="utf-8")).get("cell_um") if os.path.exists(file) else None
     if not period:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // compute ID all contact/range T ...
 //   T: atom types of the phases (1 2: active material, carbon-binder domain)
-// How far contacts are beyond the range of Hertz' law (physics/contact_range.h), measured when
-// asked for; it reads and changes nothing of the run. A contact is a pair, or a sphere and a fix
+// How far contacts are beyond the range of Hertz' law (physics/contact_range.h), measured on
+// request; it does not affect the run. A contact is a pair, or a sphere and a fix
 // wall/gran/platen, whose normal law pushes. Contacts inside a body, whose overlap counts from the
 // bond's creation, hold the body's own stress: they have a row of their own and are in no other.
 // Needs fix bond/bpm and `pair_style gran model hertz|hertz_effects`.

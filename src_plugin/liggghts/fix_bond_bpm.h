@@ -9,9 +9,9 @@
 // a pair then do the same arithmetic, and find the same breaks, whichever ranks hold them. Owns the
 // bonds of `pair_style gran ... cohesion bpm surface bpm`: their material, their creation (at the
 // first set-up after the fix appears, between touching primaries of one body, once), the breaks,
-// and the event log. Every copy of a pair breaks in the same step without a word between ranks; the
-// rank that owns the lower tag writes the event down, and events are gathered when they are asked
-// for, at the latest after 100 steps. Two primaries of one body that are not bonded, nor have
+// and the event log. Every copy of a pair breaks in the same step, without communication; the
+// rank that owns the lower tag records the event, and events are gathered on
+// request, at the latest after 100 steps. Two primaries of one body that are not bonded, nor have
 // touched since their bond broke, meet at D times the sum of their radii, 1 by default. All
 // stresses in kPa (units micro). Everything restarts, under the same fix ID. Bridges
 // (physics/binder_bridge.h) of modulus E, radius ratio L and tensile strengths S between CBD and

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // fix ID all energy/bpm
 //
-// Where the work of the platens goes. Elastic energies are summed over the pairs when asked for;
+// Where the work of the platens goes. Elastic energies are summed over the pairs on request;
 // dissipated work is summed every step with the trapezoid that the integrator itself exchanges
 // kinetic energy by: over the step from x(n) to x(n+1) a force does the work
 // (F(n) + F(n+1))/2 . (x(n+1) - x(n)). So work of the platens = change of kinetic energy, bond

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // write_restart/whole FILE keep OLD
 // As write_restart, but FILE is replaced only by a file that is whole, and what it was before is
-// kept as OLD. The host does not notice a full disk: its file is cut then, without a word. Here a
+// kept as OLD. The host does not notice a full disk: it then truncates the file silently. Here a
 // warning is given, and FILE and OLD stay as they are.
 #ifdef COMMAND_CLASS
 

@@ -12,8 +12,8 @@
 // p of a sphere of radius r from its contacts (Love-Weber stress, trace/3): p = sum F_n r/(3 V),
 // F_n > 0 pressing; cohesion counts as tension, so a sphere in its cohesive equilibrium has p = 0.
 // Imposed instead: phi_t = phi_0 - (phi_0 - phi_f) min(1, P/P_e) for every sphere alike, P the
-// largest pressure that the platen has had. That is no law of the material: Xu et al. tell both
-// ends and that the fall happens under pressure.
+// largest pressure that the platen has had. That is no material law: Xu et al. report the
+// values before and after and that the drop occurs under pressure.
 // Range: 0 <= phi_f <= phi_0 < 1, p_y >= 0, H > 0, t_r > 0, P_e > 0. Not conservative: fix
 // energy/bpm books the elastic and cohesive energy of the contacts that shrink. Source: exponential
 // compaction after Heckel, Trans. Metall. Soc. AIME 221 (1961) 671, made rate dependent as Duvaut

@@ -34,7 +34,7 @@ struct EffectParameter {
   AmplitudeScale scale = AmplitudeScale::Difference;
   /// What the effect does grows about with this power of the amplitude; 0: with the logarithm of
   /// its ratio to the weakest of `low` and `high`, where it ceases. Chosen by how well emulators
-  /// foretell packings that are left out.
+  /// predict packings that are left out.
   double power = 1.0;
 
   double amplitude(double value) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// All effects, in the order in which they are told.
+// All effects, in the order in which they are listed.
 #ifndef CALENDEM_REGISTRY_EFFECTS_H
 #define CALENDEM_REGISTRY_EFFECTS_H
 

@@ -73,11 +73,11 @@ inline Effect cbd_collapse() {
       {at + "yield_pressure_MPa", "cbd_yield_MPa", "0", 0, 1e5, "MPa",
        "mean pressure of a CBD sphere at which its nanopores begin to collapse; 0: never"},
       {at + "hardening_MPa", "cbd_hardening_MPa", "50", 0.1, 1e5, "MPa",
-       "pressure scale of the fall above the yield pressure"},
+       "pressure scale of the decrease above the yield pressure"},
       {at + "initial_nanoporosity", "cbd_initial_phi", "0.5", 0, 0.95, "fraction",
        "the recipe's cbd.nanoporosity_percent"},
       {at + "floor_nanoporosity", "cbd_floor_phi", "0.27", 0, 0.95, "fraction",
-       "what no pressure goes below"},
+       "lower limit under any pressure"},
       {at + "relaxation_us", "cbd_collapse_us", "0.1", 1e-3, 1e3, "us",
        "time in which nanopores follow their pressure; some transits of a pressure wave"},
       {at + "every_steps", "cbd_collapse_steps", "50", 1, 1e6, "steps",
@@ -144,7 +144,7 @@ inline Effect confinement(const std::string &phase, const std::string &what, dou
   e.settings = {{at + "bulk_modulus_GPa", phase + "_bulk_GPa", "0", 0, 1000, "GPa",
                  "of a sphere that its contacts enclose; 0: Hertz at any overlap"},
                 {at + "free_surface", phase + "_free_surface", "0.5", 0.01, 0.99, "fraction",
-                 "of the sphere, at which its bulk begins to answer"}};
+                 "of the sphere, at which its bulk begins to resist"}};
   e.parameter = strength(e.settings[0], least, most, Spread::LogUniform);
   e.moves = "more pressure at high density, where overlaps are large, and more springback from it";
   e.source = "Zunker & Kamrin 2024 (MDR, part II); from the bulk modulus of a half-porous solid to "

@@ -54,7 +54,7 @@ inline std::vector<Key> base_settings() {
       {"imposed.cbd_nanoporosity_until_MPa", "cbd_imposed_MPa", "0", 0, 2000, "MPa",
        "pressure of the platen up to which nanoporosity falls from initial to floor in all CBD "
        "alike, as Xu et al. impose it; 0: it does not"},
-      {"platen.control", "control", "pressure", 0, 0, "", "what the platen goes down to",
+      {"platen.control", "control", "pressure", 0, 0, "", "target of the platen's descent",
        "pressure|thickness|displacement|roll_gap"},
       {"platen.max_pressure_MPa", "p_max_MPa", "150", 0.1, 2000, "MPa", "with control = pressure"},
       {"platen.thickness_um", "h_target_um", "0", 0, 1000, "um", "with control = thickness"},
@@ -77,12 +77,12 @@ inline std::vector<Key> base_settings() {
       {"roll.counter_radius_mm", "counter_radius_mm", "", 0, 2000, "mm",
        "of the roll behind the collector; 0: flat", "", false, false, "roll.radius_mm"},
       {"roll.line_load_N_mm", "", "0", 0, 1e5, "N/mm",
-       "of the last pass; the passage is rehearsed with other gaps until it agrees; 0: "
+       "of the last pass; the gap is iterated until it agrees; 0: "
        "platen.roll_gap_um is the gap"},
       {"roll.line_load_tolerance", "", "0.02", 1e-3, 0.5, "",
-       "fraction of the line load within which it counts as met"},
+       "allowed relative deviation from the line load"},
       {"roll.line_speed_m_min", "line_speed_m_min", "0.5", 1e-3, 1000, "m/min",
-       "of the web; tells how much faster the passage is run"},
+       "of the web; sets the reported ratio of simulated to real speed"},
       {"roll.slip", "roll_slip", "0", 0, 0.1, "", "surface of the roll ahead of the web, fraction"},
       {"roll.passes", "roll_passes", "1", 1, 20, "", "under the roll", "", false, true},
       {"roll.first_gap_um", "first_gap_um", "0", 0, 1000, "um",

@@ -217,7 +217,7 @@ EOF
     kill_and_resume "$work/loaded.toml" "$work/loaded_killed"
     cmp "$work/loaded/curve.csv" "$work/loaded_killed/curve.csv" || fail "curves differ after --resume"
     cmp "$work/loaded/rehearsals.csv" "$work/loaded_killed/rehearsals.csv" || fail "rehearsals differ after --resume" ;;
-  packed_anew) # an electrode that changes under a run is told, not collected
+  packed_anew) # an electrode that changes during a run is reported, not collected
     rm -rf "$work/anew" "$work/on_anew"
     cp -r "$work/electrode" "$work/anew"
     sed 's/^electrode = .*/electrode = "anew"/' "$here/case.toml" >"$work/on_anew.toml"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # chain_test.sh CASE BIN WORK: shapes, slurry, drying, electrode, calendering by one command.
-#   light: a thin film; steps are resumed, no particle is lost, a missed target is told.
+#   light: a thin film; steps are resumed, no particle is lost, a missed target is reported.
 #   full:  the case of input_scripts/cases/chain, with CALENDEM_HEAVY=1.
 set -euo pipefail
 case=$1 bin=$2 work=$3
@@ -43,14 +43,14 @@ case $case in
       'run already holds this run'; do
       grep -qF "$text" "$work/again.said" || fail "not resumed: no '$text'"
     done
-    # left to the capillary pressure the film does not end at the recipe's thickness: told, status 4
+    # left to the capillary pressure the film does not end at the recipe's thickness: reported, status 4
     { cat film.toml; printf '\n[drying]\ncapillary_pressure_MPa = 1e-3\nporosity_tolerance_points = 0.01\n'; } >hindered.toml
     cp -r film hindered
     status=0
     "$bin/calendem" dry hindered.toml -o hindered >hindered.said 2>&1 || status=$?
     cat hindered.said
     [ $status -eq 4 ] || fail "exit status $status for a film that misses its porosity"
-    grep -q 'points, at most 0.01 are allowed' hindered.said || fail "the difference was not told"
+    grep -q 'points, at most 0.01 are allowed' hindered.said || fail "the difference was not reported"
     { [ -e hindered/film.rejected.json ] && [ ! -e hindered/film.json ]; } || fail "a film that misses counts as made" ;;
   full)
     [ "${CALENDEM_HEAVY:-0}" = 1 ] || { echo "skipped: chain.full runs with tools/test --all"; exit 77; }

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# diagnose_test.sh BIN WORK: gap.json and gap.html of a small experiment; the same bytes twice; mistakes are told; base
+# diagnose_test.sh BIN WORK: gap.json and gap.html of a small experiment; the same bytes twice; mistakes are reported; base
 # model, named effect and runner-up run again for a held-out sample.
 set -euo pipefail
 bin=$1 work=$2
@@ -59,14 +59,14 @@ grep -q '= 90' other_electrode.toml || printf '\n[composition]\nam_weight_percen
 sed 's|^electrode = .*|electrode = "other_electrode.toml"|' experiment.toml >other.toml
 refuses "not the bank's electrode; composition.am_weight_percent: 90 instead of 96" other.toml --bank bank.toml
 diagnose other.toml -o other --bank bank.toml --other-electrode --no-rerun >other.log || fail "exit status $?"
-grep -q "^note: the sample is not the bank's electrode" other.log || fail "another electrode is not told"
+grep -q "^note: the sample is not the bank's electrode" other.log || fail "another electrode is not reported"
 sed 's/^id = "p50"/&\nporosity_before_percent = { value = 45.5, sd = 0.5 }/' experiment.toml >denser.toml
 diagnose denser.toml -o denser --bank bank.toml --no-rerun >denser.log || fail "exit status $?"
-grep -q "^note: p50: its porosity before calendering is 45.5 ± 0.5 %" denser.log || fail "another coating is not told"
+grep -q "^note: p50: its porosity before calendering is 45.5 ± 0.5 %" denser.log || fail "another coating is not reported"
 grep -qE "^ *p50 +total porosity before +before .* beyond noise" denser.log || fail "another coating is not seen where it is"
 sed 's/^id = "p50"/&\nporosity_before_percent = { value = 47.2, sd = 0.5 }/' experiment.toml >as_recipe.toml
 diagnose as_recipe.toml -o as_recipe --bank bank.toml >as_recipe.log || fail "a sample as its recipe says is refused"
-grep -q "its porosity before calendering" as_recipe.log && fail "a sample as its recipe says is told as another"
+grep -q "its porosity before calendering" as_recipe.log && fail "a sample as its recipe says is reported as another"
 grep -qE "^ *p50 +total porosity before" as_recipe.log || fail "the porosity before calendering is not compared"
 sed 's/^hours = 5/hours = -5/' bank.toml >price.toml
 refuses "hours is -5" experiment.toml --bank price.toml --table bank.csv
@@ -74,7 +74,7 @@ refuses "hours is -5" experiment.toml --bank price.toml --table bank.csv
 # The bank that ships, and the paper's electrode, whose film is thicker.
 diagnose "$here/../../../input_scripts/cases/paper/experiment.toml" -o table_1 --no-rerun >table_1.log ||
   fail "the shipped bank cannot diagnose Table 1"
-grep -q "shifted by 100 % of what 3 runs of 17.46 mg/cm2 differ by" table_1.log || fail "the film's thickness is not told"
+grep -q "shifted by 100 % of what 3 runs of 17.46 mg/cm2 differ by" table_1.log || fail "the film's thickness is not reported"
 
 # Friction is what the table's experiment was made with; samples at 30 and 40 MPa train, 50 MPa is held out.
 sed 's/^sample_diameter_mm.*/&\nsplit = { train = ["p30", "p40"], test = ["p50"] }/' experiment.toml >split.toml
@@ -83,7 +83,7 @@ for field in before after fraction interval90 noise_floor runner_up unexplained 
   grep -q "^  \"$field\": " far/gap.json || fail "shrink has no '$field'"
 done
 for role in before after runner-up; do
-  grep -q "^  $role " far.log || fail "$role is not told"
+  grep -q "^  $role " far.log || fail "$role is not reported"
   grep -qF "\"role\": \"$role\"" far/gap.json || fail "gap.json lacks the model $role"
 done
 runs=$(find far/rerun/runs -name summary.json | wc -l)
@@ -123,4 +123,4 @@ grep -q "Label images of what was held out" seen/gap.html || fail "the page does
 grep -q "^  p50 *macro porosity, image after, %" seen.log || fail "the terminal does not show the image"
 rm -r seen/rerun/runs/"${ids[1]}"/vtk
 diagnose seen.toml -o seen --bank bank.toml --packings 2 >seen.log || fail "exit status $?"
-grep -q "^- p50: the runs have no value for macro porosity, image after.*${ids[1]}" seen.log || fail "lost frames are not told"
+grep -q "^- p50: the runs have no value for macro porosity, image after.*${ids[1]}" seen.log || fail "lost frames are not reported"

@@ -40,7 +40,7 @@ cat calendering-*.log
 [ -z "$(squeue -h)" ] || fail "the chain does not end: $(squeue)"
 [ "$(find . -name 'calendering-*.log' | wc -l)" = 2 ] || fail "there should be a job and one successor that ran"
 [ -s "$work/out/final.restart" ] || fail "no final.restart"
-grep -q "done, $work/out/final.restart is written" calendering-*.log || fail "the end is not told"
+grep -q "done, $work/out/final.restart is written" calendering-*.log || fail "the end is not reported"
 
 for part in compression relaxation; do # as the heads of the scripts say, from the folder of the repository
   "$bin/liggghts" -in input_scripts/in.$part -log none -var electrode "$electrode" -var out "$work/whole" \

@@ -116,7 +116,7 @@ cat "$work/said"
 says "3 runs in the queue already" "2 of 3 runs done" "run 2: failed, task" "ended as FAILED" \
   "slurm/runs.2.log; see $work/out/runs/${runs[1]}.log"
 if grep -q submitted "$work/said"; then fail "what was in the queue was submitted again"; fi
-grep -q "exited on signal 9" "$work/out/runs/${runs[1]}.log" || fail "the log does not tell why"
+grep -q "exited on signal 9" "$work/out/runs/${runs[1]}.log" || fail "the log does not say why"
 
 expect 0 "${slurm[@]}"
 says "runs.sh submitted as job" "tasks 2" "3 of 3 runs done"

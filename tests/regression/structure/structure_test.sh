@@ -42,6 +42,6 @@ case $case in
     "$bin/calendem" pack "$work/cut.toml" -o "$work/from_cut" 2>"$work/said" || status=$?
     cat "$work/said"
     [ $status -eq 2 ] || fail "exit status $status for a file that is cut"
-    grep -q 'announces 63 atoms, the section Atoms has 19 rows' "$work/said" || fail "the cut was not told"
+    grep -q 'announces 63 atoms, the section Atoms has 19 rows' "$work/said" || fail "the truncation was not reported"
     [ ! -e "$work/from_cut" ] || fail "a folder was made for nothing" ;;
 esac

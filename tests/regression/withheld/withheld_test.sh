@@ -34,7 +34,7 @@ make_round() { withheld make "$work/round.toml" -o "$work/round" --seed 1; }
 make_round
 [ "$(names "$work/round/handed_out")" = 001,002,003,004,commitment.json ] || fail "not the cases of the round"
 
-# What is handed out tells nothing: no name, seed, salt or hash of the truth, and of the runs.
+# What is handed out reveals nothing: no name, seed, salt or hash of the truth, and of the runs.
 { "$bin/calendem" effects | awk '/^[a-z]/ { print $1 }'
   printf '%s\n' displacement_scale unknown noise null fault '"open"' sealed
   grep -oE '"(salt|handed_out_sha256)": "?[0-9a-f]+' "$work/round/sealed/truth.json" | grep -oE '[0-9a-f]+$'
@@ -42,9 +42,9 @@ make_round
   cat "$work/round/sealed/secret" && echo
   find "$work/round/sealed/study" -maxdepth 2 -type d -printf '%f\n' | grep -E '^[0-9a-f]{16}$'
 } | sort -u >"$work/words"
-[ "$(wc -l <"$work/words")" -gt 30 ] || fail "the list of what may not be told is short"
-if grep -rnFf "$work/words" "$work/round/handed_out"; then fail "what is handed out tells the truth"; fi
-if find "$work/round/handed_out" -printf '%P\n' | grep -Ff "$work/words"; then fail "a name tells the truth"; fi
+[ "$(wc -l <"$work/words")" -gt 30 ] || fail "the list of what must stay secret is short"
+if grep -rnFf "$work/words" "$work/round/handed_out"; then fail "what is handed out reveals the truth"; fi
+if find "$work/round/handed_out" -printf '%P\n' | grep -Ff "$work/words"; then fail "a name reveals the truth"; fi
 
 refused 2 "truths lie within reach" answer "$work/round/handed_out" "$work/answers"
 mkdir "$work/given"
@@ -67,7 +67,7 @@ done
 
 withheld score "$work/round" "$work/answers" -o "$work/scores"
 for file in scores.json scores.md scores.html; do [ -s "$work/scores/$file" ] || fail "no $file"; done
-grep -q "false claims on nulls | .* | 2 | 1 | <= 0.03" "$work/scores/scores.md" || fail "two draws of one null packing are not told"
+grep -q "false claims on nulls | .* | 2 | 1 | <= 0.03" "$work/scores/scores.md" || fail "two draws of one null packing are not counted as one truth"
 
 # The same command makes nothing again, and hands out the same.
 make_round >"$work/again.log"

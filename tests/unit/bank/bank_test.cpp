@@ -233,8 +233,8 @@ TEST(Bank, TheTableReadsBackAsWritten) {
   EXPECT_THROW(read_bank_table(spec, file), Failure);
 }
 
-// Thin films yield in jerks; a curve that is read from the table has them where the run had them.
-TEST(Bank, AJerkStaysWhereItWas) {
+// Thin films yield in steps; a curve read from the table has them where the run had them.
+TEST(Bank, AStepStaysWhereItWas) {
   const BankSpec spec = spec_of(kBank + kParameters);
   SimulatedRun run = some_run(80, 1);
   run.pressure = {1.0, 37.1, 37.2, 80.0};
@@ -255,7 +255,7 @@ TEST(Bank, RowsThatAreNoPointAreTold) {
   const BankTable table = {spec, {{{"", 3, 1, {200}, 0.0}, some_run(80, 1)}}};
   const std::string text = write_bank_table(table), file = (test_folder() / "bank.csv").string();
   ASSERT_NE(text.find("\n,3,1,200,,"), std::string::npos) << text;
-  for (const auto &[row, told] : std::map<std::string, std::string>{
+  for (const auto &[row, reported] : std::map<std::string, std::string>{
            {"\n,,1,200,,", "'base_point' is no number"},
            {"\n,3,1e99,200,,", "'packing' is 1e+99; it is a whole number from 1 to 10000"},
            {"\n,2.5,1,200,,", "'base_point' is 2.5; it is a whole number from 0"},
@@ -270,7 +270,7 @@ TEST(Bank, RowsThatAreNoPointAreTold) {
       ADD_FAILURE() << row;
     } catch (const Failure &f) {
       EXPECT_EQ(f.exit_status(), kBadInput);
-      EXPECT_NE(std::string(f.what()).find(told), std::string::npos) << f.what();
+      EXPECT_NE(std::string(f.what()).find(reported), std::string::npos) << f.what();
     }
   }
 }

@@ -67,18 +67,18 @@ TEST(FindGap, WithoutAnyDeviationThereIsNoZ) {
 
 TEST(FindGap, AnotherElectrodeIsTold) {
   SimulatedRun r = pressed_to(150, 0.28, "a");
-  const auto told = [&r] {
+  const auto reported = [&r] {
     const std::vector<std::string> texts = find_gap(paper(), {r}).not_said;
     return texts[0].find("its electrode is not the experiment's; density.am_g_cm3: 2.2 instead of "
                          "4.65") != std::string::npos;
   };
   r.recipe = paper().recipe.settings.all();
   r.recipe["coating.loading_mg_cm2"] = "8"; // that may differ
-  EXPECT_FALSE(told());
+  EXPECT_FALSE(reported());
   r.recipe["density.am_g_cm3"] = "2.2";
-  EXPECT_TRUE(told());
+  EXPECT_TRUE(reported());
   r.recipe["structure.file"] = "film.data"; // its particles are not the recipe's
-  EXPECT_FALSE(told());
+  EXPECT_FALSE(reported());
 }
 
 TEST(FindGap, NothingToCompareTellsWhy) {
@@ -94,15 +94,15 @@ TEST(FindGap, NothingToCompareTellsWhy) {
 
 TEST(FindGap, WhatWasImposedIsTold) {
   SimulatedRun r = pressed_to(150, 0.28, "a");
-  const auto told = [&r] {
+  const auto reported = [&r] {
     const Gap gap = find_gap(paper(), {r});
     return std::any_of(gap.not_said.begin(), gap.not_said.end(), [&r](const std::string &text) {
       return text.find(r.folder + ": the nanoporosity of CBD is imposed, not") == 0;
     });
   };
-  EXPECT_FALSE(told());
+  EXPECT_FALSE(reported());
   r.imposed = "imposed, not predicted: from 50 to 27 % at 150 MPa";
-  EXPECT_TRUE(told());
+  EXPECT_TRUE(reported());
 }
 
 TEST(FindGap, PressureCountsByTheSlopeOfTheRun) {

@@ -104,15 +104,15 @@ TEST_F(ImageObservables, ARunWithoutFramesHasNoValue) {
     EXPECT_NE(o.why_none(run).find("no_run"), std::string::npos) << o.why_none(run);
   }
   experiment_.conditions[1].labels_after = (folder_ / "after.mha").string();
-  int told = 0;
+  int reported = 0;
   for (const std::string &text : find_gap(experiment_, {run}).not_said)
     if (text.find("no value for") != std::string::npos) {
-      ++told;
+      ++reported;
       for (const Observable &o : list)
         EXPECT_NE(text.find(o.name), std::string::npos) << text;
       EXPECT_NE(text.find(": " + list[0].why_none(run)), std::string::npos) << text;
     }
-  EXPECT_EQ(told, 1);
+  EXPECT_EQ(reported, 1);
 }
 
 // Requirement: 12 voxels of 0.04 um are 4 of the finest that is compared: too few.

@@ -12,7 +12,7 @@ using namespace calendem_test;
 
 const BankPoint kTruth = {"", 0, 99, {1.5, 250.0}, 0.0};
 
-bool told(const ExperimentData &data, const std::string &part) {
+bool reported(const ExperimentData &data, const std::string &part) {
   return std::any_of(data.not_said.begin(), data.not_said.end(),
                      [&](const std::string &s) { return s.find(part) != std::string::npos; });
 }
@@ -59,10 +59,10 @@ TEST(ExperimentData, ConditionsThatTheBankLacksAreTold) {
   for (const char *part :
        {"p60: the bank's runs do not dwell; its 5 s", "p60: label images",
         "p90: 90 MPa lies outside the bank's 30 to 60 MPa", "d: control = \"displacement\""})
-    EXPECT_TRUE(told(data, part)) << part;
+    EXPECT_TRUE(reported(data, part)) << part;
 }
 
-// As the bank's own run would show it, told where the bank has none.
+// As the bank's own run would show it, reported where the bank has none.
 TEST(ExperimentData, TheReleaseOfACurveCountsWhereTheBankHasReleases) {
   Experiment e = made_experiment(kTruth);
   e.conditions.resize(1);
@@ -89,10 +89,10 @@ TEST(ExperimentData, TheReleaseOfACurveCountsWhereTheBankHasReleases) {
                   1e-5); // the file's digits
     }
   EXPECT_EQ(released, 3);
-  EXPECT_FALSE(told(data, "unloading curve"));
+  EXPECT_FALSE(reported(data, "unloading curve"));
   const ExperimentData without = data_of(e, bank, {});
   EXPECT_EQ(without.experiment.of.size(), data.experiment.of.size() - 3);
-  EXPECT_TRUE(told(without, "p30: the bank's table has no displacements on release"));
+  EXPECT_TRUE(reported(without, "p30: the bank's table has no displacements on release"));
 }
 
 // One point of friction whose release ends early costs that point; a base point's costs the
@@ -126,7 +126,7 @@ TEST(ExperimentData, AnEffectsPointThatLacksWhatOthersHaveIsLeftOut) {
   const ExperimentData without_one = cut("friction"), without_base = cut("");
   EXPECT_EQ(without_one.experiment.of.size(), whole.experiment.of.size());
   EXPECT_EQ(of_friction(without_one), of_friction(whole) - 1);
-  EXPECT_TRUE(told(without_one, "1 of the bank's 36 points lack what nearly all others have"));
+  EXPECT_TRUE(reported(without_one, "1 of the bank's 36 points lack what nearly all others have"));
   EXPECT_LT(without_base.experiment.of.size(), whole.experiment.of.size());
   EXPECT_EQ(of_friction(without_base), of_friction(whole));
 }
@@ -142,7 +142,7 @@ TEST(ExperimentData, PointsThatLackARunAreLeftOutWithTheirEffect) {
   const std::size_t whole = data_of(made_experiment(kTruth), table, {}).bank.runs.size();
   table.rows.erase(table.rows.begin()); // base point 0 to 30 MPa; friction stands beside it
   const ExperimentData data = data_of(made_experiment(kTruth), table, {});
-  EXPECT_TRUE(told(data, "2 of the bank's 36 points lack a run"));
+  EXPECT_TRUE(reported(data, "2 of the bank's 36 points lack a run"));
   EXPECT_EQ(data.bank.runs.size(), whole - 3); // base, friction, and what thickness_zero made of it
 }
 
@@ -193,7 +193,7 @@ TEST(ExperimentData, AnEffectOfFewPointsIsLeftOutAndTold) {
   table.rows.erase(std::remove_if(table.rows.begin(), table.rows.end(), beyond_four),
                    table.rows.end());
   const ExperimentData data = data_of(made_experiment(kTruth), table, {});
-  EXPECT_TRUE(told(data, "4 points of friction, fewer than the 5"));
+  EXPECT_TRUE(reported(data, "4 points of friction, fewer than the 5"));
   ASSERT_EQ(data.bank.effects.size(), 1u);
   for (const inference::BankRun &run : data.bank.runs)
     EXPECT_NE(run.effect, "friction");
@@ -218,12 +218,13 @@ TEST(ExperimentData, LoadingErrorIsCommonToACondition) {
   EXPECT_EQ(s(0, 2), 0.0);
 }
 
-// Micrometres of a film say nothing of another: without a loading the recipe's is taken, and told.
+// Micrometres of one film do not apply to another: without a loading the recipe's is taken, and
+// reported.
 TEST(ExperimentData, AnotherFilmIsComparedOverItsSolid) {
   Experiment e = made_experiment(kTruth);
   e.recipe.loading *= 2.0;
   const ExperimentData data = data_of(e, made_bank(), {});
-  EXPECT_TRUE(told(data, "its mass or loading is not given; taken is the recipe's"));
+  EXPECT_TRUE(reported(data, "its mass or loading is not given; taken is the recipe's"));
   bool over_solid = false;
   for (const inference::ObservableId &o : data.experiment.of) {
     EXPECT_NE(o.name, "thickness");
@@ -297,16 +298,16 @@ TEST(ExperimentData, EffectsThatTheBankHasNoRunsOfAreTold) {
   const BankTable table = made_bank();
   const ExperimentData data = data_of(made_experiment(kTruth), table, {});
   const auto &own = table.spec.effects;
-  int told = 0;
+  int reported = 0;
   for (const std::string &text : data.not_said)
     if (text.rfind("Cannot be named", 0) == 0) {
-      ++told;
+      ++reported;
       for (const Effect &e : effects())
         EXPECT_EQ(text.find(e.name) == std::string::npos,
                   std::find(own.begin(), own.end(), e.name) != own.end())
             << e.name << " in: " << text;
     }
-  EXPECT_EQ(told, 1);
+  EXPECT_EQ(reported, 1);
 }
 
 TEST(ExperimentData, NumbersAreToldWithUnitAndPressure) {

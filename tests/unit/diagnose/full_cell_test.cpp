@@ -42,31 +42,31 @@ struct Films {
 };
 
 TEST(FullCell, AFilmOfItsLoadingIsShiftedByTheMeanDifference) {
-  std::vector<std::string> told;
+  std::vector<std::string> reported;
   const Films f(18.0);
-  const FullCellChange t = full_cell_change(f.experiment, f.bank, f.covered, told);
+  const FullCellChange t = full_cell_change(f.experiment, f.bank, f.covered, reported);
   ASSERT_EQ(t.change.size(), 1);
   EXPECT_NEAR(t.change[0], -0.05, 1e-15);
   // variance of -0.04 and -0.06 is 2e-4; that of a third about their mean 1.5 times as large
   EXPECT_NEAR(t.covariance(0, 0), 3e-4, 1e-15);
-  EXPECT_EQ(told.size(), 1u);
+  EXPECT_EQ(reported.size(), 1u);
 }
 
 TEST(FullCell, TheShiftGoesWithOneOverLoading) {
-  std::vector<std::string> told;
+  std::vector<std::string> reported;
   const Films own(6.0), between(9.0); // 1/6, 1/9 and 1/18: half way
-  EXPECT_EQ(full_cell_change(own.experiment, own.bank, own.covered, told).change[0], 0.0);
+  EXPECT_EQ(full_cell_change(own.experiment, own.bank, own.covered, reported).change[0], 0.0);
   const FullCellChange t =
-      full_cell_change(between.experiment, between.bank, between.covered, told);
+      full_cell_change(between.experiment, between.bank, between.covered, reported);
   EXPECT_NEAR(t.change[0], -0.025, 1e-15);
   EXPECT_NEAR(t.covariance(0, 0), 0.25 * 3e-4, 1e-15);
 }
 
 TEST(FullCell, OnePointIsTooFew) {
-  std::vector<std::string> told;
+  std::vector<std::string> reported;
   Films f(18.0);
   f.bank.rows.pop_back();
-  EXPECT_EQ(full_cell_change(f.experiment, f.bank, f.covered, told).change.size(), 0);
+  EXPECT_EQ(full_cell_change(f.experiment, f.bank, f.covered, reported).change.size(), 0);
 }
 
 } // namespace

@@ -44,7 +44,7 @@ TEST(Further, EveryConditionThatLacksAKindIsInIt) {
   EXPECT_NEAR(thickness->covariance(0, 0), 1.0, 1e-12); // um
 }
 
-// Only a bank that has releases can foretell them: at 25, 50 and 75 % of each pressure.
+// Only a bank that has releases can predict them: at 25, 50 and 75 % of each pressure.
 TEST(Further, ReleasesThatTheBankHasCanBeMeasured) {
   const std::string what = "displacement while the pressure falls: p30, p60";
   const BankTable bank = made_bank(), with = with_release(made_bank());

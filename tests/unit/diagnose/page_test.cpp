@@ -46,7 +46,7 @@ TEST(DiagnosisPage, PredictionsStandBesideWhatWasMeasured) {
   EXPECT_EQ(predictions["observables"][0]["unit"], "%");
 }
 
-TEST(DiagnosisPage, WhereHasUnitsAndTheListOfWhatTheBankCannotForetell) {
+TEST(DiagnosisPage, WhereHasUnitsAndTheListOfWhatTheBankCannotPredict) {
   for (const auto &row : friction().gap["where"])
     EXPECT_TRUE(row.contains("unit")) << row.dump();
   EXPECT_EQ(friction().gap["which"]["not_in_bank"].size(), 6u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the bank that is shipped can tell.
+// What the shipped bank can distinguish.
 #include "diagnose/diagnose.h"
 #include "diagnose/inference/hypothesis.h"
 #include "diagnose/inference/which.h"

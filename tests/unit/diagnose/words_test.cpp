@@ -42,7 +42,7 @@ TEST(ClaimInWords, EveryClaimSaysWhatItMeansAndWhatToDo) {
   expect_parts(claimed("unknown"), {"no known effect", "here: relaxation", "Do not recalibrate"});
   Json alike = claimed("unknown");
   alike["which"]["evidence"][0]["place"] = "like friction";
-  expect_parts(alike, {"It acts most like friction, but not just so."});
+  expect_parts(alike, {"It acts most like friction, but friction does not fit."});
   expect_parts(claimed("undecided"), {"friction; none", "Measure: cracks of p30", "83 %", "50 %"});
 }
 
@@ -51,10 +51,10 @@ TEST(ClaimInWords, UndecidedSaysWhetherAnythingStandsOutAndCountsALongList) {
   EXPECT_EQ(all_of(claim_in_words(gap)).find("out of the noise"), std::string::npos);
   gap["where"][0]["significant"] = false;
   gap["which"]["set95"] = {"a", "b", "c", "d", "e", "f", "g"};
-  expect_parts(gap, {"No difference stands out of the noise", "a; b; c; d; e; 2 more."});
+  expect_parts(gap, {"No difference is significant", "a; b; c; d; e; 2 more."});
 }
 
-TEST(ClaimInWords, AMeasurementThatTellsNothingIsNotAskedFor) {
+TEST(ClaimInWords, AnUninformativeMeasurementIsNotProposed) {
   Json gap = claimed("undecided");
   gap["which"]["next_measurement"]["expected_probability"] = 0.505;
   EXPECT_EQ(all_of(claim_in_words(gap)).find("Measure: "), std::string::npos);
@@ -77,7 +77,7 @@ TEST(ClaimInWords, AnEffectIsSwitchedOnAndAnInstrumentIsChecked) {
 }
 
 // A reciprocal amplitude: 1/GPa. The strongest effect is the smallest yield pressure.
-TEST(Tell, AmplitudesBecomeValuesOfTheKeyWithTheSmallerEndFirst) {
+TEST(PutInWords, AmplitudesBecomeValuesOfTheKeyWithTheSmallerEndFirst) {
   Json gap = claimed("nmc_plasticity");
   gap["predictions"] = {{"best", "nmc_plasticity"}, {"observables", Json::array()}};
   gap["fitted_effects"] = Json::array({{{"effect", "nmc_plasticity"},

@@ -44,10 +44,10 @@ TEST(BankTable, EveryMistakeIsTold) {
   text.replace(text.find("strength"), 8, "strenght");
   text.replace(text.find("broken"), 6, "brocken");
   text += "plasticity,p9\n";
-  const std::string told = message_of([&] { read_table(bank, text, "bank.csv"); });
-  EXPECT_NE(told.find("'strength' is missing"), std::string::npos) << told;
-  EXPECT_NE(told.find("'broken|compression|p150|0' is missing"), std::string::npos) << told;
-  EXPECT_NE(told.find("26"), std::string::npos) << told; // the line
+  const std::string reported = message_of([&] { read_table(bank, text, "bank.csv"); });
+  EXPECT_NE(reported.find("'strength' is missing"), std::string::npos) << reported;
+  EXPECT_NE(reported.find("'broken|compression|p150|0' is missing"), std::string::npos) << reported;
+  EXPECT_NE(reported.find("26"), std::string::npos) << reported; // the line
 }
 
 TEST(Bank, RunsThatCannotServeAreTold) {

@@ -68,7 +68,7 @@ TEST(GaussianProcess, SaysHowWrongItIs) {
   EXPECT_LT(sum, 2.0);
 }
 
-// Eight runs cannot tell a weak effect from their noise; what is known of the noise keeps a ninth
+// Eight runs cannot resolve a weak effect in their noise; what is known of the noise keeps a ninth
 // within what is stated. Its squared error over the stated variance has the mean nu / (nu - 2) of a
 // t distribution: nu = 7 from the runs and 2 / 0.7^2 from the prior of the noise's logarithm, 1.22;
 // 400 banks give it within 0.1.
@@ -276,7 +276,7 @@ TEST(FeatureMap, KeepsWhatIsOutsideTheSpan) {
   }
   EXPECT_NEAR(sum, 0.0, 3.0 / std::sqrt(kDraws));
   EXPECT_NEAR(square, 1.0, 3.0 * std::sqrt(2.0 / kDraws));
-  // Errors three times as large shift it as foretold: all that lies there is measurement.
+  // Errors three times as large shift it as predicted: all that lies there is measurement.
   sum = square = 0.0;
   const NormalMoments larger = score_moments(map.roughness()[0].measured, 3.0);
   EXPECT_EQ(map.roughness()[0].feature, 2);
@@ -303,7 +303,7 @@ TEST(FeatureMap, TruncationResidualOfMixedDirections) {
   mixed.head(5).setOnes();
   EXPECT_NEAR(score_moments(mixed, 1.0).mean, 0.0, 1e-12);
   EXPECT_NEAR(score_moments(mixed, 1.0).variance, 1.0, 1e-12);
-  const NormalMoments foretold = score_moments(mixed, 3.0);
+  const NormalMoments predicted = score_moments(mixed, 3.0);
   Random random(8, 2);
   double sum = 0.0, square = 0.0;
   const int kDraws = 20000;
@@ -316,8 +316,8 @@ TEST(FeatureMap, TruncationResidualOfMixedDirections) {
     square += z * z / kDraws;
   }
   const double sd = std::sqrt(square - sum * sum);
-  EXPECT_NEAR(sum, foretold.mean, 0.05 * sd);
-  EXPECT_NEAR(sd, std::sqrt(foretold.variance), 0.05 * sd);
+  EXPECT_NEAR(sum, predicted.mean, 0.05 * sd);
+  EXPECT_NEAR(sd, std::sqrt(predicted.variance), 0.05 * sd);
 }
 
 TEST(FeatureMap, GivesSmoothCurvesBackAndScalarsUnchanged) {

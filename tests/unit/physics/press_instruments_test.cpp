@@ -23,7 +23,7 @@ TEST(PressInstruments, ShowFactorStretchAndZero) {
   EXPECT_DOUBLE_EQ(press.thickness_shown(50.0), 48.5);
 }
 
-// A film of stiffness k [kPa/um] on a machine of compliance C, told to go down by d: the film is
+// A film of stiffness k [kPa/um] on a machine of compliance C, set to go down by d: the film is
 // compressed by x with x + C k x = d.
 TEST(PlatenOfASoftMachine, StopsWhereItsDisplacementIsShown) {
   PlatenProgramme p;
@@ -43,7 +43,7 @@ TEST(PlatenOfASoftMachine, StopsWhereItsDisplacementIsShown) {
 }
 
 // Requirement: it does so by the pressure at the platen's position, though the averaged one is of
-// half a window ago: the film is compressed as told, within one block of the average.
+// half a window ago: the film is compressed as set, within one block of the average.
 TEST(PlatenOfASoftMachine, KnowsThatItsPressureLags) {
   PlatenProgramme p;
   p.control = PlatenControl::Position;

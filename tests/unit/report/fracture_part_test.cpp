@@ -70,12 +70,12 @@ TEST_F(FracturePart, ChartsByHand) {
   EXPECT_EQ(cracked.series[1].y, (Column{0, 50})); // cracked
   EXPECT_EQ(cracked.series[2].y, (Column{0, 25})); // split
   EXPECT_EQ(crack_surface(runs).series[1].y, (Column{0, 20}));
-  const Chart told = thresholds(runs[0], true);
-  ASSERT_EQ(told.series.size(), 4u);
-  EXPECT_EQ(told.series[0].y, Column{20}); // 2 of 10 apart, but below
-  EXPECT_EQ(told.series[1].y, Column{10}); // 1 above, but whole
-  EXPECT_EQ(told.series[2].y, Column{10}); // 1 split, but below
-  EXPECT_EQ(told.series[3].y, Column{20}); // 5 above, 3 of them split
+  const Chart chart = thresholds(runs[0], true);
+  ASSERT_EQ(chart.series.size(), 4u);
+  EXPECT_EQ(chart.series[0].y, Column{20}); // 2 of 10 apart, but below
+  EXPECT_EQ(chart.series[1].y, Column{10}); // 1 above, but whole
+  EXPECT_EQ(chart.series[2].y, Column{10}); // 1 split, but below
+  EXPECT_EQ(chart.series[3].y, Column{20}); // 5 above, 3 of them split
 }
 
 // The body with most broken bonds, and its breaks against the platen's way.
@@ -125,7 +125,7 @@ TEST_F(FracturePart, FateIsDrawn) {
   EXPECT_NE(before, draw_stages(run)[1].png);
 }
 
-// A run of an earlier version has no charts of fracture; damaged tables are told.
+// A run of an earlier version has no charts of fracture; damaged tables are reported.
 TEST_F(FracturePart, OldAndDamagedTables) {
   made(150, false);
   write("thresholds.csv", "threshold_percent,above\n5,4\n");

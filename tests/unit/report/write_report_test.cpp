@@ -130,7 +130,7 @@ TEST_F(WriteReport, ComparesWithThePaper) {
   EXPECT_TRUE(rows[7]["cells"][1]["value"].is_null()); // b never sees 146 MPa
 }
 
-// Requirement: the page tells how far contacts are beyond the range of their law; twin and page
+// Requirement: the page reports how far contacts are beyond the range of their law; twin and page
 // agree, and what a run does not know is a dash.
 TEST_F(WriteReport, ShowsTheRangeOfTheContactLaw) {
   make_run(path("run"), small_);

@@ -90,7 +90,7 @@ TEST(Sample, OneGapIsStifferThanOnePressure) {
   FAIL() << "no gap of " << at.gap;
 }
 
-// Yielding in jerks, a cell has a pressure where it first meets it; released, where it last does.
+// A cell that yields in steps has a pressure where it first meets it; released, where it last does.
 TEST(Sample, AJaggedCellHasAPressureWhereItFirstMeetsIt) {
   const PressedCell cell = {
       10.0, {{10.0, 9.0, 8.0, 7.0}, {0.0, 4.0, 2.0, 6.0}}, {{7.5, 8.0, 8.5}, {3.0, 5.0, 0.0}}};

@@ -102,7 +102,7 @@ TEST(Slurry, MistakesOfTheFileAreTold) {
             "");
 }
 
-// A film of known spheres: 1 - solid/(area thickness), and what is told when it is not the
+// A film of known spheres: 1 - solid/(area thickness), and what is reported when it is not the
 // recipe's.
 TEST(DriedFilm, PorosityOfKnownSpheresAndItsCheck) {
   const FilmRecipe f = film_of(kPaper);

@@ -174,7 +174,7 @@ TEST(ParticleData, TheFirstTenMistakesAreToldTheOthersCounted) {
   EXPECT_EQ(said.find(":22:"), std::string::npos);
 }
 
-// Without '# hybrid' the columns of the other style are told from what they hold.
+// Without '# hybrid' the columns of the other style are inferred from their contents.
 TEST(ParticleData, ColumnsOfAnotherStyleAreFoundOut) {
   std::string text = bytes_of(kData + "lammps_cluster.data");
   text = replaced(text, "Atoms # hybrid", "Atoms");

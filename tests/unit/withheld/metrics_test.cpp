@@ -90,16 +90,18 @@ TEST(Scores, ShrinkageIsJudgedWhereModelsWereRunAgain) {
 
 TEST(Scores, BaselinesMustBeBeaten) {
   const std::vector<Metric> m = metrics_of(round_by_hand());
-  const Metric ours = named(m, "told right, mean of nulls and effects: the diagnosis");
+  const Metric ours = named(m, "identified correctly, mean of nulls and effects: the diagnosis");
   EXPECT_DOUBLE_EQ(ours.value, 0.5 * (0.75 + 0.5));
-  EXPECT_DOUBLE_EQ(named(m, "told right, mean of nulls and effects: always none").value, 0.5);
-  EXPECT_DOUBLE_EQ(named(m, "told right, mean of nulls and effects: BIC").value, 0.5);
+  EXPECT_DOUBLE_EQ(named(m, "identified correctly, mean of nulls and effects: always none").value,
+                   0.5);
+  EXPECT_DOUBLE_EQ(named(m, "identified correctly, mean of nulls and effects: BIC").value, 0.5);
   EXPECT_EQ(ours.verdict, Metric::met);
   std::vector<ScoredCase> worse = round_by_hand();
   for (ScoredCase &c : worse)
     c.baselines["oracle"] = c.truth;
   EXPECT_EQ(
-      named(metrics_of(worse), "told right, mean of nulls and effects: the diagnosis").verdict,
+      named(metrics_of(worse), "identified correctly, mean of nulls and effects: the diagnosis")
+          .verdict,
       Metric::missed);
 }
 

@@ -34,7 +34,7 @@ RehearsalOptions part_of_shipped(int packings, const std::filesystem::path &fold
 }
 
 // Seven packings with three base points and one run of friction each; friction is what shows most
-// in a bank: it is the most probable wherever it is strong enough to be told from none.
+// in a bank: it is the most probable wherever it is strong enough to be distinguished from none.
 TEST(Rehearsal, EveryPackingIsLeftOutOnce) {
   const auto folder = calendem_test::test_folder();
   RehearsalOptions o = part_of_shipped(7, folder);
@@ -67,7 +67,7 @@ TEST(Rehearsal, EveryPackingIsLeftOutOnce) {
 // Nothing is left out: one sample of the base model in each draw, two diagnoses of every effect's
 // (friction, and two faults of measurements that no bank needs runs of). The larger the sample,
 // the less packings scatter, the smaller what can be seen.
-TEST(Rehearsal, DrawnSamplesAreWhatTheBankForetells) {
+TEST(Rehearsal, DrawnSamplesAreWhatTheBankPredicts) {
   const auto folder = calendem_test::test_folder();
   RehearsalOptions o = part_of_shipped(7, folder);
   o.draws = 2;

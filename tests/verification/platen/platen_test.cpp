@@ -372,11 +372,11 @@ TEST(VerificationPlaten, SameForceAsAMovingMesh) {
 }
 
 // A machine that gives way by C per pressure stops when film and machine together have moved as far
-// as it was told: d = x + C P(x), on the closed curve of the column.
+// as it was set: d = x + C P(x), on the closed curve of the column.
 TEST(VerificationPlaten, ASoftMachineStopsByWhatItShows) {
   const std::vector<BodySphere> spheres = column(spacing(false), false);
-  const double top = top_of(spheres) + kGap, told = 0.06, compliance = 4e-6, speed = 0.005;
-  Settings of_motion = motion("position", top - told, top, speed);
+  const double top = top_of(spheres) + kGap, set_by = 0.06, compliance = 4e-6, speed = 0.005;
+  Settings of_motion = motion("position", top - set_by, top, speed);
   of_motion.insert({"compliance", number(compliance)});
   const CaseRun run = press(spheres, of_motion,
                             {{"bonded", "0"},
@@ -385,16 +385,16 @@ TEST(VerificationPlaten, ASoftMachineStopsByWhatItShows) {
                              {"steps", "140000"},
                              {"every", "100"}});
   ASSERT_TRUE(run.finished()) << run.why();
-  double low = 0.0, high = told;
+  double low = 0.0, high = set_by;
   while (high - low > 1e-12) {
     const double x = 0.5 * (low + high), load = load_of(std::fmax(x - 2 * kGap, 0.0), false);
-    (x + compliance * load / (kSide * kSide) < told ? low : high) = x;
+    (x + compliance * load / (kSide * kSide) < set_by ? low : high) = x;
   }
   double moved = 0.0;
   for (const Row &r : run.rows("platen.csv"))
     moved = std::fmax(moved, r.at("moved"));
-  std::printf("soft machine: film compressed by %.5f of %.5f um told, %.5f by hand\n", moved, told,
+  std::printf("soft machine: film compressed by %.5f of %.5f um set, %.5f by hand\n", moved, set_by,
               low);
-  EXPECT_LT(low, 0.9 * told);
+  EXPECT_LT(low, 0.9 * set_by);
   EXPECT_NEAR(moved, low, 0.25 * speed); // the averaging window's way at most
 }

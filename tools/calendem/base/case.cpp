@@ -158,7 +158,7 @@ void check_target(const Settings &s, Mistakes &mistakes) {
                              key, s.number(key)));
 }
 
-/// What a roll cannot do, or is told in another way.
+/// Settings a roll does not support or takes under another key.
 void check_roll(const Settings &s, Mistakes &mistakes) {
   const std::string load = "roll.line_load_N_mm";
   if (!s.sound({"platen.control"}))

@@ -79,9 +79,9 @@ int run_program(const std::vector<std::string> &words, const std::string &log) {
   program.append = true;
   const pid_t pid = start_child(program);
   int status = 0;
-  for (bool told = false; waitpid(pid, &status, WNOHANG) == 0;) {
-    if (stop_requested() && !told)
-      told = kill(pid, SIGTERM) == 0;
+  for (bool signalled = false; waitpid(pid, &status, WNOHANG) == 0;) {
+    if (stop_requested() && !signalled)
+      signalled = kill(pid, SIGTERM) == 0;
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

@@ -38,7 +38,7 @@ struct ChildProgram {
 };
 
 /// Starts the program with an empty input, in a process group of its own: a terminal's Ctrl-C
-/// reaches this program only, which tells the child once (mpirun told twice leaves its ranks
+/// reaches this program only, which signals the child once (mpirun signalled twice leaves its ranks
 /// behind). Returns its process id. Throws Failure(2) if it cannot be started.
 pid_t start_child(const ChildProgram &child);
 

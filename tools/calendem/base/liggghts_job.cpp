@@ -44,7 +44,7 @@ pid_t start(const LiggghtsJob &job) {
   ChildProgram mpirun;
   mpirun.words = command_line(job);
   mpirun.output = job.screen;
-  // the host writes a forced restart file into its working folder when it is told to stop
+  // the host writes a forced restart file into its working folder when it is asked to stop
   mpirun.folder = std::filesystem::path(job.log).parent_path().string();
   mpirun.remedy = "Install OpenMPI (openmpi-bin) or load its module";
   return start_child(mpirun);
@@ -85,8 +85,8 @@ std::string reason_to_stop(const LiggghtsJob &job) {
   return "";
 }
 
-/// Waits; returns the reason if the job was stopped. mpirun is told once and takes its ranks along;
-/// told twice it leaves at once and the ranks go on without it.
+/// Waits; returns the reason if the job was stopped. mpirun is signalled once and stops its ranks;
+/// signalled twice it exits at once and the ranks keep running.
 std::string wait_for(pid_t pid, const LiggghtsJob &job, int &status,
                      const std::function<void()> &tick) {
   std::string stopped;

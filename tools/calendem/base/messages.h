@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How the command line tells a user what is wrong: all mistakes of a file at once, each with the
+// How the command line reports errors: all mistakes of a file at once, each with the
 // value received, what is allowed and what to do.
 #ifndef CALENDEM_BASE_MESSAGES_H
 #define CALENDEM_BASE_MESSAGES_H
@@ -31,7 +31,7 @@ std::string as_list(const std::vector<std::string> &texts);
 /// The mistakes of one file.
 class Mistakes {
 public:
-  /// Of the mistakes bound to a line the first `most` are told, the others counted: a long file of
+  /// Of the mistakes bound to a line the first `most` are listed, the rest counted: a long file of
   /// numbers has one for each row when it has one.
   explicit Mistakes(std::string file, int most = INT_MAX) : file_(std::move(file)), most_(most) {}
   /// `line` 0: not bound to a line.

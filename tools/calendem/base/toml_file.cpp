@@ -95,7 +95,7 @@ namespace {
 struct Described {
   FileKind kind;
   const char *what, *verbs;
-  std::vector<std::string> tables; ///< and keys that tell it, alone or together
+  std::vector<std::string> tables; ///< and keys that identify it, alone or together
 };
 
 const std::vector<Described> &kinds() {
@@ -121,8 +121,8 @@ bool has(const Described &d, std::string_view table) {
   return std::find(d.tables.begin(), d.tables.end(), table) != d.tables.end();
 }
 
-/// Tables and keys of the file that tell what it is.
-std::vector<std::string> telling(const toml::table &root) {
+/// Tables and keys of the file that identify its kind.
+std::vector<std::string> identifying_keys(const toml::table &root) {
   std::vector<std::string> out;
   for (const auto &[key, node] : root)
     if (std::any_of(kinds().begin(), kinds().end(),
@@ -135,7 +135,7 @@ std::vector<std::string> telling(const toml::table &root) {
 
 TomlFile parse_toml(const std::string &file, FileKind wanted, Mistakes &mistakes) {
   TomlFile out = parse_toml(file, mistakes);
-  const std::vector<std::string> found = telling(out.root);
+  const std::vector<std::string> found = identifying_keys(out.root);
   const auto fits = [&](const Described &d) {
     return std::all_of(found.begin(), found.end(),
                        [&](const std::string &name) { return has(d, name); });

@@ -31,7 +31,7 @@ void print(const Diagnosed &diagnosed) {
       fmt::print("  {:<44} {:5.1f} %   fits with p {:.2g}\n",
                  j.place.empty() ? j.hypothesis.name : j.hypothesis.name + ": " + j.place,
                  100.0 * j.probability, j.adequacy_p);
-  fmt::print("where, once recalibrated (beyond |z| = {:.1f} is no chance):\n", d.where.threshold);
+  fmt::print("where, once recalibrated (significant beyond |z| = {:.1f}):\n", d.where.threshold);
   for (const inference::WhereRow &r : d.where.rows) {
     const inference::Block &b = d.blocks[std::size_t(r.block)];
     fmt::print("  {:<8} {:<36} {:<12} z {:+6.1f}  {:3.0f} %{}\n", b.condition, b.name, b.stage, r.z,
@@ -39,7 +39,7 @@ void print(const Diagnosed &diagnosed) {
   }
   for (const inference::EmulatorQuality &q : d.emulators)
     if (q.poor)
-      fmt::print("- the bank says too little of {}: it cannot be claimed\n",
+      fmt::print("- the bank has too few runs of {}: it cannot be claimed\n",
                  q.effect.empty() ? "the base model" : q.effect);
   for (const std::string &text : diagnosed.data.not_said)
     fmt::print("- {}\n", text);
@@ -91,7 +91,7 @@ void how_far(Options &o, const Experiment &experiment, const BankTable &table, D
   o.rerun.study.folder = o.folder + "/rerun";
   d.gap["shrink"] = rerun(experiment, table, models, o.rerun);
   write_gap(d.gap, o.folder);
-  fmt::print("how far: as run again on {} packings that the bank has not\n", o.rerun.packings);
+  fmt::print("how far: as run again on {} packings that are not in the bank\n", o.rerun.packings);
   for (const auto &m : d.gap["shrink"]["models"])
     fmt::print("  {:<10} {:<32} {:.1f}\n", m["role"].get<std::string>(),
                m["hypothesis"].get<std::string>(), m["gap"]["value"].get<double>());

@@ -18,7 +18,7 @@ void print_list() {
   fmt::print("{:<22} {:<12} {}\n", "effect", "layer", "what it is");
   for (const Effect &e : effects())
     fmt::print("{:<22} {:<12} {}\n", e.name, e.layer, e.what);
-  fmt::print("\nOff is the base model. calendem effects NAME tells range, prior, what "
+  fmt::print("\nOff is the base model. calendem effects NAME shows range, prior, what "
              "it moves and where it comes from.\n");
 }
 
@@ -77,7 +77,8 @@ void add_registry_verb(CLI::App &app) {
                                      "settings and effects");
   verb->group(""); // for who changes the program
   verb->add_option("DIR", a->top, "top of the repository")->required();
-  verb->add_flag("--check", a->check, "only tell which are not as the rows make them");
+  verb->add_flag("--check", a->check,
+                 "only list the files that differ from what the registry generates");
   verb->callback([a] { write_generated(a->top, a->check); });
 }
 

@@ -36,7 +36,7 @@ std::vector<Part> parts_of(const BankSpec &spec, const StudyOptions &o) {
   return out;
 }
 
-/// The table of all points whose runs are there; tells how many are not.
+/// The table of all points whose runs are there; reports how many are not.
 void write_table(const BankSpec &spec, const std::vector<Part> &parts, const std::string &folder) {
   BankTable table = {spec, {}};
   std::size_t missing = 0;

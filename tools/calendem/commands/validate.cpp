@@ -32,7 +32,7 @@ int keys_known(const toml::table &table, const std::string &prefix, const std::v
 
 /// By what is in it: the kind that knows most of its keys and tables; of equals a recipe.
 FileKind kind_of(const std::string &file) {
-  Mistakes elsewhere(file); // the reader of that kind tells them
+  Mistakes elsewhere(file); // the reader of that kind reports them
   const toml::table root = parse_toml(file, elsewhere).root;
   if (root.contains("experiment") || root.contains("condition"))
     return FileKind::Experiment;

@@ -76,10 +76,9 @@ void add_rehearse(CLI::App &app) {
                    "the bank's table; default: beside the bank, with its name");
   verb->add_option("--jobs", o->jobs, "packings or draws at a time")->check(CLI::Range(1, 4096));
   CLI::Option *draws =
-      verb->add_option(
-              "--drawn", o->draws,
-              "leave nothing out: draw so many samples of the base model and of each "
-              "effect from what the bank foretells, as if all it says of its errors were true")
+      verb->add_option("--drawn", o->draws,
+                       "leave nothing out: draw so many samples of the base model and of each "
+                       "effect from the bank's predictions, as if its stated errors were exact")
           ->check(CLI::Range(1, 100000));
   verb->add_option("--cells", o->cells,
                    "how many of the bank's cells a drawn sample is as large as; default: one")

@@ -175,10 +175,10 @@ inference::PointNoise noise_of(const CoveredCondition &covered,
 
 std::vector<inference::PointNoise> point_noise_of(const Experiment &e, const BankTable &table,
                                                   double cells) {
-  std::vector<std::string> told; // with the rest of what the bank lacks
-  const std::vector<PointRuns> points = points_of(table, told);
+  std::vector<std::string> reported; // with the rest of what the bank lacks
+  const std::vector<PointRuns> points = points_of(table, reported);
   std::vector<inference::PointNoise> out;
-  for (CoveredCondition &c : covered_conditions(e, table, {}, told)) {
+  for (CoveredCondition &c : covered_conditions(e, table, {}, reported)) {
     c.observables = release_rows(e, c.condition);
     if (c.observables.size() < kFewestRows)
       continue;

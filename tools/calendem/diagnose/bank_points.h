@@ -17,8 +17,8 @@ using PointRuns = std::vector<const BankRow *>;
 /// How a press shows a run.
 using Shows = std::function<SimulatedRun(const SimulatedRun &)>;
 
-/// Points that have all their runs, beside a base point that has. How many are left out is told in
-/// `not_said`. The rows stay the table's.
+/// Points that have all their runs, beside a base point that has. The number left out is reported
+/// in `not_said`. The rows stay the table's.
 std::vector<PointRuns> points_of(const BankTable &table, std::vector<std::string> &not_said);
 
 /// Values of all observables at one point; NaN where a run does not have it. A pressure between
@@ -39,7 +39,7 @@ inference::Vector by_pressure(const std::vector<CoveredCondition> &all,
 /// Of the release of every covered curve, if it has eight rows and more: second differences, less
 /// their mean over the bank, squared in the covariance of stated errors and bank. There the part
 /// that base parameters and effects move (a linear fit of all points) counts whole, the rest, the
-/// packings' scatter, by 1 / `cells`. Not of the loading: small films yield in jerks, far from
+/// packings' scatter, by 1 / `cells`. Not of the loading: small films yield in steps, far from
 /// normal (its score had a standard deviation of 2 on 480 curves whose errors were as stated, that
 /// of the release 0.99).
 std::vector<inference::PointNoise> point_noise_of(const Experiment &experiment,
@@ -53,7 +53,7 @@ struct FullCellChange {
 /// Mean of runs of the same parameters on the full cell less those on the bank's, and what a
 /// further one would scatter about it. A film is more porous at its faces, in layers that do not
 /// grow with it: the change goes with 1 / loading, and is 0 for a sample of the bank's own loading.
-/// None with fewer than two points. What is done is told in `not_said`.
+/// None with fewer than two points. What is done is reported in `not_said`.
 FullCellChange full_cell_change(const Experiment &experiment, const BankTable &bank,
                                 const std::vector<CoveredCondition> &all,
                                 std::vector<std::string> &not_said);

@@ -16,7 +16,7 @@ struct CoveredCondition {
 };
 
 /// The conditions named in `wanted` (all if it is empty) whose pressure the bank reaches. What is
-/// left out, and why, is told in `not_said`. A sample whose loading is not known has the recipe's
+/// left out, and why, is reported in `not_said`. A sample of unknown loading has the recipe's
 /// within 3 % where the bank's film carries another: micrometres of one film say nothing of
 /// another.
 std::vector<CoveredCondition> covered_conditions(const Experiment &experiment,
@@ -31,7 +31,7 @@ struct Further {
   std::vector<CoveredCondition> of;
 };
 
-/// Those that the table can foretell: each kind on the covered conditions that lack it, and
+/// Those that the table can predict: each kind on the covered conditions that lack it, and
 /// porosities after the bank's other pressures, whose uncertainty is that of the others. The
 /// pressure's error counts as independent of that in what was measured already.
 std::vector<Further> further_measurements(const Experiment &experiment, const BankTable &table,

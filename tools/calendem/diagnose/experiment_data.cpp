@@ -162,7 +162,7 @@ void thin_out(double film, const std::vector<PointRuns> &points, inference::Bank
   }
 }
 
-/// Effects that the table has too few runs of to learn them are left out, and told.
+/// Effects that the table has too few runs of to learn them are left out, and reported.
 std::vector<PointRuns> enough(std::vector<PointRuns> points, BankSpec &spec,
                               std::vector<std::string> &not_said) {
   std::map<std::string, int> count;

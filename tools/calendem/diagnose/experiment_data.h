@@ -18,7 +18,7 @@ struct ExperimentData {
   inference::Bank bank; ///< what each run of the table would show of the experiment, and of `next`
   inference::ObservableVector experiment;
   std::vector<ValueLabel> labels;         ///< of the experiment's numbers
-  std::vector<inference::Candidate> next; ///< measurements to come that the bank can foretell
+  std::vector<inference::Candidate> next; ///< measurements to come that the bank can predict
   std::vector<std::string> not_said;      ///< what is left out or assumed, and why
 };
 

@@ -92,8 +92,8 @@ std::string release_noise(const json &gap) {
   for (const json &p : gap["point_noise"])
     all.push_back(fmt::format("{:.2g} ({})", p["times_stated"].get<double>(),
                               p["condition"].get<std::string>()));
-  return all.empty() ? "No release tells how large the errors of the measurement are."
-                     : fmt::format("Points of the release scatter {} times as much as is stated.",
+  return all.empty() ? "No release curve shows how large the measurement errors are."
+                     : fmt::format("Points of the release scatter {} times as much as stated.",
                                    fmt::join(all, ", "));
 }
 

@@ -128,7 +128,7 @@ nlohmann::ordered_json models_json(const BankSpec &spec, const HeldOut &h,
   return out;
 }
 
-/// The answer in a few numbers, from the models as told.
+/// The answer in a few numbers, from the models as reported.
 nlohmann::ordered_json in_short(const nlohmann::ordered_json &models, double floor) {
   const nlohmann::ordered_json &before = models[0];
   nlohmann::ordered_json out = {{"before", before["gap"]["value"]}, {"noise_floor", floor}};
@@ -203,12 +203,12 @@ nlohmann::ordered_json rerun(const Experiment &experiment, const BankTable &tabl
     simulated[k / std::size_t(options.packings)].col(Eigen::Index(k) % options.packings) =
         data.bank.runs[k].values.head(held_out.measured.size());
   nlohmann::ordered_json out = {{"train", experiment.train}, {"held_out", experiment.test}};
-  const auto told = models_json(table.spec, held_out, models, simulated);
-  out.update(in_short(told, noise_floor(held_out, simulated[0])));
+  const auto reported = models_json(table.spec, held_out, models, simulated);
+  out.update(in_short(reported, noise_floor(held_out, simulated[0])));
   out.update(
       {{"unit", "standard deviations of the measurement"},
        {"packings", options.packings},
-       {"models", told},
+       {"models", reported},
        {"observables", observables(held_out, data.experiment.of, models, simulated)},
        {"curves", curves(experiment, runs, models, options.packings)},
        {"said", "The effect was chosen on all conditions, its amplitude and the base parameters "

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kTold = 5; // of a list of explanations
+constexpr std::size_t kListed = 5; // of a list of explanations
 
 struct Words {
   std::string headline, meaning;
@@ -30,8 +30,8 @@ std::string measurement_of(const Json &which) {
   const Json &best = which["next_measurement"];
   if (!best.contains("now") ||
       best["expected_probability"].get<double>() < best["now"].get<double>() + 0.01)
-    return "No measurement that the bank can foretell would tell more; see the list of those that "
-           "it cannot.";
+    return "No measurement that the bank can predict would improve the diagnosis; see the list of "
+           "those it cannot predict.";
   return fmt::format("Measure: {}. The right hypothesis would then have a probability of {:.0f} % "
                      "on average, instead of {:.0f} %.",
                      best["what"].get<std::string>(),
@@ -46,12 +46,12 @@ std::string place_of_unknown(const Json &gap) {
   return "everywhere";
 }
 
-/// Where it sits, or what it acts like.
-std::string told_of_unknown(const Json &gap) {
+/// Where it is, or what it acts like.
+std::string about_unknown(const Json &gap) {
   const std::string place = place_of_unknown(gap), like = "like ";
-  return place.rfind(like, 0) == 0
-             ? fmt::format("It acts most like {}, but not just so.", place.substr(like.size()))
-             : fmt::format("The discrepancy sits most likely here: {}.", place);
+  return place.rfind(like, 0) == 0 ? fmt::format("It acts most like {0}, but {0} does not fit.",
+                                                 place.substr(like.size()))
+                                   : fmt::format("The discrepancy is most likely in: {}.", place);
 }
 
 Words none() {
@@ -73,7 +73,7 @@ Words noise() {
 
 Words unknown(const Json &gap) {
   return {"A gap that no known effect explains",
-          "Neither the base model nor any effect of the bank fits. " + told_of_unknown(gap),
+          "Neither the base model nor any effect of the bank fits. " + about_unknown(gap),
           {"Do not recalibrate it away: parameters fitted now would carry it.",
            "Check the readings there first, then look for physics that the table of "
            "effects lacks (calendem effects)."}};
@@ -81,20 +81,20 @@ Words unknown(const Json &gap) {
 
 /// The most probable ones of a list; the others are counted.
 std::string leading(const std::vector<std::string> &names) {
-  const std::size_t told = std::min(names.size(), kTold);
-  std::string text = fmt::format("{}", fmt::join(names.begin(), names.begin() + told, "; "));
-  return told < names.size() ? text + fmt::format("; {} more", names.size() - told) : text;
+  const std::size_t listed = std::min(names.size(), kListed);
+  std::string text = fmt::format("{}", fmt::join(names.begin(), names.begin() + listed, "; "));
+  return listed < names.size() ? text + fmt::format("; {} more", names.size() - listed) : text;
 }
 
 Words undecided(const Json &gap) {
   const Json &where = gap["where"];
   const bool any = std::any_of(where.begin(), where.end(),
                                [](const Json &row) { return row["significant"] == true; });
-  return {"Undecided: the data do not tell the explanations apart",
+  return {"Undecided: the data do not distinguish between the explanations",
           fmt::format("{}With 95 % it is one of these, the most probable first: {}.",
                       any ? ""
-                          : "No difference stands out of the noise, but weak effects could "
-                            "hide in it. ",
+                          : "No difference is significant, but weak effects could be hidden in "
+                            "the noise. ",
                       leading(gap["which"]["set95"].get<std::vector<std::string>>())),
           {measurement_of(gap["which"])}};
 }

@@ -228,11 +228,11 @@ Explorer.prototype.show = function() {
   this.root.dataset.moment = this.moment;
   this.root.dataset.broken = counts[0];
   this.root.dataset.bonds = counts[0] + counts[1];
-  this.tell(m, counts);
+  this.report(m, counts);
   this.resize();
 };
 
-Explorer.prototype.tell = function(m, counts) {
+Explorer.prototype.report = function(m, counts) {
   var text =
       'Click a particle to see its bonds. Drag to turn, wheel to come nearer, right button to shift.';
   var row = this.bodies.filter(function(b) { return b.body === this.body; }, this)[0];

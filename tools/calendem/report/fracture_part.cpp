@@ -117,9 +117,9 @@ Chart crack_surface(const std::vector<Run> &runs) {
 }
 
 Chart thresholds(const Run &run, bool single) {
-  Chart chart =
-      axes("thresholds", titled("Does a share of broken bonds tell a crack?", run, single),
-           "Threshold (% of a particle's bonds)", "Secondary particles (%)");
+  Chart chart = axes("thresholds",
+                     titled("Does a share of broken bonds identify a cracked body?", run, single),
+                     "Threshold (% of a particle's bonds)", "Secondary particles (%)");
   const Columns &t = run.fracture.thresholds;
   if (t.empty())
     return chart;

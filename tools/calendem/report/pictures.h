@@ -79,7 +79,7 @@ private:
 std::vector<Moment> stages_of(const Run &run);
 
 /// Subjects "electrode" and "bonds" at every stage; bonds that will be broken in the last frame are
-/// told from those that will not, broken ones are not drawn.
+/// distinguished from those that will not, broken ones are not drawn.
 std::vector<Picture> draw_stages(Run &run);
 
 /// The body that studied_body() names: "place" in the electrode before, "shape" and "bonds" at

@@ -24,7 +24,7 @@ double dot(const Point &a, const Point &b) { return a[0] * b[0] + a[1] * b[1] + 
 /// Brightness of a surface with normal (nx, ny up, nz to the viewer): light from the upper left.
 double shade(double nx, double ny, double nz) {
   const double diffuse = std::max(0.0, -0.42 * nx + 0.50 * ny + 0.757 * nz);
-  const double rim = nz < 0.3 ? 0.72 + 0.93 * nz : 1.0; // darker outline tells neighbours apart
+  const double rim = nz < 0.3 ? 0.72 + 0.93 * nz : 1.0; // darker outline separates neighbours
   return (0.50 + 0.54 * diffuse) * rim;
 }
 

@@ -20,7 +20,7 @@ SlurmArray array_of(const StudyOptions &o, StudyStep step) {
   const bool packings = step == StudyStep::Packing;
   SlurmArray a;
   a.file = packings ? "packings" : "runs";
-  // the name tells the arrays of one folder from all others, without a list of their numbers
+  // the name identifies the arrays of one folder among all others, without a list of their numbers
   a.name = "calendem-" + hash_of_text(o.folder) + "-" + a.file;
   a.folder = o.folder + "/slurm";
   a.purpose = packings ? "A task makes the packing of the run of its number."
@@ -76,7 +76,7 @@ public:
       if (!try_to_look())
         continue;
       making_.refresh();
-      tell();
+      report();
       suspects = lose_or_suspect(suspects);
     }
   }
@@ -192,7 +192,7 @@ private:
     return fmt::format("{} running, {} waiting{}", running, waiting, reason);
   }
 
-  void tell() {
+  void report() {
     std::string text = fmt::format("{} of {} runs done, {}", making_.count("done"),
                                    study_.runs.size(), shown(run_tasks_));
     if (!making_.packings_to_make().empty())

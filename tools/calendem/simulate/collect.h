@@ -50,7 +50,7 @@ struct UnionVolume {
 /// Facts of the run that only its caller knows; 0 ranks: nobody does.
 struct RunFacts {
   double wall_clock_s = 0.0; ///< of this call
-  double earlier_s = 0.0;    ///< of the calls that this one resumed, as far as they could tell
+  double earlier_s = 0.0;    ///< of the calls that this one resumed, as far as they are known
   double first_step = 0.0;   ///< about where this call began
   int ranks = 0;
   std::string case_hash;

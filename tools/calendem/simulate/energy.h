@@ -15,7 +15,7 @@ inline constexpr double kLedgerLimit = 0.01;
 /// the run did not measure are NaN (null in the file).
 nlohmann::json energy_ledger(const std::vector<RawRow> &rows, const RawRow &top);
 
-/// What to tell the user when the ledger does not close; empty when it does or was not kept.
+/// Warning when the ledger does not close; empty when it does or was not kept.
 std::string ledger_warning(const nlohmann::json &energy);
 
 } // namespace calendem

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Which secondary particles are cracked: broken bonds, fragments by what still holds together, the
-// surface of cracks, when it happened, and whether a threshold of broken bonds tells it.
+// surface of cracks, when it happened, and whether a threshold of broken bonds identifies it.
 #ifndef CALENDEM_SIMULATE_FRACTURE_H
 #define CALENDEM_SIMULATE_FRACTURE_H
 
@@ -68,7 +68,7 @@ struct ThresholdRow {
   int above_split = 0, below_split = 0; ///< of those apart
 };
 std::vector<ThresholdRow> test_thresholds(const std::vector<BodyBonds> &bodies, double time_us);
-/// thresholds.csv, thresholds of 5 to 20 %; agreement: share of bodies that the threshold tells
+/// thresholds.csv, thresholds of 5 to 20 %; agreement: share of bodies the threshold classifies
 /// right, whether they are apart and whether they are split.
 std::string thresholds_table(const std::vector<ThresholdRow> &rows);
 

@@ -79,7 +79,7 @@ void Making::make(int k) {
   const auto begin = std::chrono::steady_clock::now();
   const auto tell_end = [&](const std::string &how) {
     const auto s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin);
-    tell(k, fmt::format("{}, {:.0f} s", how, s.count()));
+    report(k, fmt::format("{}, {:.0f} s", how, s.count()));
   };
   if (o_.step == StudyStep::Packing) {
     states_[k].status = pack(k);
@@ -109,7 +109,7 @@ void Making::refresh(int but) {
 void Making::lost(int k, const std::string &why) {
   states_[k].why = why;
   set_status(k, "failed");
-  tell(k, fmt::format("failed: {}; see {}", why, log_of(k)));
+  report(k, fmt::format("failed: {}; see {}", why, log_of(k)));
 }
 
 void Making::write_table() {
@@ -227,7 +227,7 @@ void Making::set_status(int k, const std::string &status) {
   write_table();
 }
 
-void Making::tell(int k, const std::string &what) {
+void Making::report(int k, const std::string &what) {
   const std::lock_guard<std::mutex> lock(guard_);
   std::string values;
   for (std::size_t c = 0; c < study_.columns.size(); ++c) {

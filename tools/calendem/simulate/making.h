@@ -64,7 +64,7 @@ private:
   std::string status_of(const RunState &s) const;
   std::string results(const RunState &s) const;
   void set_status(int k, const std::string &status);
-  void tell(int k, const std::string &what);
+  void report(int k, const std::string &what);
   std::vector<std::string> command(const char *verb, const std::string &spec,
                                    const std::string &folder) const;
   std::string pack(int k);

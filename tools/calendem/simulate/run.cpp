@@ -114,23 +114,25 @@ LiggghtsJob job_of(const Settings &s, const ElectrodeFacts &e, const RunOptions 
   return job;
 }
 
-/// Collects what a failed run has computed; returns what to tell the user about it.
+/// Collects what a failed run has computed; returns what to report to the user.
 std::string keep_what_there_is(const std::string &folder, const Settings &settings,
                                const ElectrodeFacts &electrode, const RunFacts &facts) {
-  std::string told;
+  std::string report;
   try {
     const nlohmann::json s = collect(folder, settings, electrode, facts);
-    told = fmt::format("What was computed is kept: curve.csv up to {:.1f} MPa, summary.json marked "
-                       "as not finished.",
-                       s["max_pressure_MPa"].get<double>());
+    report =
+        fmt::format("What was computed is kept: curve.csv up to {:.1f} MPa, summary.json marked "
+                    "as not finished.",
+                    s["max_pressure_MPa"].get<double>());
   } catch (const std::exception &e) {
-    told = fmt::format("What was computed is kept as LIGGGHTS wrote it; it could not be collected: "
-                       "{}.",
-                       e.what());
+    report =
+        fmt::format("What was computed is kept as LIGGGHTS wrote it; it could not be collected: "
+                    "{}.",
+                    e.what());
   }
   if (std::filesystem::exists(folder + "/running.restart"))
-    told += " --resume goes on from the newest restart file.";
-  return told;
+    report += " --resume goes on from the newest restart file.";
+  return report;
 }
 
 /// Steps and time that a run which goes on has behind it.

@@ -128,7 +128,7 @@ void mark_as_running(const std::string &folder, const std::string &hash,
                             {"finished", false},
                             {"wall_clock_s", wall_clock_s},
                             {"provenance", {{"electrode_data", electrode}}},
-                            {"stopped_because", "still running, or killed without a word"}};
+                            {"stopped_because", "still running, or killed without a message"}};
   write_file(folder + "/summary.json", s.dump(2) + "\n");
 }
 

@@ -27,7 +27,7 @@ nlohmann::json inertia(const std::vector<RawRow> &rows, const RawRow &top,
 /// but those inside bodies: at maximum pressure, and the largest of any row.
 nlohmann::json contact_range(const std::vector<RawRow> &rows, const RawRow &top);
 
-/// What to tell the user when too much of the force is carried beyond the range; empty: nothing.
+/// Warning when too much of the force is carried beyond the range; empty: nothing.
 std::string range_warning(const nlohmann::json &range);
 
 } // namespace calendem

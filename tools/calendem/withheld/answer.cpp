@@ -182,14 +182,14 @@ void check_handed_out(const std::string &folder) {
                                          "of its own and answer that.",
                                          found.string()));
   };
-  const auto tells = [](const fs::path &p) {
+  const auto reveals = [](const fs::path &p) {
     return p.filename() == "sealed" || p.filename() == "truth.json";
   };
   for (const auto &entry : fs::directory_iterator(at.parent_path()))
-    if (tells(entry.path()))
+    if (reveals(entry.path()))
       refuse(entry.path());
   for (const auto &entry : fs::recursive_directory_iterator(at))
-    if (tells(entry.path()) || entry.is_symlink())
+    if (reveals(entry.path()) || entry.is_symlink())
       refuse(entry.path());
 }
 

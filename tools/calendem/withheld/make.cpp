@@ -66,7 +66,7 @@ std::vector<std::vector<PressedSamples>> shown_runs(const std::vector<std::strin
   return out;
 }
 
-/// In an order that tells nothing (Fisher and Yates).
+/// In an order that reveals nothing (Fisher and Yates).
 std::vector<Case> shuffled_cases(const std::vector<Truth> &truths,
                                  const std::vector<std::vector<PressedSamples>> &shown,
                                  const std::string &secret) {

@@ -17,7 +17,7 @@ struct MakeOptions {
 };
 
 /// Writes folder/sealed (secret, truth.json, study/) and folder/handed_out (commitment.json and a
-/// folder for each case, in an order that tells nothing). The same call goes on where it was.
+/// folder for each case, in an order that reveals nothing). The same call goes on where it was.
 /// Throws Failure: 2 bad input, 3 stopped or no run usable. Truths whose runs fail are left out.
 void make_round(const MakeOptions &options);
 

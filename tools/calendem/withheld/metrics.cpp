@@ -144,7 +144,7 @@ bool names_something(const ScoredCase &c) { return c.claim != "undecided" && c.c
 bool run_again(const ScoredCase &c) {
   return std::isfinite(c.predicted_shrinkage) && std::isfinite(c.shrinkage);
 }
-bool loud_single(const ScoredCase &c) {
+bool strong_single(const ScoredCase &c) {
   return c.block == "single" && c.signal_to_noise >= kLoudEnough;
 }
 
@@ -167,7 +167,7 @@ double share_covered(const Cases &cases, std::vector<bool> ScoredCase::*which) {
   return all > 0.0 ? in / all : std::nan("");
 }
 
-/// Mean of the shares told right of nulls and of the effects.
+/// Mean of the shares identified correctly of nulls and of the effects.
 double balanced(const Cases &cases, const std::function<std::string(const ScoredCase &)> &named) {
   double right[2] = {0.0, 0.0}, all[2] = {0.0, 0.0};
   for (const ScoredCase *c : cases) {
@@ -182,14 +182,15 @@ void add_gates(const All &cases, std::vector<Metric> &out) {
   const CaseTest known = in_block({"null", "single", "fault"});
   out.push_back(judged(share_of("where: a block lies beyond the threshold, effects of "
                                 "signal-to-noise >= 6",
-                                cases, loud_single, [](const auto &c) { return c.located; }),
+                                cases, strong_single, [](const auto &c) { return c.located; }),
                        ">= 0.80", 0.80));
   out.push_back(
-      judged(share_of("which, top-1, effects of signal-to-noise >= 6", cases, loud_single, right),
+      judged(share_of("which, top-1, effects of signal-to-noise >= 6", cases, strong_single, right),
              ">= 0.85", 0.85));
-  out.push_back(judged(share_of("which, top-2, effects of signal-to-noise >= 6", cases, loud_single,
-                                [](const auto &c) { return right(c) || c.ranked(1) == c.truth; }),
-                       ">= 0.95", 0.95));
+  out.push_back(
+      judged(share_of("which, top-2, effects of signal-to-noise >= 6", cases, strong_single,
+                      [](const auto &c) { return right(c) || c.ranked(1) == c.truth; }),
+             ">= 0.95", 0.95));
   out.push_back(judged(share_of("wrong share among claims of an effect, noise or unknown", cases,
                                 names_something, [](const auto &c) { return c.claim != c.truth; }),
                        "<= 0.10", 0.0, 0.10));
@@ -210,11 +211,11 @@ void add_gates(const All &cases, std::vector<Metric> &out) {
         std::pair("90 % intervals of amplitudes that hold the truth",
                   &ScoredCase::covered_amplitude)}) {
     const auto which = intervals;
-    const Cases told = chosen_of(
+    const Cases right_ones = chosen_of(
         cases, [&](const auto &c) { return known(c) && right(c) && !(c.*which).empty(); });
-    out.push_back(
-        judged(statistic_of(name, told, [&](const Cases &d) { return share_covered(d, which); }),
-               "0.80-0.97", 0.80, 0.97));
+    out.push_back(judged(
+        statistic_of(name, right_ones, [&](const Cases &d) { return share_covered(d, which); }),
+        "0.80-0.97", 0.80, 0.97));
   }
 }
 
@@ -253,7 +254,7 @@ void add_reported(const All &cases, std::vector<Metric> &out) {
   };
   between("below their limit against none", 0.0, kDetectable);
   between("from there to signal-to-noise 6", kDetectable, kLoudEnough);
-  out.push_back(share_of("pair: a measurement that would tell more is named", cases,
+  out.push_back(share_of("pair: a measurement that would decide is named", cases,
                          in_block({"pair"}), [](const auto &c) { return c.next_named; }));
   out.push_back(share_of("nulls: none claimed", cases, in_block({"null"}), claims_right));
   out.push_back(share_of("nulls: a block beyond the threshold", cases, in_block({"null"}),
@@ -275,7 +276,7 @@ void add_reported(const All &cases, std::vector<Metric> &out) {
 void add_baselines(const All &cases, std::vector<Metric> &out) {
   const Cases known = chosen_of(cases, in_block({"null", "single", "fault"}));
   const auto add = [&](const std::string &who, const auto &named) {
-    out.push_back(statistic_of("told right, mean of nulls and effects: " + who, known,
+    out.push_back(statistic_of("identified correctly, mean of nulls and effects: " + who, known,
                                [&](const Cases &d) { return balanced(d, named); }));
     return out.back().value;
   };

@@ -20,7 +20,7 @@ struct ScoredCase {
   std::map<std::string, double> probability; ///< of hypotheses
   std::vector<std::string> set95;
   bool located = false;         ///< some block lies beyond the threshold
-  bool next_named = false;      ///< a measurement that would tell more is named
+  bool next_named = false;      ///< a measurement that would decide is named
   double signal_to_noise = 0.0; ///< of a single effect; 0: not known
   std::vector<bool> covered;    ///< base parameters inside their 90 % intervals
   std::vector<bool> covered_amplitude;

@@ -115,10 +115,10 @@ std::vector<Rehearsed> of_packing(const RehearsalOptions &o, const BankTable &ta
   return out;
 }
 
-/// What the bank foretells of samples like its own base points'.
-class Foretold {
+/// What the bank predicts of samples like its own base points'.
+class Predicted {
 public:
-  Foretold(const RehearsalOptions &o, const BankTable &table) {
+  Predicted(const RehearsalOptions &o, const BankTable &table) {
     const int first = table.rows.front().point.packing;
     const auto points = points_of_packing(table, first);
     if (points.empty())
@@ -143,12 +143,12 @@ public:
       inference::Problem sample = problem_;
       sample.observed =
           drawn(problem_, scores(problem_.base_parameters, random), applied(e, random, r), random);
-      out.push_back(told_of(sample, r));
+      out.push_back(diagnosis_of(sample, r));
       if (e < 0)
         continue;
       r.left_out = true;
       const double limit = out.back().limit;
-      out.push_back(told_of(without_effect(sample, e), r));
+      out.push_back(diagnosis_of(without_effect(sample, e), r));
       out.back().limit = limit;
     }
     return out;
@@ -175,7 +175,7 @@ private:
     r.amplitude = e.parameters[0].prior.value(at[0]);
     return {{effect, at}};
   }
-  Rehearsed told_of(const inference::Problem &sample, const Rehearsed &r) const {
+  Rehearsed diagnosis_of(const inference::Problem &sample, const Rehearsed &r) const {
     const inference::Discrimination t = discriminate(*model_, sample, settings_);
     return judged(t.which, t.confounding, r);
   }
@@ -195,15 +195,15 @@ void rehearse(const RehearsalOptions &o) {
                                          "out.",
                                          o.table, packings.size(), kFewestPackings));
   make_output_folder(o.folder);
-  const std::unique_ptr<Foretold> foretold =
-      o.draws > 0 ? std::make_unique<Foretold>(o, table) : nullptr;
-  std::vector<std::vector<Rehearsed>> parts(foretold ? std::size_t(o.draws) : packings.size());
+  const std::unique_ptr<Predicted> predicted =
+      o.draws > 0 ? std::make_unique<Predicted>(o, table) : nullptr;
+  std::vector<std::vector<Rehearsed>> parts(predicted ? std::size_t(o.draws) : packings.size());
   in_parallel(int(parts.size()), o.jobs, [&](int k) {
     std::vector<Rehearsed> &part = parts[std::size_t(k)];
-    part = foretold ? foretold->of_draw(k + 1) : of_packing(o, table, packings[std::size_t(k)]);
+    part = predicted ? predicted->of_draw(k + 1) : of_packing(o, table, packings[std::size_t(k)]);
     fmt::print("rehearsal: {}, {} diagnoses\n",
-               foretold ? fmt::format("draw {}", k + 1)
-                        : fmt::format("packing {} left out", packings[std::size_t(k)]),
+               predicted ? fmt::format("draw {}", k + 1)
+                         : fmt::format("packing {} left out", packings[std::size_t(k)]),
                part.size());
     std::cout << std::flush;
   });
@@ -247,7 +247,7 @@ std::string share(const std::vector<Rehearsed> &cases, const Choice &among, cons
   });
 }
 
-std::string unknown_told(const std::vector<Rehearsed> &cases, const Choice &among) {
+std::string unknown_against_known(const std::vector<Rehearsed> &cases, const Choice &among) {
   return interval(cases, [&](const std::vector<int> &drawn) {
     std::vector<double> scores;
     std::vector<bool> unknown;
@@ -287,9 +287,10 @@ std::vector<std::string> summary_of(const std::vector<Rehearsed> &cases) {
                       score / std::max<double>(1.0, double(count(known)))),
           fmt::format("the same without their effect: claimed to be unknown {}, to be another {}",
                       share(cases, gone, right), share(cases, gone, named)),
-          fmt::format("unknown told from known, area under the ROC curve: {}; above the limits {}",
-                      unknown_told(cases, [](const Rehearsed &) { return true; }),
-                      unknown_told(cases, [](const Rehearsed &r) { return r.above_limit(); }))};
+          fmt::format(
+              "unknown distinguished from known, area under the ROC curve: {}; above the limits {}",
+              unknown_against_known(cases, [](const Rehearsed &) { return true; }),
+              unknown_against_known(cases, [](const Rehearsed &r) { return r.above_limit(); }))};
 }
 
 std::string table_of(const std::vector<Rehearsed> &cases) {

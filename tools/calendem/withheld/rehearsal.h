@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // How well a bank can diagnose, without a simulation more: every packing is left out in turn, and
 // its runs, with a laboratory's noise, are samples of which the others know nothing. Or samples are
-// drawn from what the bank itself foretells: what it could tell if all it says were true.
+// drawn from the bank's own predictions: what it could distinguish if its stated errors were exact.
 #ifndef CALENDEM_WITHHELD_REHEARSAL_H
 #define CALENDEM_WITHHELD_REHEARSAL_H
 
@@ -23,8 +23,8 @@ struct Rehearsed {
   int base_point = 0, packing = 0; ///< of a drawn sample: both the draw's number
   bool left_out = false;           ///< the effect may not be named: right is "unknown"
   double amplitude = 0.0;          ///< of the effect
-  double limit = 0.0;              ///< amplitude from which on it can be told from none; NaN: never
-  std::string most_probable;       ///< hypothesis
+  double limit = 0.0; ///< amplitude from which on it can be distinguished from none; NaN: never
+  std::string most_probable; ///< hypothesis
   double its_probability = 0.0, of_truth = 0.0, of_unknown = 0.0;
   std::string claim;
   double adequacy_p = 0.0;
@@ -36,7 +36,7 @@ struct Rehearsed {
 /// rehearsal.csv.
 std::string table_of(const std::vector<Rehearsed> &cases);
 
-/// The lines that tell them, with 90 % intervals over packings or draws.
+/// Summary lines, with 90 % intervals over packings or draws.
 std::vector<std::string> summary_of(const std::vector<Rehearsed> &cases);
 
 /// Writes samples/ and rehearsal.csv into the folder and prints the summary. Every effect is

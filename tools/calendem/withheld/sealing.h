@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Seals: hashes that commit to a text without telling it.
+// Seals: hashes that commit to a text without revealing it.
 #ifndef CALENDEM_WITHHELD_SEALING_H
 #define CALENDEM_WITHHELD_SEALING_H
 

@@ -138,9 +138,8 @@ public:
       if (mistakes_.count() == before && p.name == name) {
         p.hours = number(*t, {"hours", "", fmt::format("{}", p.hours), 0.01, 1e4, "h", "of work"});
         if (t->contains("sd") && p.unit.empty())
-          mistakes_.add(
-              line_of(node),
-              fmt::format("'{}' takes no sd: the bank's table cannot foretell it.", name));
+          mistakes_.add(line_of(node),
+                        fmt::format("'{}' takes no sd: the bank's table cannot predict it.", name));
         else if (t->contains("sd"))
           p.sd = number(*t, {"sd", "", "", 1e-6, 1e3, p.unit, "of the result"});
       }

@@ -47,7 +47,7 @@ struct MeasurementPrice {
   std::string what;   ///< what is done
   double hours = 0.0; ///< work for one sample
   double sd = 0.0;    ///< standard deviation of the result, in `unit`
-  std::string unit;   ///< empty: the bank's table has no such result, so nothing is foretold
+  std::string unit;   ///< empty: the bank's table has no such result, so nothing is predicted
 };
 
 constexpr const char *kUnloadingCurve = "unloading_curve"; ///< a bank may lack it

@@ -13,7 +13,7 @@
 namespace calendem {
 namespace {
 
-/// Pressures at which displacements are kept [MPa]. Thin films yield in jerks: a straight line
+/// Pressures at which displacements are kept [MPa]. Thin films yield in steps: a straight line
 /// between two pressures misses what lies between them by 0.09 um (root mean square over 48 of the
 /// shipped bank's films) if these are 10-20 MPa apart, by 0.02 um at 2 MPa and 0.01 um at 1 MPa. A
 /// measured curve is good to about that, and the diagnosis compares two curves of one film.

@@ -27,7 +27,7 @@ std::string write_bank_table(const BankTable &table);
 /// Throws Failure(2): columns that are missing, lines that are damaged, effects that are unknown.
 BankTable read_bank_table(const BankSpec &spec, const std::string &file);
 
-/// Its runs tell displacements on release.
+/// Its runs have displacements on release.
 bool has_release(const BankTable &table);
 
 /// The run as another press would show it; `value` is of the instrument effect's key.

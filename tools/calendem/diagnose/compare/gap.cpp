@@ -104,7 +104,7 @@ void say(Gap &gap) {
                       r.residual > 0.0 ? "high" : "low", r.z, 100.0 * r.share));
     else if (r.sd > 0.0)
       gap.not_said.push_back(fmt::format(
-          "{}, {}: a difference of {} cannot be told from none; below {} nothing can be seen here.",
+          "{}, {}: a difference of {} is not significant; the detection limit here is {}.",
           r.condition, r.observable, amount(std::fabs(r.residual), r.unit),
           amount(gap.threshold * r.sd, r.unit)));
     else

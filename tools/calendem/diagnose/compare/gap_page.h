@@ -10,7 +10,7 @@ namespace calendem {
 
 /// For a page: {"conditions": [""], "rows": [{"observable", "cells": [{"text", "colour"}]}]} of
 /// rows "where" of gap.json, whose residual is simulation less experiment in "unit" and whose z
-/// stands out beyond `threshold`. Conditions in the order of `conditions`, others behind by name.
+/// is beyond `threshold`. Conditions in the order of `conditions`, the others by name.
 nlohmann::json heat_map(const nlohmann::json &where, double threshold,
                         const std::vector<std::string> &conditions = {});
 

@@ -53,7 +53,7 @@ private:
         if (m.name == moment_)
           return seen_in(
               voxelise(m.structure.spheres, m.structure.cell, m.structure.lattice, voxel_));
-    } catch (const Failure &f) { // not the comparison's end: find_gap tells it
+    } catch (const Failure &f) { // does not stop the comparison: find_gap reports it
       why = f.what();
     }
     return {{none, none, none, none}, none, 0, why};

@@ -28,7 +28,7 @@ struct Observable {
 /// Stage of what is seen of a sample that is not pressed yet: of its recipe, not of the model.
 inline constexpr char kBefore[] = "before";
 
-/// All of one condition. What a value needs and lacks is told in `not_said`.
+/// All of one condition. What a value needs and lacks is reported in `not_said`.
 std::vector<Observable> observables_of(const Experiment &experiment, const Condition &condition,
                                        std::vector<std::string> &not_said);
 

@@ -123,10 +123,11 @@ void claim(Which &w, const WhichSettings &settings) {
   w.claim = "undecided";
   if (best.hypothesis.kind == Hypothesis::noise && !few && !settings.noise_seen &&
       best.probability >= settings.claim_probability) {
-    w.why =
-        fmt::format("Understated errors are the most probable ({:.3g}), but what was measured "
-                    "once cannot tell them from an unknown effect: give a curve with its release.",
-                    best.probability);
+    w.why = fmt::format(
+        "Understated errors are the most probable ({:.3g}), but single "
+        "measurements cannot distinguish them from an unknown effect: give a curve with "
+        "its release.",
+        best.probability);
   } else if (best.hypothesis.kind == Hypothesis::noise && !few &&
              best.probability >= settings.claim_probability) {
     w.claim = name;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kShapes = 3;        // values of each parameter that is not the first amplitude
 constexpr double kFarthest = 8.0; // score of a prior's lower end
-// Rivals whose linear log-odds are beyond this many times what tells them apart are not
+// Rivals whose linear log-odds are beyond this many times what separates them are not
 // recalibrated: the tangents overrate a distance by up to two.
 constexpr double kLookAgain = 4.0;
 
@@ -48,7 +48,7 @@ std::vector<Signature> grid_of(const Signatures &signatures, const Problem &prob
   return grid;
 }
 
-/// The amplitude and shape at which the rival is hardest to tell from the truth.
+/// The amplitude and shape at which the rival is hardest to distinguish from the truth.
 const Signature &nearest(const Signature &truth, const std::vector<Signature> &rival) {
   return *std::min_element(rival.begin(), rival.end(), [&](const Signature &a, const Signature &b) {
     return Signatures::odds(truth, a) < Signatures::odds(truth, b);
@@ -65,15 +65,15 @@ struct Hardest {
 /// with its square; NaN: none. `odds`: at the k-th step, from 0. `rival`: of the last amplitude
 /// looked at.
 template <class Odds>
-double first_telling(const ModelledEffect &e, const ConfoundingSettings &settings, const Odds &odds,
-                     std::string &rival) {
+double first_decisive(const ModelledEffect &e, const ConfoundingSettings &settings,
+                      const Odds &odds, std::string &rival) {
   double before = 0.0; // log-odds at the step below
   for (int k = 1; k <= settings.amplitudes; ++k) {
     const Hardest here = odds(k - 1);
     rival = here.rival;
-    if (here.odds >= settings.telling) {
+    if (here.odds >= settings.decisive) {
       const double from = std::sqrt(std::max(before, 0.0));
-      const double within = (std::sqrt(settings.telling) - from) / (std::sqrt(here.odds) - from);
+      const double within = (std::sqrt(settings.decisive) - from) / (std::sqrt(here.odds) - from);
       const Prior &p = e.parameters[first_amplitude(e)].prior;
       return std::max((k - 1 + within) / settings.amplitudes * p.upper(), p.value(-kFarthest));
     }
@@ -98,7 +98,7 @@ std::vector<double> occam_of(const ModelledEffect &e, const std::vector<Signatur
   return cost;
 }
 
-/// Amplitudes at which the effect is told from none and from every other effect.
+/// Amplitudes at which the effect is distinguished from none and from every other effect.
 DetectionLimit limit_of(const Problem &problem, int effect,
                         const std::vector<std::vector<Signature>> &grids,
                         const Signatures &signatures, const ConfoundingSettings &settings) {
@@ -119,7 +119,7 @@ DetectionLimit limit_of(const Problem &problem, int effect,
     least.odds -= occam[std::size_t(k)];
     for (int other = 0; other < int(grids.size()); ++other) {
       const Signature &rival = nearest(truths[k], grids[other]);
-      if (other == effect || Signatures::odds(truths[k], rival) > kLookAgain * settings.telling)
+      if (other == effect || Signatures::odds(truths[k], rival) > kLookAgain * settings.decisive)
         continue;
       if (const double odds = signatures.odds_recalibrated(truths[k], rival); odds < least.odds)
         least = {odds, problem.effects[other].name};
@@ -128,14 +128,14 @@ DetectionLimit limit_of(const Problem &problem, int effect,
   };
   DetectionLimit limit{e.name, "none"};
   std::string none;
-  limit.amplitude = first_telling(e, settings, from_all, limit.rival);
-  limit.against_none = first_telling(e, settings, from_none, none);
+  limit.amplitude = first_decisive(e, settings, from_all, limit.rival);
+  limit.against_none = first_decisive(e, settings, from_none, none);
   return limit;
 }
 
-/// Groups of hypotheses of the 95 % set linked by log-odds too small to tell them apart.
+/// Groups of hypotheses of the 95 % set linked by log-odds too small to distinguish them.
 std::vector<std::vector<std::string>> alike(const Problem &problem, const Which &which,
-                                            const Signatures &signatures, double telling) {
+                                            const Signatures &signatures, double decisive) {
   std::vector<std::string> names;
   std::vector<Vector> at;
   for (const std::string &name : which.set95) {
@@ -149,7 +149,7 @@ std::vector<std::vector<std::string>> alike(const Problem &problem, const Which 
   std::iota(group.begin(), group.end(), 0);
   for (std::size_t i = 0; i < names.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (0.5 * (at[i] - at[j]).squaredNorm() < telling)
+      if (0.5 * (at[i] - at[j]).squaredNorm() < decisive)
         std::replace(group.begin(), group.end(), group[i], group[j]);
   std::vector<std::vector<std::string>> sets;
   for (int g = 0; g < int(names.size()); ++g) {
@@ -193,7 +193,7 @@ Confounding confounding(const Problem &problem, const Which &which,
     c.log_odds(e, n) = Signatures::odds(half_way[e], grids[e].front());
     c.limits.push_back(limit_of(problem, e, grids, signatures, settings));
   }
-  c.indistinguishable = alike(problem, which, signatures, settings.telling);
+  c.indistinguishable = alike(problem, which, signatures, settings.decisive);
   return c;
 }
 

@@ -10,12 +10,12 @@
 namespace calendem::inference {
 
 struct ConfoundingSettings {
-  int amplitudes = 24;  ///< steps from 0 to the end of an effect's range
-  double telling = 3.0; ///< log-odds from here on tell two hypotheses apart
+  int amplitudes = 24;   ///< steps from 0 to the end of an effect's range
+  double decisive = 3.0; ///< log-odds from here on distinguish two hypotheses
 };
 
 struct DetectionLimit {
-  std::string effect, rival; ///< rival: the hardest to tell from at that amplitude
+  std::string effect, rival; ///< rival: the hardest to distinguish at that amplitude
   /// Of the first amplitude parameter, in its unit, within its prior; NaN: never.
   double amplitude = 0.0;
   double against_none = 0.0; ///< by the distance from none alone: what can be seen
@@ -38,7 +38,7 @@ struct Confounding {
 
 /// Expected log-odds (Signatures), truths and rivals at amplitudes from a grid. Without emulators'
 /// errors that is half the squared distance (Box and Hill, Technometrics 9 (1967) 57). Limits are
-/// where the log-odds reach `telling`, the rivals recalibrated as far as their emulators say;
+/// where the log-odds reach `decisive`, the rivals recalibrated as far as their emulators say;
 /// cosines, shares and the table take the base model for linear. The factor that an amplitude to
 /// choose costs an effect counts beside none, which has none to choose, in `limits` (not in
 /// against_none); beside each other's they cancel, about.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Which further measurement would tell the leading hypotheses apart.
+// Which further measurement would distinguish the leading hypotheses.
 #ifndef CALENDEM_DIAGNOSE_INFERENCE_NEXT_MEASUREMENT_H
 #define CALENDEM_DIAGNOSE_INFERENCE_NEXT_MEASUREMENT_H
 

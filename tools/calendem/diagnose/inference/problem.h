@@ -43,7 +43,7 @@ struct Problem {
   std::vector<Feature> features;
   std::vector<Block> blocks;
   std::vector<Roughness> roughness;    ///< of the truncation residuals among the features
-  std::vector<PointNoise> point_noise; ///< no features: only understated noise foretells it
+  std::vector<PointNoise> point_noise; ///< no features: only understated noise predicts it
   Matrix measurement;                  ///< covariance that is known
   Matrix scatter;                      ///< of the packings, estimated
   Matrix correlation;                  ///< of the emulators' errors between features; empty: none

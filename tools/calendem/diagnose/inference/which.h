@@ -24,8 +24,8 @@ struct WhichSettings {
   double claim_probability = 0.8; ///< a name is claimed from here on
   double adequacy = 0.05;         ///< and only with at least this p
   double nothing_fits = 0.01;     ///< all predictions below: what explains the data is unknown
-  /// Points of a curve tell how large errors are; without, noise is not claimed: what is measured
-  /// once cannot tell a large error from an unknown effect.
+  /// Points of a curve show how large errors are; without them noise is not claimed: a single
+  /// measurement cannot distinguish a large error from an unknown effect.
   bool noise_seen = true;
   std::vector<std::string> poor; ///< effects whose emulators are too poor to be claimed
   EvidenceSettings evidence;

@@ -173,7 +173,7 @@ std::string hand_over(const FilmRecipe &f) {
   const Recipe &r = f.recipe;
   std::string out = fmt::format(
       "# The film that `calendem dry` left in dried.data, for `calendem pack`: cell, loading and "
-      "composition are\n# the film's. film.csv tells where each particle was in the slurry.\n"
+      "composition are\n# the film's. film.csv gives each particle's position in the slurry.\n"
       "name = \"{}, slurry and drying simulated\"\nseed = {}\n\n",
       r.settings.text("name"), r.seed);
   if (f.to_thickness) // what the film misses by less than the tolerance

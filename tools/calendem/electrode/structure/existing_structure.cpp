@@ -12,7 +12,7 @@ namespace calendem {
 
 namespace {
 
-constexpr int kMostTold = 10; // mistakes in rows
+constexpr int kMostListed = 10; // mistakes in rows
 
 // Particles of each type that is not listed, and listed types without particles.
 void check_types(const StructureSource &s, const ParticleData &data, Mistakes &mistakes) {
@@ -102,7 +102,7 @@ void sort_by_id(std::vector<ExistingSphere> &spheres) {
 } // namespace
 
 ExistingStructure read_structure(const StructureSource &s) {
-  Mistakes mistakes(s.file, kMostTold), in_map(s.body_map, kMostTold);
+  Mistakes mistakes(s.file, kMostListed), in_map(s.body_map, kMostListed);
   const ParticleData data = read_particle_data(
       s.file, {s.atom_style, s.length_um, s.density_g_cm3, s.z_periodic}, mistakes);
   check_types(s, data, mistakes);
@@ -125,10 +125,11 @@ ExistingStructure read_structure(const StructureSource &s) {
     if (mistakes.empty() && in_map.empty())
       set_clusters(bodies, g.am, in_map);
   } else if (s.clusters && !data.molecules)
-    mistakes.add(0, fmt::format("its rows ({}) have no molecule ids to tell the clusters. Give "
-                                "structure.body_map, or write it with atom_style hybrid sphere "
-                                "molecular.",
-                                columns_of(s.atom_style)));
+    mistakes.add(0,
+                 fmt::format("its rows ({}) have no molecule ids that identify the clusters. Give "
+                             "structure.body_map, or write it with atom_style hybrid sphere "
+                             "molecular.",
+                             columns_of(s.atom_style)));
   if (!mistakes.empty() || !in_map.empty())
     throw Failure(kBadInput, mistakes.text() + (mistakes.empty() || in_map.empty() ? "" : "\n") +
                                  in_map.text());

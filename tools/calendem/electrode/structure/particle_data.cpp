@@ -124,7 +124,7 @@ private:
       const double lo = header_.low()[axis], hi = header_.high()[axis], side = hi - lo;
       const double from = p.x[axis] - lo;
       const bool periodic = axis < 2 || format_.z_periodic;
-      if (!std::isfinite(side)) // told already
+      if (!std::isfinite(side)) // reported already
         return false;
       if (std::fabs(from - 0.5 * side) > (periodic ? kFarthest : 0.5 + kRounding) * side) {
         const char name = char('x' + axis);
