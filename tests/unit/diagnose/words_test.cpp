@@ -39,7 +39,8 @@ TEST(ClaimInWords, EveryClaimSaysWhatItMeansAndWhatToDo) {
   expect_parts(claimed("none"), {"No gap beyond noise", "not excluded"});
   expect_parts(claimed("noise"),
                {"errors of the measurement are understated", "Measure again", "looks the same"});
-  expect_parts(claimed("unknown"), {"no known effect", "most likely in: relaxation", "Do not recalibrate"});
+  expect_parts(claimed("unknown"),
+               {"no known effect", "most likely in: relaxation", "Do not recalibrate"});
   Json alike = claimed("unknown");
   alike["which"]["evidence"][0]["place"] = "like friction";
   expect_parts(alike, {"It acts most like friction, but friction does not fit."});
