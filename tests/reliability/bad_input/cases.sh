@@ -249,7 +249,7 @@ kind_wrong() {
   of_other_kind "withheld make" paper/experiment.toml "this is an experiment" "compare or diagnose"
 }
 kinds_of_file() {
-  expect 0 calendem validate "$scripts"/cases/{demo,paper}/*.toml "$scripts"/cases/image/tomogram.toml
+  expect 0 calendem validate "$scripts"/cases/{demo,paper,real/*}/*.toml "$scripts"/cases/image/tomogram.toml
   says "demo/electrode.toml: a valid recipe" "demo/case.toml: a valid case" \
     "paper/experiment.toml: a valid experiment of 2 conditions" "image/tomogram.toml: a valid tomogram"
 }
