@@ -10,8 +10,9 @@
 // Nothing changes across the periodic side, and both walls stretch as the cell does.
 // Range: e up to 5 %. Signs: e > 0 longer. The foil does not spring back, and keeps its width.
 // Energy: exact for a step without other motion; beside it the error is second order in dt.
-// Source: Mayer et al. 2021, doi:10.3390/pr9112009: NMC electrodes elongate along the web the more
-// they are compacted, across it hardly. That e follows the gap in proportion is an assumption.
+// Source: Mayer et al. 2021, doi:10.3390/pr9112009: the elongation of NMC electrodes depends on how
+// far they are compacted, along the web clearly and across it hardly. Their measure is the end;
+// that e follows the gap in proportion is an assumption.
 // Contacts that see the mean velocity gradient of a periodic cell: Radjai & Voivret, in Discrete-
 // element Modeling of Granular Materials (2011), ch. 7.
 // Deviations: the inertia of the mean motion is left out, rho (de/dt L)^2 of pressure, 1e-3 MPa

@@ -127,7 +127,7 @@ CaseRun press(Settings settings, int ranks = 1, const Files &more = {}) {
                    {"speed", number(speed)},
                    {"slip", "0.001"},
                    {"restitution", "0.3"},
-                   {"damping", "0.02"},
+                   {"damping", "0.3"},
                    {"e", "0.02"},
                    {"dt", number(dt)},
                    {"half", number(steps / 4)},
