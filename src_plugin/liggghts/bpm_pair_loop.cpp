@@ -3,6 +3,7 @@
 #include "atom.h"
 #include "error.h"
 #include "fix_bond_bpm.h"
+#include "fix_elongation.h"
 #include "fix_energy_bpm.h"
 #include "force.h"
 #include "global_properties.h"
@@ -37,6 +38,7 @@ BpmPairLoop::BpmPairLoop(LAMMPS *lmp) : Pointers(lmp), table_(lmp), step_(new Pa
 void BpmPairLoop::connect(int bond_offset, int effects_offset) {
   fix_ = FixBondBpm::find(lmp, "pair_style gran");
   energy_ = FixEnergyBpm::find(lmp);
+  elongation_ = FixElongation::find(lmp);
   bond_ = bond_offset;
   memory_ = effects_offset;
   spring_ = fix_->friction_history_offset(bond_offset);
@@ -70,6 +72,13 @@ bool BpmPairLoop::serves(PairGran *pair) const {
          !pair->storeContactForcesStress() && !pair->store_sum_normal_force() &&
          force->nktv2p == 1.0 && !force->newton_pair &&
          !modify->n_fixes_style("insert/stream/predefined");
+}
+
+void BpmPairLoop::check_reference() const {
+  if (elongation_)
+    error->all(FLERR, "fix elongation needs the fused loop over pairs, and this pair_style gran is "
+                      "computed by the host's. Leave out 'fused off', settings of the host's "
+                      "models, and fixes and computes that store single contacts");
 }
 
 // A force of E R^2 would press a sphere into another by its radius.
@@ -158,6 +167,7 @@ int BpmPairLoop::work_off(PairTable::Bonds &list, int n, const BondSettings &b) 
     if (energy_)
       book_contacts(tile);
   }
+  book_moment(tile);
   sum_forces(tile);
   if (energy_)
     book_bonds(tile);
@@ -172,6 +182,7 @@ void BpmPairLoop::work_off(ContactTile &tile) {
   run_contacts(tile, *step_, materials_.data(), update_, update->dt);
   if (update_)
     watch_contacts(tile);
+  book_moment(tile);
   sum_forces(tile);
   if (energy_)
     book_contacts(tile);
@@ -194,6 +205,15 @@ void BpmPairLoop::fill(const PairTile &t) {
     s.mass_i[p] = a.mass;
     s.mass_j[p] = b.mass;
   }
+  if (elongation_)
+    add_gradient(t.size);
+}
+
+// Velocities are beside the mean motion.
+void BpmPairLoop::add_gradient(int size) {
+  const double gradient = elongation_->step().gradient(update->dt);
+  for (int p = 0; p < size; ++p)
+    step_->v.x[p] += gradient * step_->d.x[p];
 }
 
 // Contacts between types on which an effect acts follow its law instead of Hertz's.
@@ -311,7 +331,23 @@ void BpmPairLoop::stop_overflow(int tag) const {
   error->all(FLERR, message);
 }
 
+// Of a pair with a ghost, each copy has a half.
+double BpmPairLoop::moment(const PairTile &t, const VectorRow &force) const {
+  double sum = 0.0;
+  for (int p = 0; p < t.size; ++p)
+    sum += (t.j[p] < atom->nlocal ? 1.0 : 0.5) * force.x[p] * step_->d.x[p];
+  return sum;
+}
+
+// As long as forces are no whole numbers.
+void BpmPairLoop::book_moment(const PairTile &t) {
+  if (energy_ && elongation_)
+    energy_->moments().all += moment(t, step_->force);
+}
+
 void BpmPairLoop::book_bonds(const BondTile &t) {
+  if (elongation_)
+    energy_->moments().damped += moment(t, step_->bond_damping);
   for (int p = 0; p < t.size; ++p)
     energy_->add_damping(
         t.i[p], t.j[p],
@@ -320,6 +356,10 @@ void BpmPairLoop::book_bonds(const BondTile &t) {
 
 void BpmPairLoop::book_contacts(const PairTile &t) {
   const PairStep &s = *step_;
+  if (elongation_) {
+    energy_->moments().damped += moment(t, s.contact_damping);
+    energy_->moments().friction += moment(t, s.friction_force);
+  }
   for (int p = 0; p < t.size; ++p) {
     energy_->add_damping(t.i[p], s.contact_damping[p]);
     energy_->add_damping(t.j[p], -s.contact_damping[p]);

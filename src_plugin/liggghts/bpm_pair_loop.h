@@ -38,6 +38,8 @@ public:
   /// True if this call can be served: not where the host writes down single contacts, or treats
   /// some atoms in a way of its own.
   bool serves(class PairGran *pair) const;
+  /// Stops the run if what the host's loop is to compute is not in it.
+  void check_reference() const;
   void compute_force(class PairGran *pair);
 
   /// Histories that this holds, back to the host's lists; release() leaves them there.
@@ -50,7 +52,8 @@ public:
 
 private:
   class FixBondBpm *fix_ = nullptr;
-  class FixEnergyBpm *energy_ = nullptr; // NULL when no ledger is kept
+  class FixEnergyBpm *energy_ = nullptr;      // NULL when no ledger is kept
+  class FixElongation *elongation_ = nullptr; // NULL: the cell keeps its sides
   ContactEffects effects_;
   double **friction_ = nullptr, **cohesion_ = nullptr;
   double **modulus_ = nullptr, **shear_modulus_ = nullptr, **damping_ = nullptr;
@@ -72,6 +75,9 @@ private:
   int watch_bonds(PairTable::Bonds &list, int tile, const BondSettings &);
   void watch_contacts(ContactTile &tile);
   void act_effects(const ContactTile &tile);
+  void add_gradient(int size);
+  double moment(const PairTile &tile, const VectorRow &force) const;
+  void book_moment(const PairTile &tile);
   void choose_units();
   void sum_forces(const PairTile &tile);
   void add_forces(class PairGran *pair);

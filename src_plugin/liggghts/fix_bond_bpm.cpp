@@ -6,6 +6,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_contact_history.h"
+#include "fix_elongation.h"
 #include "fix_energy_bpm.h"
 #include "memory.h"
 #include "modify.h"
@@ -114,12 +115,14 @@ void FixBondBpm::check_box() {
 
 // Ghosts lie beyond the box by no more than its half: check_box().
 void FixBondBpm::choose_grid() {
+  const FixElongation *elongation = FixElongation::find(lmp);
   for (int k = 0; k < 3; ++k) {
     spacing_[k] = 0.0;
     if (!domain->periodicity[k])
       continue;
     const double largest = std::max(std::fabs(domain->boxlo[k]), std::fabs(domain->boxhi[k]));
-    spacing_[k] = calendem::exact_spacing(largest + 0.5 * domain->prd[k]);
+    const double growth = elongation && k == 0 ? elongation->growth_to_come() : 0.0;
+    spacing_[k] = calendem::exact_spacing((1.0 + growth) * (largest + 0.5 * domain->prd[k]));
     domain->boxlo[k] = calendem::nearest_multiple(domain->boxlo[k], spacing_[k]);
     domain->boxhi[k] = calendem::nearest_multiple(domain->boxhi[k], spacing_[k]);
   }

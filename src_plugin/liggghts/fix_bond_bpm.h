@@ -103,6 +103,9 @@ public:
   /// The one fix bond/bpm of the run; an error that names `caller` if there is none or several.
   static FixBondBpm *find(class LAMMPS *lmp, const char *caller);
 
+  /// Of the grid of positions along axis k [um], 0 along a side that is not periodic.
+  double spacing(int k) const { return spacing_[k]; }
+
   // for the contact models, per pair and step
   const BondSettings &settings() const { return settings_; }
   const BondSettings &bridge_settings() const { return bridge_settings_; }

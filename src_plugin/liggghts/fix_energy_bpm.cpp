@@ -3,6 +3,7 @@
 #include "comm.h"
 #include "error.h"
 #include "fix_bond_bpm.h"
+#include "fix_elongation.h"
 #include "fix_property_atom.h"
 #include "fix_wall_gran_platen.h"
 #include "force.h"
@@ -19,8 +20,8 @@ using namespace FixConst;
 using calendem::Vec3;
 
 FixEnergyBpm::FixEnergyBpm(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), bonds_(NULL), pairs_have_effects_(false), cohesion_energy_density_(NULL),
-      sums_() {
+    : Fix(lmp, narg, arg), bonds_(NULL), elongation_(NULL), pairs_have_effects_(false),
+      cohesion_energy_density_(NULL), last_moment_(0.0), sums_() {
   if (narg != 3)
     error->fix_error(FLERR, this, "takes no arguments: 'fix ID all energy/bpm'");
   vector_flag = 1;
@@ -43,6 +44,7 @@ void FixEnergyBpm::init() {
   if (modify->n_fixes_style_strict("energy/bpm") > 1)
     error->fix_error(FLERR, this, "there may be only one");
   bonds_ = FixBondBpm::find(lmp, "fix energy/bpm");
+  elongation_ = FixElongation::find(lmp);
   force->registry.registerProperty("cohEnergyDens", &MODEL_PARAMS::createCohesionEnergyDensity);
   force->registry.connect("cohEnergyDens", cohesion_energy_density_, "fix energy/bpm");
   find_walls();
@@ -76,11 +78,13 @@ void FixEnergyBpm::grow_arrays(int nmax) { loads_.resize(nmax); }
 
 void FixEnergyBpm::pre_force(int) {
   std::fill(loads_.begin(), loads_.begin() + atom->nlocal + atom->nghost, AtomLoads());
+  moments_ = {};
 }
 
 // Atoms may have moved in memory, and the forces that follow no longer know the broken bonds.
 void FixEnergyBpm::setup_pre_force(int vflag) {
   last_forces_.clear();
+  last_moment_ = 0.0;
   pre_force(vflag);
 }
 
@@ -89,14 +93,27 @@ void FixEnergyBpm::setup(int) { collect_walls(); }
 // Velocities are those that have just moved the atoms; the forces are still the step's first.
 void FixEnergyBpm::post_integrate() {
   add_half_step();
+  add_half_elongation(&calendem::ElongationStep::work_before);
   for (const LastForce &last : last_forces_)
     sums_[kBreaks] -= work_in_half_step(last.action, last.atom);
   last_forces_.clear();
+  if (elongation_)
+    sums_[kBreaks] += elongation_->step().work_before(last_moment_);
+  last_moment_ = 0.0;
 }
 
 void FixEnergyBpm::post_force(int) {
   collect_walls();
   add_half_step();
+  add_half_elongation(&calendem::ElongationStep::work_after);
+}
+
+// Pairs dissipate at their whole relative velocity.
+void FixEnergyBpm::add_half_elongation(double (calendem::ElongationStep::*work)(double) const) {
+  if (!elongation_)
+    return;
+  sums_[kDamped] += (elongation_->step().*work)(moments_.damped);
+  sums_[kFriction] += (elongation_->step().*work)(moments_.friction);
 }
 
 double FixEnergyBpm::work_in_half_step(const ForceAndTorque &a, int i) const {
@@ -175,6 +192,7 @@ void FixEnergyBpm::bond_breaks(int i, int j, const BondHistory &bond) {
   last_forces_.push_back({i, {force, a.torque_i}});
   if (j < atom->nlocal)
     last_forces_.push_back({j, {-force, a.torque_j}});
+  last_moment_ += (j < atom->nlocal ? 1.0 : 0.5) * force.x * d.x;
   if (begins && bonds_->decides(i, j))
     sums_[kBreaks] -= cohesion(i, j, beyond);
 }

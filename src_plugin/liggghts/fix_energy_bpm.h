@@ -13,6 +13,7 @@
 //   the moment, 5 lost in breaks beyond the bonds' strain energy: the potential of the cohesion
 //   that begins to act, and the last half step of the bond's force, 6 taken by plastic flow in
 //   contacts, 7 by collapsing spheres, 8 by the dashpots of viscous contacts.
+// Where the cell elongates, the work of fix elongation is beside that of the platens.
 // Needs `pair_style gran model hertz|hertz_effects ... cohesion bpm surface bpm`; stands behind all
 // fixes wall/gran/platen, the walls it knows; of their cohesion it knows `sjkr`. Sums restart under
 // the same fix ID.
@@ -29,6 +30,7 @@ FixStyle(energy/bpm, FixEnergyBpm)
 #include "contact_effects.h"
 #include "fix.h"
 #include "physics/parallel_bond.h"
+#include "physics/web_elongation.h"
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -44,6 +46,12 @@ inline ForceAndTorque operator+(const ForceAndTorque &a, const ForceAndTorque &b
 inline ForceAndTorque operator-(const ForceAndTorque &a, const ForceAndTorque &b) {
   return {a.force - b.force, a.torque - b.torque};
 }
+
+/// Sums over this rank's pairs of f_x d_x, f on i, d = x_i - x_j [fJ]: of all forces, of damping, of
+/// friction.
+struct PairMoments {
+  double all = 0.0, damped = 0.0, friction = 0.0;
+};
 
 class FixEnergyBpm : public Fix {
 public:
@@ -76,6 +84,9 @@ public:
   }
   void add_friction(int i, const ForceAndTorque &a) { loads_[i].friction = loads_[i].friction + a; }
 
+  /// Of the latest force computation; summed where there is a fix elongation.
+  PairMoments &moments() { return moments_; }
+
   /// What the law of a contact has taken.
   void add_taken(double work, calendem::WorkTaken term) {
     sums_[term == calendem::WorkTaken::PlasticFlow ? kPlastic : kViscous] += work;
@@ -107,18 +118,22 @@ private:
   enum Sum { kDamped, kFriction, kBreaks, kPlastic, kCollapse, kViscous, kSums };
 
   class FixBondBpm *bonds_;
+  class FixElongation *elongation_; // NULL: the cell keeps its sides
   ContactEffects effects_;
   bool pairs_have_effects_;
   double **cohesion_energy_density_; // by type pair, from the host
   std::vector<Wall> walls_;
-  std::vector<AtomLoads> loads_;       // of the latest force computation
+  std::vector<AtomLoads> loads_; // of the latest force computation
+  PairMoments moments_;
   std::vector<LastForce> last_forces_; // of bonds that have just broken
+  double last_moment_;                 // of these
   double sums_[kSums];                 // this rank's
 
   void find_walls();
   void collect_walls();
   void collect(Wall &wall, int i, const double *force);
   void add_half_step();
+  void add_half_elongation(double (calendem::ElongationStep::*work)(double) const);
   double work_in_half_step(const ForceAndTorque &a, int i) const;
   double cohesion(int i, int j, double r) const;
   double pair_energy(bool of_cohesion) const;

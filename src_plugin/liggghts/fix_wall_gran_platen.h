@@ -67,6 +67,9 @@ public:
   void restart(char *);
 
   double position() const { return record_.state.position; }
+  double start() const { return programme_.start; }
+  bool rolls() const { return programme_.control == calendem::PlatenControl::Roll; }
+  double last_gap() const { return programme_.target; } ///< of the last pass of a roll
   /// Over the window of pressure(), with its weights.
   double mean_position() const;
   double mean_displacement() const { return programme_.start - mean_position(); } ///< > 0 down

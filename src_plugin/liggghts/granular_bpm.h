@@ -65,6 +65,7 @@ public:
 
   void compute_force(LAMMPS_NS::PairGran *pair, int eflag, int vflag, int addflag) {
     if (!fused_ || eflag || vflag || addflag || !loop_.serves(pair)) {
+      loop_.check_reference();
       loop_.release_histories();
       return Reference::compute_force(pair, eflag, vflag, addflag);
     }

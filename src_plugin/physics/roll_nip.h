@@ -6,7 +6,7 @@
 //   line load           q = int P ds
 // Range: circles as parabolas, |s| << R; the gap is wrong by s^2 / (4 R^2) of s^2 / (2 R), 1e-4 for
 // a film that loses 40 um under rolls of 200 mm. The film keeps the web's speed, also where it is
-// thinner: elongation is not in it. Signs: s < 0 on the way in, u > 0, v > 0 along x where the roll
+// thinner; its elongation is in web_elongation.h. Signs: s < 0 on the way in, u > 0, v > 0 along x where the roll
 // runs ahead of what the collector lies on. A counter radius of 0 is a flat table, which does not
 // slip. Energy: none; the roll's work is force times its motion. Source: the parabolic gap of two
 // cylinders, Johnson, Contact Mechanics (1985), section 4.1; cosines by their first terms.

@@ -88,6 +88,8 @@ inline std::vector<Key> base_settings() {
       {"roll.first_gap_um", "first_gap_um", "0", 0, 1000, "um",
        "of the first of several passes, from which they go to roll_gap_um in equal steps; 0: all "
        "have that"},
+      {"roll.elongation_percent", "elongation_percent", "0", 0, 5, "%",
+       "of foil and film along the web, in proportion to the fall of the gap; it stays"},
       {"numerics.timestep_us", "dt_us", "0", 0, 1, "us", "0: timestep_fraction of the bound"},
       {"numerics.timestep_fraction", "dt_fraction", "0.8", 0.01, 1, "", "of the bond-aware bound"},
       {"numerics.average_us", "average_us", "0", 0, 100, "us",

@@ -137,21 +137,24 @@ case $case in
       cmp "$work/effects/breaks.csv" "$work/effects_killed/breaks.csv" || fail "break logs differ after --resume"
       cmp "$work/effects/curve.csv" "$work/effects_killed/curve.csv" || fail "curves differ after --resume"
     done ;;
-  roll) # two passes with slip are gone on with to the same bytes; one pass is the platen at equal smallest gap
+  roll) # two passes with slip and elongation are gone on with to the same bytes; one pass is the platen at equal smallest gap
     under() { # FILE SETTINGS-OF-PLATEN SETTINGS-OF-ROLL
       sed "s/^max_pressure_MPa = .*/$2/" "$here/case.toml" >"$work/$1"
       printf '\n[roll]\n%b' "$3" >>"$work/$1"
     }
     rm -rf "$work"/rolled* "$work/pressed" "$work/passed_once"
-    under rolled.toml 'control = "roll_gap"\nroll_gap_um = 14' 'passes = 2\nfirst_gap_um = 15\nslip = 0.002\n'
+    under rolled.toml 'control = "roll_gap"\nroll_gap_um = 14' 'passes = 2\nfirst_gap_um = 15\nslip = 0.002\nelongation_percent = 1\n'
     "$bin/calendem" run "$work/rolled.toml" -o "$work/rolled" --ranks 1
     kill_and_resume "$work/rolled.toml" "$work/rolled_killed"
     cmp "$work/rolled/breaks.csv" "$work/rolled_killed/breaks.csv" || fail "break logs differ after --resume"
     cmp "$work/rolled/curve.csv" "$work/rolled_killed/curve.csv" || fail "curves differ after --resume"
     left=$(number unaccounted_fraction "$work/rolled/summary.json")
-    holds "$left < 0.003" "the ledger of two passes with slip leaves $left of the work"
+    holds "$left < 0.003" "the ledger of two passes with slip and elongation leaves $left of the work"
     [ "$(awk -F, '$2 == "compression" && last != $2 { n += 1 } { last = $2 } END { print n }' "$work/rolled/curve.csv")" = 2 ] ||
       fail "curve.csv does not show two passes"
+    awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
+      $at["cell_x_um"] / (6 * (1 + 0.01 * $at["elongation_percent"])) - 1 > 1e-8 { wrong = 1 } { last = $at["elongation_percent"] }
+      END { exit wrong || last != 1 }' "$work/rolled/curve.csv" || fail "the web did not elongate by 1 %"
     sed -n '/"roll":/,/^  }/p' "$work/rolled/summary.json" >"$work/said"
     mapfile -t gaps < <(number gap_um "$work/said")
     # a row is an average over 0.1 um at the highest speed, which turns in the nip: a quarter of that at most

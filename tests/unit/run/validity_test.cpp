@@ -100,7 +100,7 @@ TEST(Validity, WarnsInOneLineWithItsNumbers) {
 // A row is read as it was written, all of its columns in their order; a cut one is left out.
 TEST(Validity, RawRowsInTheOrderOfTheirColumns) {
   const std::string file = (calendem_test::test_folder() / "curve_raw.csv").string();
-  constexpr int kColumns = sizeof(RawRow) / sizeof(double);
+  constexpr int kColumns = kRawColumns;
   std::ofstream out(file);
   out << "header\n";
   for (int row = 0; row < 2; ++row)

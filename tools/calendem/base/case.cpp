@@ -160,16 +160,16 @@ void check_target(const Settings &s, Mistakes &mistakes) {
 
 /// Settings a roll does not support or takes under another key.
 void check_roll(const Settings &s, Mistakes &mistakes) {
-  const std::string load = "roll.line_load_N_mm";
   if (!s.sound({"platen.control"}))
     return;
   if (s.text("platen.control") != "roll_gap") {
-    if (s.sound({load}) && s.number(load) > 0.0)
-      mistakes.add(
-          s.line(load),
-          fmt::format("{} is {} and platen.control is \"{}\": only a roll has a line load. "
-                      "Give control = \"roll_gap\", or a line load of 0.",
-                      load, s.text(load), s.text("platen.control")));
+    for (const auto &[key, why] :
+         {std::pair("roll.line_load_N_mm", "only a roll has a line load"),
+          std::pair("roll.elongation_percent", "the web elongates under a roll only")})
+      if (s.sound({key}) && s.number(key) > 0.0)
+        mistakes.add(s.line(key), fmt::format("{} is {} and platen.control is \"{}\": {}. "
+                                              "Give control = \"roll_gap\", or 0.",
+                                              key, s.text(key), s.text("platen.control"), why));
     return;
   }
   const std::string first = "roll.first_gap_um", gap = "platen.roll_gap_um";

@@ -126,8 +126,11 @@ std::vector<RunMoment> moments_of_run(const std::string &folder) {
     for (size_t i = 0; i < run.curve.rows(); ++i)
       if (std::fabs(run.curve["time_us"][i] - frame) < std::fabs(run.curve["time_us"][row] - frame))
         row = i;
+    const std::string longer = "elongation_percent";
+    const ElectrodeFacts cell =
+        electrode.elongated(run.curve.has(longer) ? 0.01 * run.curve[longer][row] : 0.0);
     moments.push_back(
-        {name, frame, run.curve["pressure_MPa"][row], read_frame(run, electrode, time, height)});
+        {name, frame, run.curve["pressure_MPa"][row], read_frame(run, cell, time, height)});
   };
   add("before", run.particles.front().time_us, 0.0);
   if (!run.curve.relaxation().empty())

@@ -91,12 +91,12 @@ json bodies_of(const std::string &directory) {
 json explorer_of(Run &run) {
   if (run.particles.empty() || run.bonds.empty())
     return {};
-  const std::array<double, 2> period = period_of(run);
   std::vector<Frames> all;
   Box box;
   for (const Moment &moment : moments_of(run)) {
     all.push_back({moment, read_particles(closest(run.particles, moment.time_us).path, run.notes),
                    read_bonds(closest(run.bonds, moment.time_us).path, run.notes)});
+    const std::array<double, 2> period = period_of(run, moment.time_us);
     if (period[0] > 0.0 && period[1] > 0.0)
       make_whole(all.back(), period);
     for (const Point &centre : all.back().particles.centre)

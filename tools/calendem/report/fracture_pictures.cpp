@@ -212,7 +212,7 @@ std::vector<Picture> draw_one_body(Run &run) {
   add_state(run.curve, pictures.back());
   Box box;
   for (Stage &s : stages) {
-    keep_body(s, body, period_of(run));
+    keep_body(s, body, period_of(run, s.moment.time_us));
     for (const Point &p : s.particles.centre)
       box.include(p);
   }

@@ -189,12 +189,18 @@ namespace {
 
 constexpr double kTurn = 6.283185307179586;
 
+/// Of a cell whose web may elongate.
+double side_of(const Run &run, double as_packed, double time_us) {
+  const std::string elongated = "cell_x_um";
+  return run.curve.has(elongated) ? run.curve[elongated][row_near(run.curve, time_us)] : as_packed;
+}
+
 } // namespace
 
-std::array<double, 2> period_of(const Run &run) {
+std::array<double, 2> period_of(const Run &run, double time_us) {
   const nlohmann::json cell = run.electrode.value("cell_um", nlohmann::json());
   if (cell.is_array() && cell.size() == 2 && cell[0].is_number() && cell[1].is_number())
-    return {cell[0], cell[1]};
+    return {side_of(run, cell[0], time_us), cell[1]};
   return {0.0, 0.0};
 }
 

@@ -59,8 +59,8 @@ void add_state(const Curve &curve, Picture &picture);
 Picture framed(const Moment &moment, const char *subject, const FrameFile &source,
                const Camera &camera, const PlatenFrame &platen);
 
-/// The periodic sides [um] that electrode.json gives; 0: not known.
-std::array<double, 2> period_of(const Run &run);
+/// The periodic sides [um] at that time; 0: not known.
+std::array<double, 2> period_of(const Run &run, double time_us);
 
 class Wholes {
 public:

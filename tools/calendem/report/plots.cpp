@@ -219,9 +219,11 @@ Chart quasi_static_check(const std::vector<Run> &runs) {
 
 struct Ledger {
   const char *column, *name, *colour, *dash;
+  double sign = -1.0; // 1: it was put in
 };
 const Ledger kLedger[] = {
-    {"work_platen_fJ", "work of the platen", "#222222", ""},
+    {"work_platen_fJ", "work of the platen", "#222222", "", 1.0},
+    {"work_elongation_fJ", "work of the elongation", "#666666", "12 3", 1.0},
     {"strain_fJ", "elastic, in bonds", "#0064b0", "9 4"},
     {"contact_elastic_fJ", "elastic, in contacts", "#5a9bd4", "3 3"},
     {"cohesion_fJ", "cohesion", "#6b8e23", "5 2 1 2"},
@@ -253,7 +255,7 @@ Chart energy_ledger(const Run &run, bool single) {
       rest = energy; // the first entry is what was put in
     else
       for (std::size_t k = 0; k < rest.size(); ++k)
-        rest[k] -= energy[k];
+        rest[k] += entry.sign * energy[k];
     chart.series.push_back(
         line(entry.name, run.curve["time_us"], std::move(energy), entry.colour, entry.dash, plain));
   }

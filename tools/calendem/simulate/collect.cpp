@@ -4,6 +4,7 @@
 #include "base/provenance.h"
 #include "physics/nanopore_collapse.h"
 #include "simulate/bridges.h"
+#include "simulate/elongation.h"
 #include "simulate/energy.h"
 #include "simulate/line_load.h"
 #include "simulate/roll_passes.h"
@@ -28,8 +29,8 @@ constexpr double kImbalanceWindow = 0.5; // us
 // Gaps are averages: where the platen turns at once, a quarter of the window's travel is cut off.
 constexpr double kTargetTolerance = 0.02, kCutOff = 0.25 * kAverageTravel; // um
 
-double total_porosity(const ElectrodeFacts &e, double gap) {
-  return 1.0 - e.solid / (e.area * gap);
+double total_porosity(const ElectrodeFacts &e, double gap, double elongation = 0.0) {
+  return 1.0 - e.solid / (e.elongated(elongation).area * gap);
 }
 
 // |P_top - P_bottom| / P_top with both averaged over kImbalanceWindow: rows are averages over
@@ -49,7 +50,7 @@ std::vector<double> imbalance(const std::vector<RawRow> &rows, double average) {
 }
 
 std::string curve(const std::vector<RawRow> &rows, const ElectrodeFacts &e,
-                  const UnionVolume &filled, const Settings &settings) {
+                  const UnionVolume &filled, const Settings &settings, bool elongates) {
   const double average = averaging_window(settings);
   const PressInstruments press = instruments_of(settings);
   const std::vector<double> difference = imbalance(rows, average);
@@ -59,7 +60,7 @@ std::string curve(const std::vector<RawRow> &rows, const ElectrodeFacts &e,
       "porosity_macro,kinetic_to_strain,kinetic_fJ,strain_fJ,work_platen_fJ,work_bonds_lost_fJ,"
       "work_collector_fJ,pressure_difference,contact_elastic_fJ,cohesion_fJ,damped_fJ,"
       "friction_fJ,displacement_shown_um,thickness_shown_um,pressure_shown_MPa" +
-      validity_columns() + "\n";
+      validity_columns() + (elongates ? elongation_columns() : "") + "\n";
   for (size_t i = 0; i < rows.size(); ++i) {
     const RawRow &r = rows[i];
     out += fmt::format(
@@ -69,12 +70,13 @@ std::string curve(const std::vector<RawRow> &rows, const ElectrodeFacts &e,
         "{:.6f},{:.6g}",
         r.time, kStageNames[static_cast<int>(r.stage)], r.displacement, r.gap, r.p_top, r.p_bottom,
         r.broken, r.made > 0 ? r.broken / r.made : 0.0, r.tension, r.bending, r.shear, r.torsion,
-        total_porosity(e, r.gap), 1.0 - filled.at(r.time) / (e.area * r.gap),
+        total_porosity(e, r.gap, r.elongation),
+        1.0 - filled.at(r.time) / (e.elongated(r.elongation).area * r.gap),
         r.strain > 0 ? r.kinetic / r.strain : 0.0, r.kinetic, r.strain, r.work_platen, r.work_lost,
         r.work_collector, difference[i], r.contact_elastic, r.cohesion, r.damped, r.friction,
         press.displacement_shown(r.displacement, r.p_top), press.thickness_shown(r.gap),
         press.pressure_shown(r.p_top));
-    out += validity_cells(r, e.primary) + "\n";
+    out += validity_cells(r, e.primary) + (elongates ? elongation_cells(r, e) : "") + "\n";
   }
   return out;
 }
@@ -185,7 +187,7 @@ std::vector<RawRow> read_raw(const std::string &file) {
   while (std::getline(in, line)) {
     if (in.eof()) // a line without its end is being written
       break;
-    std::array<double, sizeof(RawRow) / sizeof(double)> v;
+    std::array<double, kRawColumns> v;
     size_t n = 0;
     std::istringstream fields(line);
     std::string field;
@@ -223,18 +225,20 @@ std::optional<double> gap_at_loss(const std::vector<RawRow> &rows, double fracti
 
 nlohmann::json collect(const std::string &folder, const Settings &settings, const ElectrodeFacts &e,
                        const RunFacts &facts) {
-  const std::vector<RawRow> rows = read_raw(folder + "/curve_raw.csv");
+  std::vector<RawRow> rows = read_raw(folder + "/curve_raw.csv");
   if (rows.size() < 2)
     throw Failure(kSimulationFailed, fmt::format("'{}/curve_raw.csv' holds no curve", folder));
+  const bool elongates = add_elongation(folder, rows);
   const double dt = rows.back().time / rows.back().step;
   const auto frames = write_series(folder, dt);
-  const UnionVolume filled = union_volumes(folder, e, frames);
-  write_file(folder + "/curve.csv", curve(rows, e, filled, settings));
+  const UnionVolume filled = union_volumes(folder, e, frames, rows);
+  write_file(folder + "/curve.csv", curve(rows, e, filled, settings, elongates));
   std::vector<MomentOfRun> moments;
   for (const RawRow &r : rows)
     moments.push_back({r.time, r.p_top, kStageNames[static_cast<int>(r.stage)]});
+  const double last = rows.back().elongation;
   const auto [bodies, cracked] =
-      write_bodies(folder, e, settings.text("electrode"), frames, moments);
+      write_bodies(folder, e, settings.text("electrode"), frames, moments, last);
 
   const RawRow top = *std::max_element(
       rows.begin(), rows.end(), [](const RawRow &a, const RawRow &b) { return a.p_top < b.p_top; });
@@ -244,16 +248,18 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   nlohmann::json s;
   s["max_pressure_MPa"] = top.p_top;
   s["thickness_at_max_um"] = top.gap;
-  s["porosity_at_max"] = total_porosity(e, top.gap);
+  s["porosity_at_max"] = total_porosity(e, top.gap, top.elongation);
   s["thickness_after_relaxation_um"] = gap;
-  s["porosity_after_relaxation"] = total_porosity(e, gap);
+  s["porosity_after_relaxation"] = total_porosity(e, gap, last);
   s["porosity_initial"] = total_porosity(e, e.thickness);
   s["contact_lost_fraction"] = lost;
   for (double f : {0.005, 0.01, 0.02, 0.05})
     if (const auto at = gap_at_loss(rows, f, top.p_top))
-      s["porosity_after_relaxation_by_threshold"][fmt::format("{}", f)] = total_porosity(e, *at);
+      s["porosity_after_relaxation_by_threshold"][fmt::format("{}", f)] =
+          total_porosity(e, *at, last);
   if (rows.back().stage > 3.5) // the pressure of every row may lie above what stopped the platen
-    s["porosity_after_relaxation_by_threshold"][fmt::format("{}", lost)] = total_porosity(e, gap);
+    s["porosity_after_relaxation_by_threshold"][fmt::format("{}", lost)] =
+        total_porosity(e, gap, last);
   if (!frames.empty())
     s["height_of_tops_after_um"] = height_of_tops(folder, frames.back().first);
   s["broken_fraction_at_max"] = top.made > 0 ? top.broken / top.made : 0.0;
@@ -270,6 +276,8 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   s["contact_range"] = contact_range(rows, top);
   if (settings.text("platen.control") == "roll_gap")
     s["roll"] = roll_passes(rows, settings);
+  if (elongates)
+    s["elongation"] = elongation_of(top, rows.back(), e);
   if (const nlohmann::json held = write_bridges(folder, rows, top); !held.is_null())
     s["bridges"] = held;
   if (settings.number("roll.line_load_N_mm") > 0.0)
@@ -280,7 +288,7 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   s["max_pressure_shown_MPa"] = press.pressure_shown(top.p_top);
   s["thickness_at_max_shown_um"] = press.thickness_shown(top.gap);
   s["thickness_after_relaxation_shown_um"] = press.thickness_shown(gap);
-  s["porosity_after_relaxation_shown"] = total_porosity(e, press.thickness_shown(gap));
+  s["porosity_after_relaxation_shown"] = total_porosity(e, press.thickness_shown(gap), last);
   if (facts.ranks > 0) {
     s["wall_clock_s"] = facts.earlier_s + facts.wall_clock_s;
     s["ranks"] = facts.ranks;

@@ -7,6 +7,7 @@
 #include "physics/contact_range.h"
 #include "simulate/fracture.h"
 #include "simulate/run.h"
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
@@ -21,14 +22,17 @@ struct RangeOfContacts {
 
 enum KindOfContact { kWallContacts, kInsideBodies, kAmAm, kAmCbd, kCbdCbd, kKindsOfContact };
 
-/// One row of curve_raw.csv: doubles in the order of its columns. Pressures, gap and displacement
-/// are averages over one window; energies of contacts are NaN in a run that kept no ledger.
+/// One row of curve_raw.csv: doubles in the order of its columns, kRawColumns of them. Pressures,
+/// gap and displacement are averages over one window; energies of contacts are NaN in a run that
+/// kept no ledger.
 struct RawRow {
   double step, time, stage, displacement, gap, p_top, p_bottom, made, broken, tension, bending,
       shear, torsion, kinetic, strain, work_platen, work_lost, work_collector, contact_elastic,
       cohesion, damped, friction, speed;
   RangeOfContacts ranges[kKindsOfContact];
+  double elongation = 0.0, work_elongation = 0.0; ///< of elongation_raw.csv [-], [fJ]
 };
+constexpr int kRawColumns = offsetof(RawRow, elongation) / sizeof(double);
 
 /// |P platen - P collector| / P platen within which a run counts as quasi-static.
 constexpr double kQuasiStatic = 0.05;
@@ -74,14 +78,15 @@ std::vector<std::pair<long, double>> write_series(const std::string &folder, dou
 /// Height [um] below which 99.9 % of the particle tops of a frame lie.
 double height_of_tops(const std::string &folder, long step);
 UnionVolume union_volumes(const std::string &folder, const ElectrodeFacts &electrode,
-                          const std::vector<std::pair<long, double>> &frames);
+                          const std::vector<std::pair<long, double>> &frames,
+                          const std::vector<RawRow> &rows);
 
 /// bodies.csv, cracks.csv and thresholds.csv; returns {bodies, cracked}. `moments`: the rows of
-/// curve.csv.
+/// curve.csv; `elongation`: of the cell in the last frame.
 std::pair<int, int> write_bodies(const std::string &folder, const ElectrodeFacts &electrode,
                                  const std::string &electrode_folder,
                                  const std::vector<std::pair<long, double>> &frames,
-                                 const std::vector<MomentOfRun> &moments);
+                                 const std::vector<MomentOfRun> &moments, double elongation);
 
 } // namespace calendem
 

@@ -22,7 +22,8 @@ const Term kTerms[] = {
 };
 
 double work(const RawRow &from, const RawRow &to) {
-  return to.work_platen + to.work_collector - from.work_platen - from.work_collector;
+  return to.work_platen + to.work_collector + to.work_elongation - from.work_platen -
+         from.work_collector - from.work_elongation;
 }
 
 double rest(const RawRow &from, const RawRow &to) {
@@ -33,7 +34,10 @@ double rest(const RawRow &from, const RawRow &to) {
 }
 
 nlohmann::json terms(const RawRow &from, const RawRow &to) {
-  nlohmann::json out = {{"work_of_platen", work(from, to)}};
+  const double elongation = to.work_elongation - from.work_elongation;
+  nlohmann::json out = {{"work_of_platen", work(from, to) - elongation}};
+  if (elongation != 0.0)
+    out["work_of_elongation"] = elongation;
   for (const Term &t : kTerms)
     out[t.name] = to.*t.value - from.*t.value;
   out["rest"] = rest(from, to);

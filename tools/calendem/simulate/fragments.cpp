@@ -159,7 +159,7 @@ std::string pressure_at(const std::vector<MomentOfRun> &moments, double time) {
 std::pair<int, int> write_bodies(const std::string &folder, const ElectrodeFacts &e,
                                  const std::string &electrode_folder,
                                  const std::vector<std::pair<long, double>> &frames,
-                                 const std::vector<MomentOfRun> &moments) {
+                                 const std::vector<MomentOfRun> &moments, double elongation) {
   const double face = e.lattice * e.lattice;
   std::map<int, Eigen::Vector3d> first, last;
   if (!frames.empty()) {
@@ -174,8 +174,8 @@ std::pair<int, int> write_bodies(const std::string &folder, const ElectrodeFacts
   for (const auto &[body, m] : members_of(read_particles(electrode_folder),
                                           read_breaks(folder + "/breaks.csv"), e.lx, e.ly)) {
     const FractureState s = state_at(m.bonds, kEndOfRun);
-    const ShapeChange shape =
-        shape_of(together(m.tags, first, e.lx, e.ly), together(m.tags, last, e.lx, e.ly));
+    const ShapeChange shape = shape_of(together(m.tags, first, e.lx, e.ly),
+                                       together(m.tags, last, e.elongated(elongation).lx, e.ly));
     cracked += is_cracked(s);
     out += fmt::format("{},{},{},{},{:.5f},{},{:.4f},{:.5f},{:.3f},{},{:.5g},{:.5g},{:.5f},{},{}\n",
                        body, m.tags.size(), s.bonds, s.broken, s.broken_fraction(), s.fragments,

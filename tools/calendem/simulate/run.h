@@ -42,6 +42,14 @@ struct ElectrodeFacts {
   double widest = 0.0;       ///< largest diameter of a primary or a CBD sphere [um]
   MeanSphere primary;        ///< of the active material; from the atoms, as `atoms` is
   long bonds = 0, atoms = 0, bodies = 0, primaries = 0;
+
+  /// In a cell that is longer along x by a fraction.
+  ElectrodeFacts elongated(double by) const {
+    ElectrodeFacts e = *this;
+    e.lx *= 1.0 + by;
+    e.area *= 1.0 + by;
+    return e;
+  }
 };
 
 /// From electrode.json; the atoms are not in it. Throws std::exception where a field is missing.

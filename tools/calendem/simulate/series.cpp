@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The frames of a run: ParaView series and the space that particles fill.
 #include "base/provenance.h"
-#include "simulate/collect.h"
+#include "simulate/elongation.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -93,7 +93,8 @@ std::vector<std::pair<long, double>> write_series(const std::string &folder, dou
 
 // AM keeps its volume (N s^3); CBD adds what of its spheres lies outside all primaries.
 UnionVolume union_volumes(const std::string &folder, const ElectrodeFacts &e,
-                          const std::vector<std::pair<long, double>> &frames) {
+                          const std::vector<std::pair<long, double>> &frames,
+                          const std::vector<RawRow> &rows) {
   UnionVolume out;
   for (const auto &[step, time] : frames) {
     vtkNew<vtkXMLPolyDataReader> reader;
@@ -104,7 +105,7 @@ UnionVolume union_volumes(const std::string &folder, const ElectrodeFacts &e,
     vtkDataArray *radius = data->GetPointData()->GetArray("radius");
     if (!type || !radius || data->GetNumberOfPoints() == 0)
       continue;
-    Voxels voxels(e.lx, e.ly, e.thickness + 2.0);
+    Voxels voxels(e.elongated(elongation_at(rows, time)).lx, e.ly, e.thickness + 2.0);
     for (int phase : {1, 2})
       for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
         if (type->GetTuple1(i) == phase)
