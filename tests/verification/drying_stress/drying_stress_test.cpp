@@ -193,7 +193,7 @@ TEST(VerificationDryingStress, ARestartWithAnotherShrinkageStops) {
   const CaseRun one = throw_film(shrinking(kShrinkage, kFilmTime));
   for (const Settings &other : {shrinking(0.003, kFilmTime), shrinking(kShrinkage, 1.0)}) {
     Settings settings = other;
-    settings.insert({{"restart", "1"}, {"dt", number(kFilmStep)}});
+    settings.insert({{"restart", "1"}, {"ced", "0"}});
     const CaseRun run("binder_bridges/in.bridges", settings, 1, half_way(one));
     EXPECT_FALSE(run.finished());
     EXPECT_NE(run.why().find("it must stay as it was"), std::string::npos) << run.why();

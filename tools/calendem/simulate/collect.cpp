@@ -4,6 +4,7 @@
 #include "base/provenance.h"
 #include "physics/nanopore_collapse.h"
 #include "simulate/bridges.h"
+#include "simulate/drying.h"
 #include "simulate/energy.h"
 #include "simulate/line_load.h"
 #include "simulate/roll_passes.h"
@@ -270,6 +271,8 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   s["contact_range"] = contact_range(rows, top);
   if (settings.text("platen.control") == "roll_gap")
     s["roll"] = roll_passes(rows, settings);
+  if (const nlohmann::json dried = dried_film(folder); !dried.is_null())
+    s["drying"] = dried;
   if (const nlohmann::json held = write_bridges(folder, rows, top); !held.is_null())
     s["bridges"] = held;
   if (settings.number("roll.line_load_N_mm") > 0.0)

@@ -113,7 +113,7 @@ bool find_restart(const std::string &folder, long atoms) {
 
 void clear_old_results(const std::string &folder) {
   for (const char *name :
-       {"curve_raw.csv", "bridges_raw.csv", "bridges.csv", "breaks.csv", "curve.csv",
+       {"curve_raw.csv", "bridges_raw.csv", "bridges.csv", "drying.csv", "breaks.csv", "curve.csv",
         "summary.json", "bodies.csv", "running.restart", "running.previous", "running.damaged",
         "running.restart.part", "compressed.restart", "final.restart", "time_step.in",
         "structure.csv", "structure.json"})
