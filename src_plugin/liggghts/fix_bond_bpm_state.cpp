@@ -10,6 +10,7 @@
 #include "output.h"
 #include "update.h"
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -144,9 +145,9 @@ void FixBondBpm::check_remembered() {
     char message[300];
     snprintf(message, sizeof message,
              "%s is %g, and the run that goes on from this restart file began with %g: it must "
-             "stay as it was. Give %.17g, or begin the run anew",
+             "stay as it was. Give %.10g, or begin the run anew",
              now.name, now.value, earlier_[k], earlier_[k]);
-    if (restarted_ && now.value != earlier_[k])
+    if (restarted_ && std::fabs(now.value - earlier_[k]) > 1e-9 * earlier_[k])
       error->fix_error(FLERR, this, message);
   }
 }
