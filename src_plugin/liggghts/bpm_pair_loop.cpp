@@ -133,6 +133,7 @@ bool BpmPairLoop::copy_spheres() {
 
 void BpmPairLoop::compute_force(PairGran *pair) {
   update_ = pair->shearupdate();
+  virial_ = pair->evflag ? pair : nullptr;
   copy_materials();
   const bool resized = copy_spheres();
   if (table_.holds())
@@ -171,6 +172,8 @@ int BpmPairLoop::work_off(PairTable::Bonds &list, int n, const BondSettings &b) 
   sum_forces(tile);
   if (energy_)
     book_bonds(tile);
+  if (energy_ && &list == &table_.bridges && fix_->shrinks())
+    book_shrinking(tile, b.material);
   return lost;
 }
 
@@ -289,6 +292,10 @@ void BpmPairLoop::watch_contacts(ContactTile &t) {
 }
 
 void BpmPairLoop::sum_forces(const PairTile &t) {
+  const PairStep &s = *step_;
+  for (int p = 0; virial_ && p < t.size; ++p)
+    virial_->ev_tally_xyz(t.i[p], t.j[p], atom->nlocal, 0, 0.0, 0.0, s.force.x[p], s.force.y[p],
+                          s.force.z[p], s.d.x[p], s.d.y[p], s.d.z[p]);
   round_off(t.size, *step_, force_unit_, torque_unit_);
   for (int p = 0; p < t.size; ++p) {
     WholeForce &on_i = forces_[t.i[p]], &on_j = forces_[t.j[p]];
@@ -352,6 +359,11 @@ void BpmPairLoop::book_bonds(const BondTile &t) {
     energy_->add_damping(
         t.i[p], t.j[p],
         {step_->bond_damping[p], step_->bond_damping_torque_i[p], step_->bond_damping_torque_j[p]});
+}
+
+void BpmPairLoop::book_shrinking(const BondTile &t, const calendem::BondMaterial &material) {
+  for (int p = 0; p < t.size; ++p)
+    energy_->add_shrinking(t.i[p], t.j[p], BondPair(material, t, *step_, p).tension * t.length[p]);
 }
 
 void BpmPairLoop::book_contacts(const PairTile &t) {

@@ -65,7 +65,8 @@ private:
   calendem::FixedPoint force_unit_, torque_unit_; // of these [nN], [nN um]
   PairTable table_;
   const std::unique_ptr<PairStep> step_;
-  bool update_ = true; // histories advance: not during set-up
+  bool update_ = true;           // histories advance: not during set-up
+  class Pair *virial_ = nullptr; // who adds up the step's virial, NULL for nobody
 
   void copy_materials();
   bool copy_spheres();
@@ -82,6 +83,7 @@ private:
   void sum_forces(const PairTile &tile);
   void add_forces(class PairGran *pair);
   void book_bonds(const BondTile &tile);
+  void book_shrinking(const BondTile &tile, const calendem::BondMaterial &);
   void book_contacts(const PairTile &tile);
 };
 

@@ -135,7 +135,7 @@ private:
                                          n,
                                          r};
     calendem::BondLoads loads = bond.loads();
-    const double tension = k.normal * (r - bond.length());
+    const double tension = calendem::bond_tension(b.material, k, r, bond.length());
     if (s.computeflag && s.shearupdate) {
       fix_->acts(s.i, s.j);
       calendem::advance(loads, motion, k, update->dt);
@@ -151,8 +151,11 @@ private:
       damping = calendem::BondDamping(b.material, section, k, mi * mj / (mi + mj), radius_min);
     }
     const calendem::BondAction a = calendem::action(loads, tension, motion, damping);
-    if (energy_ && s.computeflag)
+    if (energy_ && s.computeflag) {
       book_damping(s.i, s.j, motion, damping);
+      if (bond.state() == kBridge && fix_->shrinks())
+        energy_->add_shrinking(s.i, s.j, tension * bond.length());
+    }
     calendem::add_to(a.force, i_forces.delta_F);
     calendem::subtract_from(a.force, j_forces.delta_F);
     calendem::add_to(a.torque_i, i_forces.delta_torque);

@@ -93,8 +93,8 @@ void DumpBondBpmVtk::write() {
     const calendem::Vec3 d = calendem::load(atom->x[i]) - calendem::load(atom->x[j]);
     const calendem::BondSection s(set.material.radius_ratio * std::min(radius[i], radius[j]));
     const calendem::BondStiffness k(set.material, s, bond.length());
-    const calendem::BondStress stress =
-        bond_stress(bond.loads(), k.normal * (norm(d) - bond.length()), s, set.criterion);
+    const calendem::BondStress stress = bond_stress(
+        bond.loads(), bond_tension(set.material, k, norm(d), bond.length()), s, set.criterion);
     lines.push_back({double(atom->tag[i]), double(atom->tag[j]),
                      double(fix_->body(i < atom->nlocal ? i : j)), 1.0, 0.0, 1e-3 * stress.sigma(),
                      1e-3 * stress.tau(), -1.0});

@@ -39,7 +39,7 @@ FixBondBpm::FixBondBpm(LAMMPS *lmp, int narg, char **arg)
   parse(narg, arg);
   restart_global = restart_peratom = create_attribute = 1;
   vector_flag = 1;
-  size_vector = 17;
+  size_vector = 18;
   global_freq = 1;
   comm_forward = 1;
   neighbor->register_contact_dist_factor(kContactDistanceFactor);
@@ -94,6 +94,8 @@ void FixBondBpm::init() {
   energy_ = FixEnergyBpm::find(lmp);
   check_materials();
   check_radii();
+  check_shrinkage();
+  check_remembered();
   if (!created_)
     read_bodies();
   if (!log_ready_)
@@ -156,7 +158,11 @@ void FixBondBpm::store_histories() {
     loop_->store_histories();
 }
 
-void FixBondBpm::post_integrate() { put_on_grid(); }
+void FixBondBpm::post_integrate() {
+  put_on_grid();
+  if (shrinkage_.strain > 0.0)
+    shrink(update->dt);
+}
 
 void FixBondBpm::setup_pre_force(int) {
   expected_ = -1;
@@ -343,7 +349,7 @@ double FixBondBpm::strain_energy_of(BondState state) {
     const calendem::BondMaterial &material = settings_of(bond).material;
     const double radius = material.radius_ratio * std::min(atom->radius[i], atom->radius[j]);
     const calendem::BondStiffness k(material, calendem::BondSection(radius), bond.length());
-    mine += strain_energy(bond.loads(), k.normal * (norm(d) - bond.length()), k);
+    mine += strain_energy(bond.loads(), bond_tension(material, k, norm(d), bond.length()), k);
   });
   MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;

@@ -4,6 +4,7 @@
 //     pressure PLATEN_FIX contact_diameter D LAW NUMBERS ...
 // fix_modify ID LAW NUMBERS ...       with a further law of strength, see bond_strengths.h
 // fix_modify ID bridges E NU L GAP S_AM S_CBD S_COLLECTOR RATIO
+// fix_modify ID shrinkage EPS T
 //
 // Keeps positions and periodic sides on a grid on which shifts by a side are exact: both copies of
 // a pair then do the same arithmetic, and find the same breaks, whichever ranks hold them. Owns the
@@ -17,8 +18,10 @@
 // (physics/binder_bridge.h) of modulus E, radius ratio L and tensile strengths S between CBD and
 // AM, CBD, collector (types as in registry/effect.h) are made with the bonds and damped as they
 // are; the script gives them again after a restart. No bond of a body and nothing of bodies counts
-// them. Global vector: 1-9 as compute bond/bpm; bridges made 10 to AM 11 to CBD 12 to the
-// collector; broken 13 14 15; 16 their strain energy, 17 that released by breaks [fJ].
+// them. In the time T [us] from their creation they shrink by EPS (physics/drying_shrinkage.h); a
+// restart with another EPS, T or D is refused. Global vector: 1-9 as compute bond/bpm; bridges made 10 to AM 11 to CBD 12 to the
+// collector; broken 13 14 15; 16 their strain energy, 17 that released by breaks [fJ]; 18 how far
+// they have shrunk [-].
 #ifdef FIX_CLASS
 
 FixStyle(bond/bpm, FixBondBpm)
@@ -32,6 +35,8 @@ FixStyle(bond/bpm, FixBondBpm)
 #include "fix.h"
 #include "physics/binder_bridge.h"
 #include "physics/bond_failure.h"
+#include "physics/drying_shrinkage.h"
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -113,6 +118,10 @@ public:
     return bond.state() == kBridge ? bridge_settings_ : settings_;
   }
   const calendem::BinderBridges &bridges() const { return bridges_; }
+  /// By how much of their length at creation bridges have shrunk in this step, and whether they do
+  /// in this or the next one.
+  double shrinking() const { return shrinking_; }
+  bool shrinks() const { return shrinkage_.strain > 0.0 && (shrunk_ < 1.0 || shrinking_ > 0.0); }
   bool creating() const { return creating_; }
   void create(int i, int j, double r, BondHistory &bond) const;
   /// The spheres of a broken pair have separated, or were bridged.
@@ -166,7 +175,11 @@ public:
 private:
   BondSettings settings_, bridge_settings_; // of a bridge the strength's factor is sigma_c
   calendem::BinderBridges bridges_;
-  class FixEnergyBpm *energy_; // NULL when no ledger is kept
+  calendem::DryingShrinkage shrinkage_;
+  double shrunk_ = 0.0, shrinking_ = 0.0; // of `shrinkage_`; in this step, of the length
+  bool restarted_ = false;
+  std::array<double, 3> earlier_ = {}; // what remembered() was in the run that goes on
+  class FixEnergyBpm *energy_;         // NULL when no ledger is kept
   std::string bodies_file_, log_file_, platen_id_;
   std::vector<int> body_of_tag_;        // from the body map; empty after a restart
   std::map<int, double> body_diameter_; // of the sphere of the primaries' volume; likewise
@@ -179,6 +192,11 @@ private:
   double energy_lost_;
   bigint bridges_made_[calendem::kBridgeKinds], bridges_broken_[calendem::kBridgeKinds];
   double bridge_energy_lost_;
+  /// A setting that a restart has to repeat.
+  struct Remembered {
+    const char *name;
+    double value;
+  };
   /// A copy of a bond that fails in this step.
   struct Break {
     int i, j;
@@ -199,6 +217,11 @@ private:
   int parse_keyword(int iarg, int narg, char **arg);
   int parse_strength(int narg, char **arg);
   int parse_bridges(int narg, char **arg);
+  int parse_shrinkage(int narg, char **arg);
+  std::array<Remembered, 3> remembered() const;
+  void check_remembered();
+  void check_shrinkage();
+  void shrink(double dt);
   void check_bridges(double poisson);
   void check_radii();
   calendem::BridgeKind kind_of_bridge(int i, int j) const;

@@ -3,6 +3,7 @@
 #include "comm.h"
 #include "error.h"
 #include "fix_bond_bpm.h"
+#include "fix_energy_bpm.h"
 #include "modify.h"
 #include "mpi_liggghts.h"
 #include "registry/effect.h"
@@ -59,6 +60,44 @@ void FixBondBpm::check_bridges(double poisson) {
     if (tensile > BinderBridges::kMostStrain * E)
       error->fix_error(FLERR, this, message);
   }
+}
+
+int FixBondBpm::parse_shrinkage(int narg, char **arg) {
+  const int words = 3;
+  if (narg < words)
+    error->fix_error(FLERR, this, "'shrinkage' needs 2 numbers: strain and time [us]");
+  shrinkage_.strain = positive("shrinkage", arg[1], true);
+  shrinkage_.time = positive("shrinkage: time", arg[2], true);
+  char message[256];
+  snprintf(message, sizeof message,
+           "'shrinkage' is %g; at most %g is allowed, where the strongest of bridges break",
+           shrinkage_.strain, calendem::DryingShrinkage::kMost);
+  if (shrinkage_.strain > calendem::DryingShrinkage::kMost)
+    error->fix_error(FLERR, this, message);
+  return words;
+}
+
+void FixBondBpm::check_shrinkage() {
+  if (shrinkage_.strain <= 0.0)
+    return;
+  char message[256];
+  snprintf(message, sizeof message,
+           "'shrinkage' is %g, and there are no binder bridges that could shrink. Give 'bridges' "
+           "with a strength above 0, or a shrinkage of 0",
+           shrinkage_.strain);
+  if (!bridges_.on())
+    error->fix_error(FLERR, this, message);
+  if (energy_ && modify->find_fix(energy_->id) < modify->find_fix(id))
+    error->fix_error(FLERR, this, "with 'shrinkage' it must stand before fix energy/bpm");
+  shrink(0.0);
+  shrinking_ = 0.0;
+}
+
+void FixBondBpm::shrink(double dt) {
+  const double before = bridge_settings_.material.rest;
+  shrunk_ = shrinkage_.later(shrunk_, dt);
+  bridge_settings_.material.rest = shrinkage_.rest(shrunk_);
+  shrinking_ = before - bridge_settings_.material.rest;
 }
 
 void FixBondBpm::check_radii() {
@@ -142,6 +181,8 @@ double FixBondBpm::bridge_vector(int n) {
     return bridges_broken_[n - calendem::kBridgeKinds];
   if (n == 2 * calendem::kBridgeKinds + 1)
     return bridge_energy_lost_;
+  if (n == 2 * calendem::kBridgeKinds + 2)
+    return 1.0 - bridge_settings_.material.rest;
   const WallBridges *wall = WallBridges::find(lmp);
   double mine = wall ? wall->strain_energy() : 0.0, all = 0.0;
   MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);

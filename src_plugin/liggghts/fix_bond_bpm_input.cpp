@@ -115,7 +115,9 @@ int FixBondBpm::parse_keyword(int iarg, int narg, char **arg) {
 }
 
 int FixBondBpm::modify_param(int narg, char **arg) {
-  return !strcmp(arg[0], "bridges") ? parse_bridges(narg, arg) : parse_strength(narg, arg);
+  if (!strcmp(arg[0], "bridges"))
+    return parse_bridges(narg, arg);
+  return !strcmp(arg[0], "shrinkage") ? parse_shrinkage(narg, arg) : parse_strength(narg, arg);
 }
 
 void FixBondBpm::parse(int narg, char **arg) {

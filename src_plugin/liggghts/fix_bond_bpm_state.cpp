@@ -9,12 +9,14 @@
 #include "neighbor.h"
 #include "output.h"
 #include "update.h"
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 
 using namespace LAMMPS_NS;
 
 namespace {
-const int kHeader = 15; // values before the list of breaks in the restart record
+const int kHeader = 19; // values before the list of breaks in the restart record
 const int kEventSize = sizeof(BreakEvent) / sizeof(double);
 } // namespace
 
@@ -102,6 +104,9 @@ void FixBondBpm::write_restart(FILE *fp) {
     record[11 + k] = static_cast<double>(bridges_broken_[k]);
   }
   record[14] = bridge_energy_lost_;
+  record[15] = shrunk_;
+  for (size_t k = 0; k < earlier_.size(); ++k)
+    record[16 + k] = remembered()[k].value;
   const double *events = reinterpret_cast<const double *>(breaks_.data());
   record.insert(record.end(), events, events + kEventSize * breaks_.size());
   const int bytes = static_cast<int>(record.size() * sizeof(double));
@@ -111,7 +116,7 @@ void FixBondBpm::write_restart(FILE *fp) {
 
 void FixBondBpm::restart(char *buf) {
   const double *record = reinterpret_cast<const double *>(buf);
-  created_ = record[0] != 0.0;
+  created_ = restarted_ = record[0] != 0.0;
   initial_ = static_cast<bigint>(record[1]);
   energy_lost_ = record[2];
   breaks_.resize(static_cast<size_t>(record[3]));
@@ -122,7 +127,29 @@ void FixBondBpm::restart(char *buf) {
     bridges_broken_[k] = static_cast<bigint>(record[11 + k]);
   }
   bridge_energy_lost_ = record[14];
+  shrunk_ = record[15];
+  std::copy_n(record + 16, earlier_.size(), earlier_.begin());
   memcpy(breaks_.data(), record + kHeader, breaks_.size() * sizeof(BreakEvent));
+}
+
+// What pairs keep in their histories follows from these.
+std::array<FixBondBpm::Remembered, 3> FixBondBpm::remembered() const {
+  return {{{"contact_diameter", settings_.contact_diameter},
+           {"shrinkage", shrinkage_.strain},
+           {"shrinkage's time", shrinkage_.time}}};
+}
+
+void FixBondBpm::check_remembered() {
+  for (size_t k = 0; k < earlier_.size(); ++k) {
+    const Remembered now = remembered()[k];
+    char message[300];
+    snprintf(message, sizeof message,
+             "%s is %g, and the run that goes on from this restart file began with %g: it must "
+             "stay as it was. Give %.10g, or begin the run anew",
+             now.name, now.value, earlier_[k], earlier_[k]);
+    if (restarted_ && std::fabs(now.value - earlier_[k]) > 1e-9 * earlier_[k])
+      error->fix_error(FLERR, this, message);
+  }
 }
 
 double FixBondBpm::memory_usage() {

@@ -25,7 +25,7 @@ FixEnergyBpm::FixEnergyBpm(LAMMPS *lmp, int narg, char **arg)
   if (narg != 3)
     error->fix_error(FLERR, this, "takes no arguments: 'fix ID all energy/bpm'");
   vector_flag = 1;
-  size_vector = 8;
+  size_vector = 9;
   global_freq = 1;
   restart_global = 1;
   grow_arrays(atom->nmax);
@@ -57,6 +57,11 @@ void FixEnergyBpm::add_taken(int i, int j, double work, calendem::WorkTaken term
     add_taken(work, term);
 }
 
+void FixEnergyBpm::add_shrinking(int i, int j, double work) {
+  if (bonds_->decides(i, j))
+    add_shrinking(work);
+}
+
 void FixEnergyBpm::find_walls() {
   walls_.clear();
   bool behind = false;
@@ -79,6 +84,7 @@ void FixEnergyBpm::grow_arrays(int nmax) { loads_.resize(nmax); }
 void FixEnergyBpm::pre_force(int) {
   std::fill(loads_.begin(), loads_.begin() + atom->nlocal + atom->nghost, AtomLoads());
   moments_ = {};
+  shrinking_ = ended_ = 0.0;
 }
 
 // Atoms may have moved in memory, and the forces that follow no longer know the broken bonds.
@@ -92,6 +98,7 @@ void FixEnergyBpm::setup(int) { collect_walls(); }
 
 // Velocities are those that have just moved the atoms; the forces are still the step's first.
 void FixEnergyBpm::post_integrate() {
+  shrinking_ -= ended_;
   add_half_step();
   add_half_elongation(&calendem::ElongationStep::work_before);
   for (const LastForce &last : last_forces_)
@@ -132,6 +139,7 @@ void FixEnergyBpm::add_half_step() {
     damped += 0.5 * update->dt * wall.damping * wall.fix->velocity();
     friction += 0.5 * update->dt * wall.friction * wall.fix->sliding();
   }
+  sums_[kShrinking] += 0.5 * shrinking_ * bonds_->shrinking();
   sums_[kDamped] += damped;
   sums_[kFriction] += friction;
 }
@@ -180,8 +188,8 @@ void FixEnergyBpm::bond_breaks(int i, int j, const BondHistory &bond) {
   const calendem::BondSection section(material.radius_ratio * std::min(radius[i], radius[j]));
   const calendem::BondStiffness k(material, section, bond.length());
   const calendem::PairMotion motion = {d, {}, {}, {}, n, r};
-  const calendem::BondAction a =
-      action(bond.loads(), k.normal * (r - bond.length()), motion, calendem::BondDamping());
+  const double tension = bond_tension(material, k, r, bond.length());
+  const calendem::BondAction a = action(bond.loads(), tension, motion, calendem::BondDamping());
   const double beyond = r + bond.reference_overlap(radius[i] + radius[j]);
   const bool begins = bond.state() != kBridge; // beside a bridge it acts all the time
   const double pull =
@@ -193,8 +201,12 @@ void FixEnergyBpm::bond_breaks(int i, int j, const BondHistory &bond) {
   if (j < atom->nlocal)
     last_forces_.push_back({j, {-force, a.torque_j}});
   last_moment_ += (j < atom->nlocal ? 1.0 : 0.5) * force.x * d.x;
-  if (begins && bonds_->decides(i, j))
+  if (!bonds_->decides(i, j))
+    return;
+  if (begins)
     sums_[kBreaks] -= cohesion(i, j, beyond);
+  else
+    shrinking_ends(tension * bond.length());
 }
 
 double FixEnergyBpm::pair_energy(bool of_cohesion) const {

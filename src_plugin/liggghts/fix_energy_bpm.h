@@ -12,7 +12,8 @@
 //   work against the tangential contact forces: slip, their damping, and what their springs hold at
 //   the moment, 5 lost in breaks beyond the bonds' strain energy: the potential of the cohesion
 //   that begins to act, and the last half step of the bond's force, 6 taken by plastic flow in
-//   contacts, 7 by collapsing spheres, 8 by the dashpots of viscous contacts.
+//   contacts, 7 by collapsing spheres, 8 by the dashpots of viscous contacts, 9 put in by binder
+//   bridges that shrink: to be set against the others.
 // Where the cell elongates, the work of fix elongation is beside that of the platens.
 // Needs `pair_style gran model hertz|hertz_effects ... cohesion bpm surface bpm`; stands behind all
 // fixes wall/gran/platen, the walls it knows; of their cohesion it knows `sjkr`. Sums restart under
@@ -96,10 +97,14 @@ public:
   /// Energy [fJ] in this rank's contacts, elastic and cohesive: before and after radii change.
   double stored_in_contacts() const;
   void add_collapse(double work) { sums_[kCollapse] += work; }
+  /// Of a bridge that shrinks [fJ]: its tension times its length at creation.
+  void add_shrinking(double work) { shrinking_ += work; }
+  void add_shrinking(int i, int j, double work);
   /// For fix bond/bpm, once per copy of the pair, while the history still holds the bond's loads.
   void bond_breaks(int i, int j, const BondHistory &bond);
   /// A force on atom i acts in this step for the last time: a bridge on a wall has broken.
   void force_ends(int i, const ForceAndTorque &action) { last_forces_.push_back({i, action}); }
+  void shrinking_ends(double work) { ended_ += work; }
 
 private:
   struct AtomLoads {
@@ -115,7 +120,7 @@ private:
     double damping;  ///< sum of the damping forces along z on this rank's atoms [nN]
     double friction; ///< and of the friction along x
   };
-  enum Sum { kDamped, kFriction, kBreaks, kPlastic, kCollapse, kViscous, kSums };
+  enum Sum { kDamped, kFriction, kBreaks, kPlastic, kCollapse, kViscous, kShrinking, kSums };
 
   class FixBondBpm *bonds_;
   class FixElongation *elongation_; // NULL: the cell keeps its sides
@@ -125,9 +130,10 @@ private:
   std::vector<Wall> walls_;
   std::vector<AtomLoads> loads_; // of the latest force computation
   PairMoments moments_;
-  std::vector<LastForce> last_forces_; // of bonds that have just broken
-  double last_moment_;                 // of these
-  double sums_[kSums];                 // this rank's
+  std::vector<LastForce> last_forces_;   // of bonds that have just broken
+  double last_moment_;                   // of these
+  double sums_[kSums];                   // this rank's
+  double shrinking_ = 0.0, ended_ = 0.0; // of the latest forces; of the bridges that broke in them
 
   void find_walls();
   void collect_walls();

@@ -122,6 +122,8 @@ void FixWallGranPlaten::set_keyword(const std::string &key, const std::string &v
     programme_.touch_pressure = number(key, value, true);
   else if (key == "dwell")
     programme_.dwell = number(key, value, true);
+  else if (key == "wait")
+    programme_.wait = number(key, value, true);
   else if (key == "ramp")
     programme_.ramp_time = number(key, value, true);
   else if (key == "lost")
@@ -139,7 +141,7 @@ void FixWallGranPlaten::set_keyword(const std::string &key, const std::string &v
         "unknown setting '" + key + " " + value +
         "'; known: side top|bottom, motion hold | motion pressure P | motion position Z | "
         "motion roll GAP, roll_radius, counter_radius, slip, passes, first_gap, "
-        "touch_speed, load_speed, release_speed, touch_pressure, dwell, ramp, lost, lowest, "
+        "touch_speed, load_speed, release_speed, touch_pressure, wait, dwell, ramp, lost, lowest, "
         "average, compliance, release yes|no, bridges yes|no";
     error->fix_error(FLERR, this, message.c_str());
   }

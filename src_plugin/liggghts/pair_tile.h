@@ -110,7 +110,7 @@ struct BondPair {
     const double r = std::sqrt(s.r_squared[p]);
     const calendem::Vec3 d = s.d[p];
     motion = {d, s.v[p], s.spin_i[p], s.spin_j[p], (1.0 / r) * d, r};
-    tension = stiffness.normal * (r - t.length[p]);
+    tension = calendem::bond_tension(m, stiffness, r, t.length[p]);
   }
 };
 

@@ -34,7 +34,7 @@ struct WallBridges::Bridge {
         section(wall.material().radius_ratio * wall.atom->radius[i]),
         stiffness(wall.material(), section, bond.length()),
         damping(wall.material(), section, stiffness, wall.atom->rmass[i], wall.atom->radius[i]),
-        tension(stiffness.normal * (motion.r - bond.length())) {}
+        tension(calendem::bond_tension(wall.material(), stiffness, motion.r, bond.length())) {}
 };
 
 WallBridges::WallBridges(LAMMPS *lmp, const std::string &wall, double z)
@@ -133,6 +133,8 @@ void WallBridges::act(bool update) {
     if (ledger) {
       const calendem::BondAction damping = damping_action(bridge.motion, bridge.damping);
       ledger->add_damping(i, {damping.force, damping.torque_i});
+      if (bonds_->shrinks())
+        ledger->add_shrinking(bridge.tension * bridge.bond.length());
     }
     if (update)
       break_if_it_fails(i, bridge);
@@ -147,8 +149,10 @@ void WallBridges::break_if_it_fails(int i, Bridge &bridge) {
     return;
   const calendem::BondAction last =
       calendem::action(loads, bridge.tension, bridge.motion, calendem::BondDamping());
-  if (FixEnergyBpm *ledger = FixEnergyBpm::find(lmp))
+  if (FixEnergyBpm *ledger = FixEnergyBpm::find(lmp)) {
     ledger->force_ends(i, {last.force, last.torque_i});
+    ledger->shrinking_ends(bridge.tension * bridge.bond.length());
+  }
   bonds_->bridge_breaks_on_wall(i,
                                 calendem::strain_energy(loads, bridge.tension, bridge.stiffness));
   bridge.bond.set_state(kBrokenSeparated);

@@ -41,6 +41,7 @@ struct BondMaterial {
   double shear_modulus = 0.0;  ///< G_b [kPa], > 0
   double radius_ratio = 1.0;   ///< lambda [-], (0, 1.5]
   double damping = 0.0; ///< fraction of critical damping of the pair's axial mode [-], [0, 1]
+  double rest = 1.0;    ///< length without tension over that at creation [-]; binder_bridge.h
 };
 
 inline double shear_modulus(double youngs_modulus, double poisson_ratio) {
@@ -74,6 +75,11 @@ struct BondStiffness : BondCoefficients {
     twist = 2.0 * m.shear_modulus * s.I * inverse_length;
   }
 };
+
+/// F_n [nN] at the centre distance r of a bond of that length [um] at creation.
+inline double bond_tension(const BondMaterial &m, const BondStiffness &k, double r, double length) {
+  return k.normal * (r - m.rest * length);
+}
 
 /// Loads that a bond remembers, as acting on particle i.
 struct BondLoads {

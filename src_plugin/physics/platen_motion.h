@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Programme of the moving platen: down with a smooth start to a pressure, a thickness or a
+// Programme of the moving platen: wait; down with a smooth start to a pressure, a thickness or a
 // displacement; dwell; up until contact is lost or the start is reached. Or as a roll passes over
 // the cell, once or several times.
 //
@@ -41,6 +41,7 @@ struct PlatenProgramme {
   RollNip roll;                ///< with control = Roll
   double passes = 1.0;         ///< under the roll, >= 1
   double first_gap = 0.0;      ///< of the first of several passes; 0: the target
+  double wait = 0.0;           ///< time until which it rests at its start
 };
 
 /// What changes; restarts store it as it is.
@@ -195,6 +196,8 @@ inline double slip_speed(const PlatenProgramme &p, const PlatenState &s) {
 inline void advance(const PlatenProgramme &p, PlatenState &s, double average, double window,
                     double time, double dt, bool may_release) {
   s.max_pressure = std::fmax(s.max_pressure, average);
+  if (time < p.wait)
+    return;
   const bool roll = p.control == PlatenControl::Roll;
   switch (stage_of(s)) {
   case PlatenStage::Compression:

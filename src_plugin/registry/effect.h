@@ -58,8 +58,9 @@ inline double script_units(const std::string &unit) {
 /// What two keys of the case may not be together.
 struct Relation {
   enum class Is {
-    AtMost, ///< `part` of the other
-    NotBoth ///< above 0
+    AtMost,  ///< `part` of the other
+    NotBoth, ///< above 0
+    Needs    ///< above 0 only if the other is
   };
   std::string key;
   Is is;

@@ -234,7 +234,9 @@ inline Effect binder_bridges() {
   e.moves = "stiffer film below some 20 MPa, and springback that what holds together resists; the "
             "only tensile and adhesive strength of the coating where cohesion is 0";
   e.source = "Potyondy & Cundall 2004; shear over tensile strength: Luo et al. 2018, of a coating "
-             "on its foil; the other values are unsourced priors";
+             "on its foil; strength below 0.2 GPa, a third of the hardness of the binder phase "
+             "(Iyer et al. 2023, doi:10.1016/j.msea.2023.145352), and below 0.1 of the modulus "
+             "(Chen et al. 2003), within that unsourced priors";
   e.law = "binder_bridge.h";
   e.verification = "binder_bridges";
   return e;

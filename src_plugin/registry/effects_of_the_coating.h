@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The coating as it came from the dryer: a function returns a row. Keys are the recipe's.
+// The coating as it came from the dryer: a function returns a row.
 #ifndef CALENDEM_REGISTRY_EFFECTS_OF_THE_COATING_H
 #define CALENDEM_REGISTRY_EFFECTS_OF_THE_COATING_H
 
+#include "physics/drying_shrinkage.h"
 #include "registry/effect.h"
 
 namespace calendem {
@@ -24,7 +25,30 @@ inline Effect cbd_gradient() {
   return e;
 }
 
-inline std::vector<Effect> effects_of_the_coating() { return {cbd_gradient()}; }
+inline Effect drying_stress() {
+  Effect e;
+  e.name = "drying_stress";
+  e.layer = "coating";
+  e.what = "the binder has shrunk on the foil: binder bridges are under tension before the press";
+  e.settings = {{"effects.drying_stress.shrinkage", "drying_shrinkage", "0", 0,
+                 DryingShrinkage::kMost, "", "of the length of binder bridges; 0: none"},
+                {"effects.drying_stress.time_us", "drying_us", "0.5", 0.01, 100, "us",
+                 "in which they shrink; then as long at rest, before the platen starts"}};
+  e.parameter = strength(e.settings[0], 0.001, 0.02, Spread::LogUniform);
+  e.relations = {{e.settings[0].name, Relation::Is::Needs, "effects.binder_bridges.strength_MPa",
+                  "only binder bridges can shrink"}};
+  e.moves = "film under tension in plane, which the first MPa must overcome; bridges that break "
+            "earlier; thickness by some tenths of a micrometre";
+  e.source = "Croll 1979; binder that swells on the foil of a graphite electrode makes 1-2 MPa "
+             "(Sethuraman "
+             "et al. 2012, arXiv:1201.2155), which over a modulus of 0.08-0.11 GPa of hard carbon "
+             "electrodes (Sawhney et al. 2024, arXiv:2403.11668) is 0.6-1.8 %, widened here";
+  e.law = "drying_shrinkage.h";
+  e.verification = "drying_stress";
+  return e;
+}
+
+inline std::vector<Effect> effects_of_the_coating() { return {cbd_gradient(), drying_stress()}; }
 
 } // namespace calendem
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The energy ledger of one run closes: energy_test.sh friction|frictionless|plastic|collapse|viscous|hardening|confined|bridges BIN WORK
+# The energy ledger of one run closes: energy_test.sh friction|frictionless|plastic|collapse|viscous|hardening|confined|bridges|drying BIN WORK
 set -euo pipefail
 case=$1 bin=$2 work=$3
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -36,10 +36,14 @@ case $case in
   bridges) # strong, so that what they lose in breaks would be missed
     sed 's/^max_pressure_MPa = .*/max_pressure_MPa = 30/' "$here/case.toml" >"$work/$case.toml"
     printf '\n[effects.binder_bridges]\nstrength_MPa = 25\ncollector_strength_MPa = 10\n' >>"$work/$case.toml" ;;
+  drying) # so far that bridges break before the press touches the film
+    sed 's/^max_pressure_MPa = .*/max_pressure_MPa = 10/' "$here/case.toml" >"$work/$case.toml"
+    printf '\n[effects.binder_bridges]\nstrength_MPa = 10\n\n[effects.drying_stress]\nshrinkage = 0.009\ntime_us = 0.1\n' \
+      >>"$work/$case.toml" ;;
 esac
 rm -rf "${work:?}/$case"
 "$bin/calendem" run "$work/$case.toml" -o "$work/$case" --ranks 1
-left=$(number unaccounted_fraction <"$summary")
+left=$(sed -n '/"energy_fJ"/,/^  }/p' "$summary" | number unaccounted_fraction)
 echo "unaccounted for: $left of the work"
 holds "$left <= $limit" "the ledger leaves $left of the platen's work"
 W=$(at at_max_pressure work_of_platen)
@@ -65,6 +69,13 @@ if [ "$case" = bridges ]; then
   x=$(at at_max_pressure lost_in_breaks)
   echo "lost in breaks: $(awk "BEGIN { print 100 * $x / $W }") % of the work at maximum pressure"
   holds "$x >= 2 * $limit * $W" "bridges lose too little for this test: $x of $W fJ"
+fi
+if [ "$case" = drying ]; then
+  dried=$(sed -n '/"drying"/,/^  }/p' "$summary")
+  left=$(number unaccounted_fraction <<<"$dried") broken=$(number am <<<"$dried")
+  echo "while it dries: $left of the work of shrinking unaccounted for, $broken bridges to AM broken"
+  holds "$left <= $limit && $left > 0" "the ledger of drying leaves $left of the work of shrinking"
+  holds "$broken > 0" "no bridge broke while the film dried"
 fi
 if [ "$case" = frictionless ]; then # the host damps across a contact in the half step of a set-up
   x=$(at at_end friction)

@@ -162,4 +162,13 @@ TEST(Settings, ScriptsHaveEverySetting) {
     }
 }
 
+// Requirement: what has nothing to act on is a mistake, which says what to do.
+TEST(Settings, DryingStressNeedsBinderBridges) {
+  const std::string shrinks = "[effects.drying_stress]\nshrinkage = 0.005\n";
+  EXPECT_NE(refusal(shrinks).find("only binder bridges can shrink. Give that a value above 0"),
+            std::string::npos);
+  EXPECT_EQ(refusal("[effects.binder_bridges]\nstrength_MPa = 10\n" + shrinks), "");
+  EXPECT_EQ(refusal("[effects.drying_stress]\nshrinkage = 0\n"), "");
+}
+
 } // namespace

@@ -126,6 +126,24 @@ TEST(PlatenMotion, SmoothStart) {
   EXPECT_EQ(before, press.p.touch_speed);
 }
 
+// Requirement: at rest until then; from there on as one that starts at once.
+TEST(PlatenMotion, WaitsAtItsStart) {
+  PlatenProgramme late = programme(PlatenControl::Position, 50.0);
+  Press at_once(late);
+  late.wait = 1000 * Press::dt;
+  Press waits(late);
+  for (int n = 1; n < 1000; ++n) {
+    waits.step(linear);
+    ASSERT_EQ(waits.s.position, kStart);
+  }
+  for (int n = 0; n < 3000; ++n) {
+    waits.step(linear);
+    at_once.step(linear);
+    ASSERT_NEAR(waits.s.position, at_once.s.position, Press::dt);
+  }
+  EXPECT_LT(waits.s.position, kStart - 0.1);
+}
+
 // Requirement: dwell lasts as long as asked; release ends when less than lost_fraction of the
 // maximum is left, with the position where the film lets go (linear film without plasticity: its
 // own top, less 1 % of the compression and the lag of the average, window * speed).

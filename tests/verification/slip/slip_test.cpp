@@ -177,3 +177,21 @@ TEST(VerificationSlip, SameBitsOnTwoRanksAndAfterARestart) {
   s["px"] = "2";
   EXPECT_EQ(CaseRun("slip/in.slip", s, 2, files).text("final.txt"), state);
 }
+
+TEST(VerificationSlip, ARestartWithAnotherDiameterStops) {
+  Settings s = settings(kLattice);
+  s["half"] = s["rest"] = "100";
+  const CaseRun one("slip/in.slip", s, 1, two_rows());
+  ASSERT_TRUE(one.finished()) << one.why();
+  Files files = two_rows();
+  files["half.restart"] = one.text("half.restart");
+  s["from"] = "1";
+  EXPECT_TRUE(CaseRun("slip/in.slip", s, 1, files).finished());
+  s["meet"] = "1";
+  const CaseRun other("slip/in.slip", s, 1, files);
+  EXPECT_FALSE(other.finished());
+  EXPECT_NE(other.why().find("contact_diameter is 1, and the run that goes on from this restart "
+                             "file began with 0.805031"),
+            std::string::npos)
+      << other.why();
+}

@@ -120,6 +120,10 @@ void check_relation(const Settings &s, const Relation &r, Mistakes &mistakes) {
   if (r.is == Relation::Is::NotBoth && value > 0.0 && other > 0.0)
     mistakes.add(s.line(r.key), fmt::format("{} is {} and {} is {}: {}. Set one of them to 0.",
                                             r.key, s.text(r.key), r.other, s.text(r.other), r.why));
+  if (r.is == Relation::Is::Needs && value > 0.0 && other <= 0.0)
+    mistakes.add(s.line(r.key),
+                 fmt::format("{} is {} and {} is {}: {}. Give that a value above 0, or this 0.",
+                             r.key, s.text(r.key), r.other, s.text(r.other), r.why));
 }
 
 // A contact follows one law.

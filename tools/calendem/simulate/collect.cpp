@@ -4,6 +4,7 @@
 #include "base/provenance.h"
 #include "physics/nanopore_collapse.h"
 #include "simulate/bridges.h"
+#include "simulate/drying.h"
 #include "simulate/elongation.h"
 #include "simulate/energy.h"
 #include "simulate/line_load.h"
@@ -278,6 +279,8 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
     s["roll"] = roll_passes(rows, settings);
   if (elongates)
     s["elongation"] = elongation_of(top, rows.back(), e);
+  if (const nlohmann::json dried = dried_film(folder); !dried.is_null())
+    s["drying"] = dried;
   if (const nlohmann::json held = write_bridges(folder, rows, top); !held.is_null())
     s["bridges"] = held;
   if (settings.number("roll.line_load_N_mm") > 0.0)

@@ -113,10 +113,10 @@ bool find_restart(const std::string &folder, long atoms) {
 
 void clear_old_results(const std::string &folder) {
   for (const char *name :
-       {"curve_raw.csv", "bridges_raw.csv", "elongation_raw.csv", "bridges.csv", "breaks.csv",
-        "curve.csv", "summary.json", "bodies.csv", "running.restart", "running.previous",
-        "running.damaged", "running.restart.part", "compressed.restart", "final.restart",
-        "time_step.in", "structure.csv", "structure.json"})
+       {"curve_raw.csv", "bridges_raw.csv", "elongation_raw.csv", "bridges.csv", "drying.csv",
+        "breaks.csv", "curve.csv", "summary.json", "bodies.csv", "running.restart",
+        "running.previous", "running.damaged", "running.restart.part", "compressed.restart",
+        "final.restart", "time_step.in", "structure.csv", "structure.json"})
     fs::remove(fs::path(folder) / name);
   for (const auto &entry : fs::directory_iterator(fs::path(folder) / "vtk"))
     fs::remove(entry.path());
