@@ -37,8 +37,8 @@ inline Effect drying_stress() {
   e.parameter = strength(e.settings[0], 0.001, 0.02, Spread::LogUniform);
   e.relations = {{e.settings[0].name, Relation::Is::Needs, "effects.binder_bridges.strength_MPa",
                   "only binder bridges can shrink"}};
-  e.moves = "film under tension in plane, which the first MPa must overcome; bridges that break "
-            "earlier; thickness by some tenths of a micrometre";
+  e.moves = "film under tension in plane, little where CBD is sparse; bridges that break while it "
+            "dries and at lower pressures";
   e.source = "Croll 1979; binder that swells on the foil of a graphite electrode makes 1-2 MPa "
              "(Sethuraman "
              "et al. 2012, arXiv:1201.2155), which over a modulus of 0.08-0.11 GPa of hard carbon "
