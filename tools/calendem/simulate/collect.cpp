@@ -315,8 +315,7 @@ void stop_if_checks_failed(const nlohmann::json &summary, const std::string &fol
   Mistakes failed(folder);
   for (const auto &text : summary.value("failed_checks", nlohmann::json::array()))
     failed.add(0, text.get<std::string>() + ". What was computed is kept.");
-  if (!failed.empty())
-    throw Failure(kCheckFailed, failed.text());
+  failed.stop_if_any(kCheckFailed);
 }
 
 } // namespace calendem
