@@ -44,13 +44,12 @@ void compare(const Options &o) {
     }
   mistakes.stop_if_any();
   const Gap gap = find_gap(experiment, runs);
-  nlohmann::json j = to_json(gap);
+  nlohmann::ordered_json j = to_json(gap);
   j["provenance"]["experiment_file"] = hash_of_file(o.experiment);
   for (const std::string &folder : o.runs)
     j["provenance"]["runs"][folder] = hash_of_file(folder + "/summary.json");
   make_output_folder(o.folder);
-  write_file(o.folder + "/gap.json", j.dump(1) + "\n");
-  write_file(o.folder + "/gap.html", gap_page(j));
+  write_gap(j, gap_page(j), o.folder);
   print_rows(gap.rows);
   for (const std::string &text : gap.said)
     fmt::print("* {}\n", text);

@@ -3,6 +3,7 @@
 #include "base/effects.h"
 #include "base/messages.h"
 #include "base/provenance.h"
+#include "diagnose/gap_file.h"
 #include "report/page_template.h"
 #include "withheld/sealing.h"
 #include <cmath>
@@ -135,7 +136,7 @@ std::vector<ScoredCase> open_round(const std::string &folder, const std::string 
         continue;
       must_be(sha256(bytes_of(answers + "/" + name)), list.at("sha256").value(name, ""),
               "the answer " + name);
-      answer[k] = json_of(answers + "/" + name);
+      answer[k] = k == 0 ? read_diagnosis(answers + "/" + name) : json_of(answers + "/" + name);
     }
     add_cases(truth, answer[0], answer[1], answer[2], answer[3], out);
   }

@@ -98,10 +98,7 @@ std::string amount(double value, const std::string &unit) {
 void say(Gap &gap) {
   for (const Residual &r : gap.rows)
     if (r.significant)
-      gap.said.push_back(
-          fmt::format("{}, {} ({}): the simulation is {} too {} (z = {:.1f}, {:.0f} % of the gap).",
-                      r.condition, r.observable, r.stage, amount(std::fabs(r.residual), r.unit),
-                      r.residual > 0.0 ? "high" : "low", r.z, 100.0 * r.share));
+      gap.said.push_back(in_words(to_json(r), "the simulation"));
     else if (r.sd > 0.0)
       gap.not_said.push_back(fmt::format(
           "{}, {}: a difference of {} is not significant; the detection limit here is {}.",
