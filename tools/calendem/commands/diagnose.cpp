@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/gap_file.h"
 #include "base/provenance.h"
 #include "commands/commands.h"
-#include "diagnose/gap_file.h"
 #include "diagnose/page.h"
 #include "diagnose/rerun.h"
 #include <CLI/CLI.hpp>

@@ -3,7 +3,6 @@
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "diagnose/bank_points.h"
-#include "diagnose/words.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "diagnose/words.h"
+#include "base/gap_file.h"
 #include "diagnose/compare/gap_page.h"
-#include "diagnose/gap_file.h"
+#include "diagnose/diagnose.h"
 #include <algorithm>
 #include <fmt/format.h>
 

@@ -3,11 +3,7 @@
 #include "base/case.h"
 #include "base/provenance.h"
 #include "physics/nanopore_collapse.h"
-#include "simulate/bridges.h"
-#include "simulate/energy.h"
 #include "simulate/line_load.h"
-#include "simulate/roll_passes.h"
-#include "simulate/validity.h"
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -3,7 +3,6 @@
 #include "base/case.h"
 #include "base/provenance.h"
 #include "base/run_folder.h"
-#include "simulate/sample_cells.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

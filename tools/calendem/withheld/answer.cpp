@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/answer.h"
 #include "base/child.h"
+#include "base/gap_file.h"
 #include "base/messages.h"
 #include "base/provenance.h"
-#include "diagnose/gap_file.h"
 #include "diagnose/inference/scatter.h"
 #include "diagnose/rerun.h"
 #include "withheld/round_file.h"

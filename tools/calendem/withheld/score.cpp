@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/score.h"
 #include "base/effects.h"
+#include "base/gap_file.h"
 #include "base/messages.h"
 #include "base/provenance.h"
-#include "diagnose/gap_file.h"
 #include "report/page_template.h"
 #include "withheld/sealing.h"
 #include <cmath>

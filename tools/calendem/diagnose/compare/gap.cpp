@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/compare/gap.h"
-#include "diagnose/compare/image_observables.h"
+#include "diagnose/compare/observables.h"
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -167,7 +167,8 @@ void add_entries(const Experiment &experiment, const Condition &c,
   observables.insert(observables.end(), on_images.begin(), on_images.end());
   std::map<std::string, std::vector<std::string>> without; // by the reason
   for (const Observable &o : observables) {
-    Entry e{{}, per_packing(mine, o.simulated)};
+    Entry e;
+    e.packings = per_packing(mine, o.simulated);
     e.row.observable = o.name;
     e.row.stage = o.stage;
     e.row.condition = c.id;

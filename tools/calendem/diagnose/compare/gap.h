@@ -5,7 +5,7 @@
 #define CALENDEM_DIAGNOSE_COMPARE_GAP_H
 
 #include "base/experiment.h"
-#include "diagnose/gap_file.h"
+#include "base/gap_file.h"
 #include <map>
 #include <optional>
 #include <string>

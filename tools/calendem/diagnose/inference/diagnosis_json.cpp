@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "diagnose/gap_file.h"
+#include "base/gap_file.h"
 #include "diagnose/inference/diagnosis.h"
 
 namespace calendem::inference {

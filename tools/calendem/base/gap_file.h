@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // gap.json, which `compare` and `diagnose` write: one schema (docs/reference/gap.md), one writer,
 // one reader. What a verb does not find out is null or an empty list.
-#ifndef CALENDEM_DIAGNOSE_GAP_FILE_H
-#define CALENDEM_DIAGNOSE_GAP_FILE_H
+#ifndef CALENDEM_BASE_GAP_FILE_H
+#define CALENDEM_BASE_GAP_FILE_H
 
 #include <nlohmann/json.hpp>
 #include <string>
