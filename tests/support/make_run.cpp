@@ -167,6 +167,7 @@ void write_summary(const fs::path &file, const Film &film, const MadeRun &option
   const double after = kThickness - kTravel + kSpringback;
   const auto count = broken(film, options.max_pressure_MPa);
   const nlohmann::json summary = {
+      {"finished", true},
       {"max_pressure_MPa", options.max_pressure_MPa},
       {"porosity_after_relaxation", porosity(after)},
       {"thickness_after_relaxation_um", after},

@@ -33,13 +33,13 @@ int main(int argc, char **argv) {
     return app.exit(e);
   } catch (const CLI::ParseError &e) {
     app.exit(e);
-    return 1;
+    return calendem::kUsage;
   } catch (const calendem::Failure &e) {
     fmt::print(stderr, "{}\n", e.what());
     return e.exit_status();
   } catch (const std::exception &e) {
     fmt::print(stderr, "calendem: {}\n", e.what());
-    return 2;
+    return calendem::kBadInput;
   }
-  return 0;
+  return calendem::kDone;
 }

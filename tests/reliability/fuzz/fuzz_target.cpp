@@ -16,7 +16,7 @@
 #include "base/recipe.h"
 #include "diagnose/bank/bank_table.h"
 #include "diagnose/inference/bank.h"
-#include "electrode/slurry/film_recipe.h"
+#include "electrode/slurry/dry.h"
 #include "electrode/structure/existing_structure.h"
 #include "electrode/tomogram.h"
 #include "simulate/study_file.h"

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The whole way on a table from formulas: an effect is named, and the page says so.
+#include "base/messages.h"
+#include "base/provenance.h"
+#include "diagnose/compare/gap.h"
 #include "diagnose/diagnose.h"
 #include "diagnose/page.h"
 #include "support/made_bank.h"
+#include "support/test_folder.h"
 #include <gtest/gtest.h>
 
 namespace {
@@ -24,7 +28,7 @@ const Diagnosed &friction() {
 TEST(DiagnosisPage, TheEffectIsNamedWithItsValueInTheKeysUnit) {
   const nlohmann::ordered_json &gap = friction().gap;
   EXPECT_EQ(gap["which"]["claim"], "friction") << gap["which"].dump(1);
-  EXPECT_EQ(gap["said"]["headline"], "friction explains the gap");
+  EXPECT_EQ(gap["which"]["headline"], "friction explains the gap");
   const auto &fitted = gap["fitted_effects"][0];
   EXPECT_EQ(fitted["keys"][0], "material.am.friction");
   EXPECT_LT(fitted["value_low90"], 0.4);
@@ -50,6 +54,57 @@ TEST(DiagnosisPage, WhereHasUnitsAndTheListOfWhatTheBankCannotPredict) {
   for (const auto &row : friction().gap["where"])
     EXPECT_TRUE(row.contains("unit")) << row.dump();
   EXPECT_EQ(friction().gap["which"]["not_in_bank"].size(), 6u);
+}
+
+/// Names of an object that do not stand in backquotes in the text.
+std::string not_in(const std::string &page, const nlohmann::ordered_json &object) {
+  std::string out;
+  for (const auto &[name, value] : object.items())
+    if (page.find("`" + name + "`") == std::string::npos)
+      out += name + " ";
+  return out;
+}
+
+TEST(GapFile, EveryNameIsOnItsPage) {
+  const nlohmann::ordered_json &gap = friction().gap;
+  const std::string page = text_of_file(CALENDEM_SOURCE_DIR "/docs/reference/gap.md");
+  EXPECT_EQ(not_in(page, gap) + not_in(page, gap["where"][0]) + not_in(page, gap["which"]), "");
+}
+
+// Requirement: both verbs write one schema; compare has all of it, empty where it finds nothing out.
+TEST(GapFile, CompareWritesTheSameNames) {
+  const nlohmann::ordered_json &diagnosed = friction().gap;
+  Gap gap;
+  gap.rows.push_back({});
+  const nlohmann::ordered_json compared = to_json(gap);
+  const std::string page = text_of_file(CALENDEM_SOURCE_DIR "/docs/reference/gap.md");
+  EXPECT_EQ(not_in(page, compared) + not_in(page, compared["where"][0]), "");
+  for (const char *name : {"experiment", "where", "threshold", "scatter", "which", "shrink", "said",
+                           "not_said", "provenance"}) {
+    EXPECT_TRUE(diagnosed.contains(name) && compared.contains(name)) << name;
+    EXPECT_TRUE(diagnosed[name].type() == compared[name].type() || compared[name].is_null())
+        << name;
+  }
+  for (const auto &[name, value] : to_json(Place()).items())
+    for (const auto &row : {diagnosed["where"][0], compared["where"][0]})
+      EXPECT_TRUE(row.contains(name)) << name;
+}
+
+TEST(GapFile, WhatIsNoDiagnosisIsRefused) {
+  const std::string file = (test_folder() / "gap.json").string();
+  const auto refusal = [&](const std::string &text) -> std::string {
+    write_file(file, text);
+    try {
+      read_diagnosis(file);
+    } catch (const Failure &f) {
+      return f.exit_status() == kBadInput ? f.what() : "another exit status";
+    }
+    return "";
+  };
+  const std::string whole = friction().gap.dump();
+  EXPECT_EQ(refusal(whole), "");
+  EXPECT_NE(refusal(whole.substr(0, whole.size() / 2)).find("cut or damaged"), std::string::npos);
+  EXPECT_NE(refusal(to_json(Gap()).dump()).find("it has no 'which'"), std::string::npos);
 }
 
 TEST(DiagnosisPage, HoldsTheClaimAndNothingFromElsewhere) {

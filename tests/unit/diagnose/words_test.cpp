@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "diagnose/words.h"
+#include "diagnose/diagnose.h"
 #include <gtest/gtest.h>
 
 namespace {
@@ -15,7 +15,14 @@ Json claimed(const std::string &claim) {
             {"next_measurement",
              {{"what", "cracks of p30"}, {"now", 0.5}, {"expected_probability", 0.83}}},
             {"evidence", Json::array({{{"hypothesis", "unknown"}, {"place", "relaxation"}}})}}},
-          {"where", Json::array({{{"significant", true}}})},
+          {"where", Json::array({{{"observable", "total porosity"},
+                                  {"stage", "relaxation"},
+                                  {"condition", "p30"},
+                                  {"unit", "%"},
+                                  {"residual", 1.2},
+                                  {"z", 4.0},
+                                  {"share", 0.6},
+                                  {"significant", true}}})},
           {"fitted_effects", Json::array()}};
 }
 
@@ -100,7 +107,9 @@ TEST(PutInWords, AmplitudesBecomeValuesOfTheKeyWithTheSmallerEndFirst) {
   EXPECT_TRUE(gap["confounding"]["detection_limit"][0]["value"].is_null());
   EXPECT_NEAR(gap["confounding"]["detection_limit"][1]["value"].get<double>(), 0.2, 1e-12);
   EXPECT_EQ(gap["which"]["not_in_bank"][0]["cost"], 9.0);
-  EXPECT_EQ(gap["said"]["headline"], "nmc_plasticity explains the gap");
+  EXPECT_EQ(gap["which"]["headline"], "nmc_plasticity explains the gap");
+  EXPECT_EQ(gap["said"][0], "p30, total porosity (relaxation): the recalibrated base model is 1.2 "
+                            "points too high (z = 4.0, 60 % of the gap).");
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "measure/curve.h"
+#include "base/curve.h"
 
 #include <cmath>
 

@@ -13,7 +13,7 @@
 namespace fs = std::filesystem;
 using namespace calendem::report;
 using calendem::Column;
-using calendem::Problems;
+using calendem::Mistakes;
 using ReportRun = calendem::Run; // a test has a Run of its own
 
 namespace {
@@ -37,9 +37,9 @@ protected:
     return read();
   }
   ReportRun read() const {
-    Problems problems;
-    ReportRun run = read_run(folder_.string(), problems);
-    EXPECT_TRUE(problems.empty());
+    Mistakes mistakes;
+    ReportRun run = read_run(folder_.string(), mistakes);
+    EXPECT_TRUE(mistakes.empty());
     return run;
   }
   void write(const char *name, const char *text) const { std::ofstream(folder_ / name) << text; }
@@ -131,7 +131,7 @@ TEST_F(FracturePart, OldAndDamagedTables) {
   write("thresholds.csv", "threshold_percent,above\n5,4\n");
   const ReportRun damaged = read();
   EXPECT_TRUE(thresholds(damaged, true).series.empty());
-  EXPECT_NE(damaged.notes.back().remedy.find("calendem collect"), std::string::npos);
+  EXPECT_NE(damaged.notes.list().back().remedy.find("calendem collect"), std::string::npos);
   fs::remove(folder_ / "cracks.csv");
   const ReportRun old = read();
   EXPECT_TRUE(cracked_by_pressure({old}).series.empty());

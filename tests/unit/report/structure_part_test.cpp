@@ -11,7 +11,7 @@
 
 namespace fs = std::filesystem;
 using namespace calendem::report;
-using calendem::Problems;
+using calendem::Mistakes;
 using nlohmann::json;
 using ReportRun = calendem::Run; // a test has a Run of its own
 
@@ -50,15 +50,15 @@ protected:
         << json{{"moments", {before, max}}, {"provenance", {{"curve", curve}}}};
   }
   ReportRun read() const {
-    Problems problems;
-    ReportRun run = read_run(folder_.string(), problems);
-    EXPECT_TRUE(problems.empty());
+    Mistakes mistakes;
+    ReportRun run = read_run(folder_.string(), mistakes);
+    EXPECT_TRUE(mistakes.empty());
     return run;
   }
   static std::string notes(const ReportRun &run) {
     std::string text;
-    for (const auto &note : run.notes)
-      text += note.file + ": " + note.what + "; " + note.remedy + "\n";
+    for (const auto &note : run.notes.list())
+      text += text_of(note) + "\n";
     return text;
   }
 

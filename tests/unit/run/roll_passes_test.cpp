@@ -4,8 +4,8 @@
 #include "base/case.h"
 #include "base/provenance.h"
 #include "physics/roll_nip.h"
+#include "simulate/collect.h"
 #include "simulate/line_load.h"
-#include "simulate/roll_passes.h"
 #include "support/test_folder.h"
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "simulate/validity.h"
+#include "simulate/collect.h"
 #include "support/test_folder.h"
 #include <algorithm>
 #include <fstream>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Springs of different height beside each other, under one plate and under one pressure.
-#include "simulate/sample_cells.h"
+#include "simulate/sample.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>

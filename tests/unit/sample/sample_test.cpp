@@ -94,7 +94,7 @@ TEST_F(SampleOfRuns, WhatIsNoRunIsRefusedWithEveryReason) {
   const std::string twice = spring("a", 20, 16, "compression,16,16,0.75\n");
   const std::string said = refusal({twice, in("none")}, OneFor::Gap);
   EXPECT_NE(said.find("pressed again after a release"), std::string::npos) << said;
-  EXPECT_NE(said.find("none/summary.json is missing"), std::string::npos) << said;
+  EXPECT_NE(said.find("none/summary.json: missing"), std::string::npos) << said;
 }
 
 } // namespace

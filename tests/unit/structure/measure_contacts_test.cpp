@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Coordination numbers of lattices and of hand-made contacts.
-#include "measure/contacts.h"
+#include "measure/structure.h"
 #include "measure_support.h"
 
 namespace {

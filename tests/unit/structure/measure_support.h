@@ -3,7 +3,7 @@
 #ifndef CALENDEM_TESTS_UNIT_STRUCTURE_MEASURE_SUPPORT_H
 #define CALENDEM_TESTS_UNIT_STRUCTURE_MEASURE_SUPPORT_H
 
-#include "measure/voxelise.h"
+#include "measure/phases.h"
 #include "support.h"
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A simulated frame as voxels: volumes, pores inside bodies, cracks, periodic faces, platens.
-#include "measure/contacts.h"
+#include "measure/structure.h"
 #include "measure_support.h"
 
 namespace {

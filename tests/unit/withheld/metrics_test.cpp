@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Scores of answers made by hand, whose values can be counted.
-#include "withheld/metrics.h"
 #include "withheld/score.h"
 #include <cmath>
 #include <gtest/gtest.h>

@@ -5,32 +5,70 @@
 
 namespace calendem {
 
-void Mistakes::add(int line, const std::string &text) {
-  if (line > 0 && told_ == most_) {
-    ++untold_;
+std::string text_of(const Mistake &m) {
+  std::string out = m.file.empty() ? m.what
+                    : m.line > 0   ? fmt::format("{}:{}: {}", m.file, m.line, m.what)
+                                   : fmt::format("{}: {}", m.file, m.what);
+  if (!m.remedy.empty())
+    out += ". What to do: " + m.remedy + ".";
+  return out;
+}
+
+void Mistakes::add(int line, const std::string &what) {
+  if (line > 0 && listed_ == most_) {
+    ++unlisted_[file_];
     return;
   }
-  told_ += line > 0;
-  list_.emplace_back(line, text);
+  listed_ += line > 0;
+  list_.push_back({file_, line, what, ""});
+}
+
+void Mistakes::add(const std::string &file, const std::string &what, const std::string &remedy) {
+  list_.push_back({file, 0, what, remedy});
+}
+
+void Mistakes::add(const Mistakes &others) {
+  list_.insert(list_.end(), others.list_.begin(), others.list_.end());
+  for (const auto &[file, more] : others.unlisted_)
+    unlisted_[file] += more;
+}
+
+int Mistakes::count() const {
+  int n = static_cast<int>(list_.size());
+  for (const auto &[file, more] : unlisted_)
+    n += more;
+  return n;
 }
 
 std::string Mistakes::text() const {
-  auto sorted = list_;
-  const auto rank = [](const auto &entry) { return entry.first > 0 ? entry.first : INT_MAX; };
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [&](const auto &a, const auto &b) { return rank(a) < rank(b); });
-  std::vector<std::string> rows;
-  for (const auto &[line, text] : sorted)
-    rows.push_back(line > 0 ? fmt::format("{}:{}: {}", file_, line, text)
-                            : fmt::format("{}: {}", file_, text));
-  if (untold_ > 0)
-    rows.insert(rows.begin() + told_, fmt::format("{}: ... and {} more", file_, untold_));
+  std::vector<std::string> files, rows;
+  const auto remember = [&files](const std::string &file) {
+    if (std::find(files.begin(), files.end(), file) == files.end())
+      files.push_back(file);
+  };
+  for (const Mistake &m : list_)
+    remember(m.file);
+  for (const auto &[file, more] : unlisted_)
+    remember(file);
+  auto by_line = list_;
+  std::stable_sort(by_line.begin(), by_line.end(),
+                   [](const Mistake &a, const Mistake &b) { return a.line < b.line; });
+  for (const std::string &file : files) {
+    for (const Mistake &m : by_line)
+      if (m.file == file && m.line > 0)
+        rows.push_back(text_of(m));
+    if (const auto more = unlisted_.find(file); more != unlisted_.end())
+      rows.push_back(fmt::format("{}: ... and {} more", file, more->second));
+    for (const Mistake &m : by_line)
+      if (m.file == file && m.line <= 0)
+        rows.push_back(text_of(m));
+  }
   return fmt::format("{}", fmt::join(rows, "\n"));
 }
 
-void Mistakes::stop_if_any() const {
+void Mistakes::stop_if_any(ExitStatus exit_status) const {
   if (!empty())
-    throw Failure(kBadInput, text());
+    throw Failure(exit_status, text());
 }
 
 std::string as_list(const std::vector<std::string> &texts) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/gap_file.h"
 #include "base/provenance.h"
 #include "commands/commands.h"
 #include "diagnose/page.h"
@@ -21,10 +22,10 @@ struct Options {
 
 void print(const Diagnosed &diagnosed) {
   const inference::Diagnosis &d = diagnosed.diagnosis;
-  const nlohmann::ordered_json &said = diagnosed.gap["said"];
-  fmt::print("claim: {}\n{}.\n{}\n  {}\n", d.which.claim, said["headline"].get<std::string>(),
-             said["meaning"].get<std::string>(), d.which.why);
-  for (const auto &step : said["next"])
+  const nlohmann::ordered_json &which = diagnosed.gap["which"];
+  fmt::print("claim: {}\n{}.\n{}\n  {}\n", d.which.claim, which["headline"].get<std::string>(),
+             which["meaning"].get<std::string>(), d.which.why);
+  for (const auto &step : which["next"])
     fmt::print("* {}\n", step.get<std::string>());
   for (const inference::Judged &j : d.which.judged)
     if (j.probability >= 0.005)
@@ -43,11 +44,6 @@ void print(const Diagnosed &diagnosed) {
                  q.effect.empty() ? "the base model" : q.effect);
   for (const std::string &text : diagnosed.data.not_said)
     fmt::print("- {}\n", text);
-}
-
-void write_gap(const nlohmann::ordered_json &gap, const std::string &folder) {
-  write_file(folder + "/gap.json", gap.dump(1) + "\n");
-  write_file(folder + "/gap.html", diagnosis_page(gap));
 }
 
 std::string shown(const Estimate &e) {
@@ -90,7 +86,7 @@ void how_far(Options &o, const Experiment &experiment, const BankTable &table, D
     fmt::print("  {:<10} {:<32} {}\n", m.role, m.hypothesis, shown(m.predicted));
   o.rerun.study.folder = o.folder + "/rerun";
   d.gap["shrink"] = rerun(experiment, table, models, o.rerun);
-  write_gap(d.gap, o.folder);
+  write_gap(d.gap, diagnosis_page(d.gap), o.folder);
   fmt::print("how far: as run again on {} packings that are not in the bank\n", o.rerun.packings);
   for (const auto &m : d.gap["shrink"]["models"])
     fmt::print("  {:<10} {:<32} {:.1f}\n", m["role"].get<std::string>(),
@@ -152,7 +148,7 @@ void run(Options o) {
   provenance["bank"] = hash_of_file(o.bank);
   provenance["bank_table"] = hash_of_file(o.table);
   make_output_folder(o.folder);
-  write_gap(d.gap, o.folder);
+  write_gap(d.gap, diagnosis_page(d.gap), o.folder);
   print(d);
   fmt::print("page: {0}/gap.html\ndata: {0}/gap.json\n", o.folder);
   how_far(o, experiment, table, d);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/generated_files.h"
 #include "base/effects.h"
-#include "commands/reference_pages.h"
 #include "registry/settings.h"
 #include <algorithm>
 #include <fmt/format.h>

@@ -16,6 +16,8 @@ struct GeneratedFile {
 
 std::vector<GeneratedFile> generated_files();
 
+std::vector<GeneratedFile> reference_pages();
+
 } // namespace calendem
 
 #endif

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "commands/reference_pages.h"
 #include "base/effects.h"
 #include "base/experiment_keys.h"
 #include "base/key.h"
 #include "base/recipe.h"
-#include "electrode/slurry/film_recipe.h"
+#include "commands/generated_files.h"
+#include "electrode/slurry/dry.h"
 #include "electrode/tomogram.h"
 #include "registry/settings.h"
 #include <algorithm>

@@ -35,23 +35,21 @@ void print_rows(const std::vector<Residual> &rows) {
 void compare(const Options &o) {
   const Experiment experiment = read_experiment(o.experiment);
   std::vector<SimulatedRun> runs;
-  std::string problems;
+  Mistakes mistakes;
   for (const std::string &folder : o.runs)
     try {
       runs.push_back(read_simulated_run(folder));
     } catch (const Failure &f) {
-      problems += std::string(problems.empty() ? "" : "\n") + f.what();
+      mistakes.add(f);
     }
-  if (!problems.empty())
-    throw Failure(kBadInput, problems);
+  mistakes.stop_if_any();
   const Gap gap = find_gap(experiment, runs);
-  nlohmann::json j = to_json(gap);
+  nlohmann::ordered_json j = to_json(gap);
   j["provenance"]["experiment_file"] = hash_of_file(o.experiment);
   for (const std::string &folder : o.runs)
     j["provenance"]["runs"][folder] = hash_of_file(folder + "/summary.json");
   make_output_folder(o.folder);
-  write_file(o.folder + "/gap.json", j.dump(1) + "\n");
-  write_file(o.folder + "/gap.html", gap_page(j));
+  write_gap(j, gap_page(j), o.folder);
   print_rows(gap.rows);
   for (const std::string &text : gap.said)
     fmt::print("* {}\n", text);
@@ -92,11 +90,8 @@ void add_report_verb(CLI::App &app) {
       ->type_name("FILE.html");
   verb->add_option("--figures", options->figures, "Folder for every plot as a file (SVG) too")
       ->type_name("FOLDER");
-  verb->callback([options] {
-    const int status = report::write_report(options->directories, options->page, options->figures);
-    if (status != 0)
-      throw Failure(status, "calendem report: nothing was written");
-  });
+  verb->callback(
+      [options] { report::write_report(options->directories, options->page, options->figures); });
 }
 
 } // namespace calendem

@@ -3,9 +3,9 @@
 #include "base/experiment.h"
 #include "base/toml_file.h"
 #include "commands/commands.h"
-#include "diagnose/bank/bank_design.h"
+#include "diagnose/bank/bank_table.h"
 #include "electrode/pack/from_structure.h"
-#include "electrode/slurry/film_recipe.h"
+#include "electrode/slurry/dry.h"
 #include "electrode/tomogram.h"
 #include "simulate/study_file.h"
 #include "withheld/truths.h"
@@ -87,15 +87,14 @@ std::string name_after_check(const std::string &file) {
 }
 
 void validate(const std::vector<std::string> &files) {
-  std::string problems;
+  Mistakes mistakes;
   for (const std::string &file : files)
     try {
       fmt::print("{}: a valid {}\n", file, name_after_check(file));
     } catch (const Failure &e) {
-      problems += std::string(problems.empty() ? "" : "\n") + e.what();
+      mistakes.add(e);
     }
-  if (!problems.empty())
-    throw Failure(kBadInput, problems);
+  mistakes.stop_if_any();
 }
 
 } // namespace

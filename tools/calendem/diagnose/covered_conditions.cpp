@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "diagnose/covered_conditions.h"
 #include "diagnose/bank_points.h"
-#include "diagnose/images_beside.h"
+#include "diagnose/rerun.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

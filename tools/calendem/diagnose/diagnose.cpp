@@ -3,7 +3,6 @@
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "diagnose/bank_points.h"
-#include "diagnose/words.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -92,12 +91,10 @@ Diagnosed diagnosed(const Experiment &experiment, const BankTable &table, double
       point_noise_of(experiment, table, settings.model.packings_in_sample);
   out.diagnosis = inference::diagnose(*out.model, out.data.bank, out.data.experiment.values,
                                       settings, point_noise);
-  out.gap = nlohmann::ordered_json::parse(inference::to_json(out.diagnosis));
-  out.gap["experiment"] = experiment.name;
+  out.gap = inference::to_json(out.diagnosis, experiment.name);
   put_in_words(out.data, table, out.gap);
   tell_point_noise(point_noise, out);
   out.gap["not_said"] = out.data.not_said;
-  out.gap["provenance"] = {{"calendem", version()}, {"hashes", "64-bit FNV-1a"}};
   return out;
 }
 

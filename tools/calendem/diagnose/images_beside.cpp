@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "diagnose/images_beside.h"
-#include "diagnose/compare/image_observables.h"
+#include "diagnose/compare/observables.h"
+#include "diagnose/rerun.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

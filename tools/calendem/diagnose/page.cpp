@@ -101,7 +101,7 @@ std::string release_noise(const json &gap) {
 
 std::string diagnosis_page(const nlohmann::ordered_json &ordered) {
   const json gap = ordered;
-  json values = {{"experiment", gap["experiment"]}, {"said", gap["said"]}};
+  json values = {{"experiment", gap["experiment"]}, {"said", gap["which"]}};
   values["css"] = report::embedded::kPageCss;
   values["claim"] = gap["which"]["claim"];
   values["why"] = gap["which"]["why"];

@@ -3,7 +3,6 @@
 #include "diagnose/rerun.h"
 #include "diagnose/bank_points.h"
 #include "diagnose/compare/observables.h"
-#include "diagnose/images_beside.h"
 #include "diagnose/inference/evidence.h"
 #include <algorithm>
 #include <fmt/format.h>

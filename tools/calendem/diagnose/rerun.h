@@ -4,11 +4,48 @@
 #ifndef CALENDEM_DIAGNOSE_RERUN_H
 #define CALENDEM_DIAGNOSE_RERUN_H
 
+#include "diagnose/compare/gap.h"
 #include "diagnose/diagnose.h"
-#include "diagnose/held_out.h"
+#include "diagnose/inference/observable.h"
 #include "simulate/study.h"
+#include <nlohmann/json.hpp>
 
 namespace calendem {
+
+// How far simulations are from measurements that nothing was fitted to.
+
+/// A number with the interval that holds 90 % of its resamples; NaN: not known.
+struct Estimate {
+  double value = 0.0, low90 = 0.0, high90 = 0.0;
+};
+
+/// Held-out observables: what was measured, and a column for each simulated packing.
+struct HeldOut {
+  std::vector<inference::Block> blocks; ///< each counts the same
+  inference::Vector measured, sd;       ///< sd > 0
+};
+
+/// Root mean square of (mean over packings - measured) / sd, freed of what measurement noise and
+/// the scatter of that mean add to it; 0 where they explain all. In standard deviations of the
+/// measurement. `scatter`: squares of the standard errors of `mean`.
+double gap_of(const HeldOut &held_out, const inference::Vector &mean,
+              const inference::Vector &scatter, double noises = 1.0);
+
+/// The same from packings (columns, two at least). The interval is of resamples of noise and
+/// packings (t).
+Estimate gap_of_packings(const HeldOut &held_out, const inference::Matrix &simulated);
+
+/// 1 - gap after / gap before, packing by packing (the same columns); NaN where
+/// there is no gap before.
+Estimate shrinkage_of(const HeldOut &held_out, const inference::Matrix &before,
+                      const inference::Matrix &after);
+
+/// The gap that a model without any would show at most, with 95 % probability, by the noise and the
+/// scatter of these packings.
+double noise_floor(const HeldOut &held_out, const inference::Matrix &simulated);
+
+/// Value and 90 % interval of numbers of equal weight.
+Estimate interval_of(double value, std::vector<double> draws);
 
 /// One model that is run again.
 struct RerunModel {
@@ -37,6 +74,28 @@ struct RerunOptions {
 /// Runs them in the bank's cell and returns "shrink" of gap.json. Throws Failure as make_study.
 nlohmann::ordered_json rerun(const Experiment &experiment, const BankTable &table,
                              const std::vector<RerunModel> &models, const RerunOptions &options);
+
+// An experiment's label images beside the models that are run again.
+
+/// A model's runs, one for each packing and held-out pressure, with their frames.
+struct ModelRuns {
+  std::string role;
+  std::vector<SimulatedRun> runs;
+};
+
+/// True if the condition has a label image of before or after.
+bool has_images(const Condition &condition);
+
+/// True if its images can be set beside the runs: it is held out and goes to a pressure, as they
+/// do.
+bool has_images_beside(const Experiment &experiment, const Condition &condition);
+
+/// "images" of gap.json's "shrink": a row for each observable of the held-out conditions' label
+/// images, with the mean over each model's packings, and by how many of their common standard
+/// deviations (image, packings, pressure) image and mean are apart. "without": what has no value,
+/// and why. Throws Failure(2) as image_observables_of.
+nlohmann::ordered_json images_beside(const Experiment &experiment,
+                                     const std::vector<ModelRuns> &models);
 
 } // namespace calendem
 

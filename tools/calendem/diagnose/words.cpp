@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "diagnose/words.h"
+#include "base/gap_file.h"
 #include "diagnose/compare/gap_page.h"
+#include "diagnose/diagnose.h"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -190,7 +191,10 @@ void put_in_words(const ExperimentData &data, const BankTable &bank, Json &gap) 
   add_units(data, gap);
   add_amplitudes(gap);
   add_prices(bank, gap);
-  gap["said"] = claim_in_words(gap);
+  gap["which"].update(claim_in_words(gap));
+  for (const Json &place : gap["where"])
+    if (place["significant"] == true)
+      gap["said"].push_back(in_words(place, "the recalibrated base model"));
 }
 
 } // namespace calendem

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "measure/contacts.h"
 #include "electrode/structure/shape_library.h"
+#include "measure/structure.h"
 #include <algorithm>
 #include <cmath>
 #include <map>

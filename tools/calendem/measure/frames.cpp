@@ -39,9 +39,9 @@ private:
   int before_;
 };
 
-vtkSmartPointer<vtkDataSet> read_data(const std::string &file, Problems &problems) {
+vtkSmartPointer<vtkDataSet> read_data(const std::string &file, Mistakes &mistakes) {
   if (!fs::exists(file)) {
-    problems.push_back({file, "the frame is listed in the .pvd file but missing", kRunAgain});
+    mistakes.add(file, "the frame is listed in the .pvd file but missing", kRunAgain);
     return nullptr;
   }
   const QuietVtk quiet;
@@ -50,18 +50,18 @@ vtkSmartPointer<vtkDataSet> read_data(const std::string &file, Problems &problem
   reader->Update();
   vtkSmartPointer<vtkDataSet> data = vtkDataSet::SafeDownCast(reader->GetOutput());
   if (data == nullptr || reader->GetErrorCode() != 0 || data->GetNumberOfPoints() == 0) {
-    problems.push_back({file, "the frame cannot be read: truncated, or not VTK XML", kRunAgain});
+    mistakes.add(file, "the frame cannot be read: truncated, or not VTK XML", kRunAgain);
     return nullptr;
   }
   return data;
 }
 
 vtkDataArray *array_of(vtkDataSetAttributes *arrays, const char *name, const std::string &file,
-                       Problems &problems) {
+                       Mistakes &mistakes) {
   vtkDataArray *array = arrays->GetArray(name);
   if (array == nullptr)
-    problems.push_back({file, std::string("the array '") + name + "' is missing",
-                        "write the frames with input_scripts/in.calendering of this version"});
+    mistakes.add(file, std::string("the array '") + name + "' is missing",
+                 "write the frames with input_scripts/in.calendering of this version");
   return array;
 }
 
@@ -73,10 +73,10 @@ Point point_of(vtkDataSet *data, vtkIdType i) {
 
 } // namespace
 
-std::vector<FrameFile> read_series(const std::string &pvd, Problems &problems) {
+std::vector<FrameFile> read_series(const std::string &pvd, Mistakes &mistakes) {
   std::vector<FrameFile> frames;
   if (!fs::exists(pvd)) {
-    problems.push_back({pvd, "the list of frames is missing", kRunAgain});
+    mistakes.add(pvd, "the list of frames is missing", kRunAgain);
     return frames;
   }
   const QuietVtk quiet;
@@ -92,20 +92,19 @@ std::vector<FrameFile> read_series(const std::string &pvd, Problems &problems) {
       frames.push_back({time, (fs::path(pvd).parent_path() / file).string()});
   }
   if (frames.empty())
-    problems.push_back(
-        {pvd, "no frame is listed: truncated, or no ParaView collection", kRunAgain});
+    mistakes.add(pvd, "no frame is listed: truncated, or no ParaView collection", kRunAgain);
   std::stable_sort(frames.begin(), frames.end(),
                    [](const FrameFile &a, const FrameFile &b) { return a.time_us < b.time_us; });
   return frames;
 }
 
-ParticleFrame read_particles(const std::string &file, Problems &problems) {
+ParticleFrame read_particles(const std::string &file, Mistakes &mistakes) {
   ParticleFrame frame;
-  const auto data = read_data(file, problems);
+  const auto data = read_data(file, mistakes);
   if (data == nullptr)
     return frame;
-  vtkDataArray *radius = array_of(data->GetPointData(), "radius", file, problems);
-  vtkDataArray *body = array_of(data->GetPointData(), "body", file, problems);
+  vtkDataArray *radius = array_of(data->GetPointData(), "radius", file, mistakes);
+  vtkDataArray *body = array_of(data->GetPointData(), "body", file, mistakes);
   if (radius == nullptr || body == nullptr)
     return frame;
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
@@ -116,13 +115,13 @@ ParticleFrame read_particles(const std::string &file, Problems &problems) {
   return frame;
 }
 
-BondFrame read_bonds(const std::string &file, Problems &problems) {
+BondFrame read_bonds(const std::string &file, Mistakes &mistakes) {
   BondFrame frame;
-  const auto data = read_data(file, problems);
+  const auto data = read_data(file, mistakes);
   if (data == nullptr)
     return frame;
-  vtkDataArray *state = array_of(data->GetCellData(), "state", file, problems);
-  vtkDataArray *body = array_of(data->GetCellData(), "body", file, problems);
+  vtkDataArray *state = array_of(data->GetCellData(), "state", file, mistakes);
+  vtkDataArray *body = array_of(data->GetCellData(), "body", file, mistakes);
   if (state == nullptr || body == nullptr)
     return frame;
   vtkDataArray *tag_i = data->GetCellData()->GetArray("tag_i");
@@ -142,9 +141,9 @@ BondFrame read_bonds(const std::string &file, Problems &problems) {
   return frame;
 }
 
-PlatenFrame read_platen(const std::string &file, Problems &problems) {
+PlatenFrame read_platen(const std::string &file, Mistakes &mistakes) {
   PlatenFrame frame;
-  const auto data = read_data(file, problems);
+  const auto data = read_data(file, mistakes);
   if (data == nullptr)
     return frame;
   for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i) {

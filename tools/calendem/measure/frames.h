@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "measure/problem.h"
+#include "base/messages.h"
 
 namespace calendem {
 
@@ -36,11 +36,11 @@ struct PlatenFrame {
   std::vector<std::vector<Point>> outlines; ///< closed polygons: collector, platen
 };
 
-/// Frames listed in a .pvd file, by time. Whatever cannot be read is added to `problems`.
-std::vector<FrameFile> read_series(const std::string &pvd, Problems &problems);
-ParticleFrame read_particles(const std::string &file, Problems &problems);
-BondFrame read_bonds(const std::string &file, Problems &problems);
-PlatenFrame read_platen(const std::string &file, Problems &problems);
+/// Frames listed in a .pvd file, by time. Whatever cannot be read is added to `mistakes`.
+std::vector<FrameFile> read_series(const std::string &pvd, Mistakes &mistakes);
+ParticleFrame read_particles(const std::string &file, Mistakes &mistakes);
+BondFrame read_bonds(const std::string &file, Mistakes &mistakes);
+PlatenFrame read_platen(const std::string &file, Mistakes &mistakes);
 
 /// The frame closest to `time_us`; `frames` must not be empty.
 const FrameFile &closest(const std::vector<FrameFile> &frames, double time_us);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What `calendem report` reads of a run's directory.
+// All of a run in memory, as `calendem report` and `calendem measure` need it.
 #ifndef CALENDEM_MEASURE_RUN_DIRECTORY_H
 #define CALENDEM_MEASURE_RUN_DIRECTORY_H
 
@@ -9,9 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "measure/curve.h"
+#include "base/run_folder.h"
 #include "measure/frames.h"
-#include "measure/problem.h"
 
 namespace calendem {
 
@@ -40,11 +39,11 @@ struct Run {
   std::vector<FrameFile> particles, bonds, platen; ///< vtk/*.pvd; may be empty
   std::vector<std::string> files_read;
   std::string unfinished; ///< why the run counts as unfinished; empty = finished
-  Problems notes;         ///< what is missing without making the report impossible
+  Mistakes notes;         ///< what is missing without making the report impossible
 };
 
-/// Reads `directory`. Mistakes that make a report impossible are added to `problems`.
-Run read_run(const std::string &directory, Problems &problems);
+/// Reads `directory`. What makes a report impossible is added to `mistakes`.
+Run read_run(const std::string &directory, Mistakes &mistakes);
 
 /// Makes the names of the runs unique (a longer part of the path where the last part repeats).
 void make_names_unique(std::vector<Run> &runs);

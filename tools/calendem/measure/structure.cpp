@@ -60,21 +60,12 @@ StructureMeasures measure_spheres(const SimulatedStructure &s, const MeasureOpti
 
 namespace {
 
-void stop_if_any(const Problems &problems) {
-  std::string text;
-  for (const FileProblem &p : problems)
-    text += fmt::format("{}{}: {}. What to do: {}.", text.empty() ? "" : "\n", p.file, p.what,
-                        p.remedy);
-  if (!text.empty())
-    throw Failure(kBadInput, text);
-}
-
 Run read_whole_run(const std::string &folder, ElectrodeFacts &electrode) {
-  Problems problems;
-  Run run = read_run(folder, problems);
-  stop_if_any(problems);
+  Mistakes mistakes;
+  Run run = read_run(folder, mistakes);
+  mistakes.stop_if_any();
   if (run.particles.empty() || run.platen.empty())
-    stop_if_any(run.notes);
+    run.notes.stop_if_any();
   try {
     electrode = describe_electrode(run.electrode);
   } catch (const std::exception &x) {
@@ -86,9 +77,9 @@ Run read_whole_run(const std::string &folder, ElectrodeFacts &electrode) {
   return run;
 }
 
-double platen_height(const Run &run, double time, Problems &problems) {
+double platen_height(const Run &run, double time, Mistakes &mistakes) {
   double height = 0.0;
-  for (const auto &outline : read_platen(closest(run.platen, time).path, problems).outlines)
+  for (const auto &outline : read_platen(closest(run.platen, time).path, mistakes).outlines)
     for (const auto &point : outline)
       height = std::max(height, point[2]);
   return height;
@@ -96,21 +87,21 @@ double platen_height(const Run &run, double time, Problems &problems) {
 
 // The frame nearest to `time`; `height` 0: the platen's in that frame.
 SimulatedStructure read_frame(const Run &run, const ElectrodeFacts &e, double time, double height) {
-  Problems problems;
+  Mistakes mistakes;
   SimulatedStructure s;
-  s.cell = {e.lx, e.ly, height > 0.0 ? height : platen_height(run, time, problems)};
+  s.cell = {e.lx, e.ly, height > 0.0 ? height : platen_height(run, time, mistakes)};
   s.lattice = e.lattice;
   s.cbd_solid = e.solid - e.am;
-  const auto particles = read_particles(closest(run.particles, time).path, problems);
+  const auto particles = read_particles(closest(run.particles, time).path, mistakes);
   for (size_t i = 0; i < particles.centre.size(); ++i)
     s.spheres.push_back(
         {Eigen::Vector3d(particles.centre[i].data()), particles.radius[i], particles.body[i]});
   if (!run.bonds.empty()) {
-    const auto bonds = read_bonds(closest(run.bonds, time).path, problems);
+    const auto bonds = read_bonds(closest(run.bonds, time).path, mistakes);
     for (size_t i = 0; i < bonds.from.size(); ++i)
       s.bonds.push_back({0.5 * (bonds.from[i][2] + bonds.to[i][2]), !bonds.intact[i]});
   }
-  stop_if_any(problems);
+  mistakes.stop_if_any();
   return s;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "measure/voxelise.h"
+#include "measure/phases.h"
 #include <algorithm>
 #include <climits>
 #include <cmath>

@@ -5,11 +5,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 
-#include "base/csv_table.h"
 #include "base/encoding.h"
+#include "base/run_folder.h"
 #include "report/pictures.h"
 
 namespace calendem::report {
@@ -72,9 +70,8 @@ json packed(const Frames &f, const Box &box) {
 
 /// Rows of bodies.csv as numbers, by their header.
 json bodies_of(const std::string &directory) {
-  std::ifstream in(directory + "/bodies.csv");
-  const auto table =
-      CsvTable::parse({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+  RunFolder folder(directory);
+  const CsvTable &table = folder.table("bodies.csv");
   json rows = json::array();
   for (std::size_t i = 0; i < table.rows(); ++i)
     rows.push_back(json::object());

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/report.h"
 #include "base/encoding.h"
-#include "base/messages.h"
 #include "base/provenance.h"
 #include "measure/run_directory.h"
 #include "report/explorer.h"
@@ -10,7 +9,6 @@
 #include "report/plots.h"
 #include "report/tables.h"
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 
 namespace calendem::report {
@@ -62,7 +60,7 @@ json to_json(const std::vector<Picture> &list) {
 
 json to_json(const RunPart &run) {
   json notes = json::array();
-  for (const auto &note : run.notes)
+  for (const Mistake &note : run.notes.list())
     notes.push_back({{"file", note.file}, {"what", note.what}, {"remedy", note.remedy}});
   return {{"name", run.name},
           {"status", run.unfinished.empty() ? "finished" : "unfinished"},
@@ -196,21 +194,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void print(const char *kind, const FileProblem &problem) {
-  std::cerr << "calendem report: " << kind << ": " << problem.file << ": " << problem.what
-            << "\n  what to do: " << problem.remedy << '\n';
-}
-
-bool write(const fs::path &file, const std::string &text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (out)
-    return true;
-  print("error", {file.string(), "cannot be written", "check the folder, its rights and the disk"});
-  return false;
-}
-
 std::string command_line(const std::vector<std::string> &directories, const std::string &page) {
   std::string command = "calendem report";
   for (const auto &directory : directories)
@@ -220,39 +203,35 @@ std::string command_line(const std::vector<std::string> &directories, const std:
 
 } // namespace
 
-int write_report(const std::vector<std::string> &directories, std::string page,
-                 const std::string &figures) {
-  Problems problems;
+void write_report(const std::vector<std::string> &directories, std::string page,
+                  const std::string &figures) {
+  Mistakes mistakes;
   std::vector<Run> runs;
   for (const auto &directory : directories)
-    runs.push_back(read_run(directory, problems));
-  for (const auto &problem : problems)
-    print("error", problem);
-  if (!problems.empty())
-    return kBadInput;
+    runs.push_back(read_run(directory, mistakes));
+  mistakes.stop_if_any();
   make_names_unique(runs);
   if (page.empty())
     page = directories.size() == 1 ? (fs::path(directories[0]) / "report.html").string()
                                    : "report.html";
   const Report report = make_report(std::move(runs), command_line(directories, page));
   for (const auto &run : report.runs) {
-    for (const auto &note : run.notes)
-      print("note", note);
+    for (const Mistake &note : run.notes.list())
+      std::cerr << "note: " << text_of(note) << '\n';
     if (!run.unfinished.empty())
-      std::cerr << "calendem report: note: " << run.name << " is unfinished (" << run.unfinished
+      std::cerr << "note: " << run.name << " is unfinished (" << run.unfinished
                 << "); the report says so\n";
   }
   const fs::path twin = fs::path(page).replace_extension(".json");
-  if (!write(twin, to_json(report).dump(1) + "\n") || !write(page, to_html(report)))
-    return kBadInput;
+  write_file(twin.string(), to_json(report).dump(1) + "\n");
+  write_file(page, to_html(report));
   if (!figures.empty())
     fs::create_directories(figures);
   for (const Chart &chart : report.charts)
-    if (!figures.empty() && !write(figures + "/" + chart.id + ".svg", to_svg_file(chart)))
-      return kBadInput;
+    if (!figures.empty())
+      write_file(figures + "/" + chart.id + ".svg", to_svg_file(chart));
   std::cout << comparison_text(report.comparison) << "report: " << page
             << "\ndata:   " << twin.string() << '\n';
-  return kDone;
 }
 
 } // namespace calendem::report

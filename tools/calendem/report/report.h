@@ -16,7 +16,7 @@ struct RunPart {
   std::string name;
   std::string unfinished; ///< why; empty = finished
   nlohmann::json headline, facts, electrode, structure, validity, provenance, files;
-  Problems notes;
+  Mistakes notes;
   std::vector<Picture> pictures;
   std::vector<Picture> stages;   ///< the paper's Figure 3
   std::vector<Picture> one_body; ///< the paper's Figure 5
@@ -39,10 +39,10 @@ Report make_report(std::vector<Run> runs, const std::string &command);
 nlohmann::json to_json(const Report &report);
 
 /// Writes `page` (HTML), its twin beside it with the ending .json and, if a folder is given, every
-/// plot as `figures`/ID.svg. Exit status of the program:
-/// 0 done, 2 bad input (all mistakes are on stderr and nothing is written).
-int write_report(const std::vector<std::string> &directories, std::string page,
-                 const std::string &figures = "");
+/// plot as `figures`/ID.svg. Throws Failure(2) with the mistakes of all directories; nothing is
+/// written then.
+void write_report(const std::vector<std::string> &directories, std::string page,
+                  const std::string &figures = "");
 
 std::string to_html(const Report &report);
 

@@ -2,6 +2,7 @@
 #include "report/study_page.h"
 #include "base/messages.h"
 #include "base/provenance.h"
+#include "base/run_folder.h"
 #include "report/page_template.h"
 #include "report/tables.h"
 #include "simulate/collect.h"
@@ -116,7 +117,7 @@ void draw_study(const std::vector<std::string> &columns, const std::string &fold
                                          folder));
   const StudyTable table(CsvTable::parse(text_of_file(folder + "/study.csv")), columns);
   const auto curve = [&](const std::string &run) {
-    return CsvTable::parse(text_of_file(folder + "/runs/" + run + "/curve.csv"));
+    return RunFolder(folder + "/runs/" + run).table("curve.csv");
   };
   const std::vector<report::Chart> charts = study_charts(table, curve);
   std::filesystem::create_directories(folder + "/figures");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "simulate/bridges.h"
 #include "base/provenance.h"
+#include "simulate/collect.h"
 #include <array>
 #include <cstdio>
 #include <fmt/format.h>

@@ -3,13 +3,9 @@
 #include "base/case.h"
 #include "base/provenance.h"
 #include "physics/nanopore_collapse.h"
-#include "simulate/bridges.h"
 #include "simulate/drying.h"
 #include "simulate/elongation.h"
-#include "simulate/energy.h"
 #include "simulate/line_load.h"
-#include "simulate/roll_passes.h"
-#include "simulate/validity.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -326,8 +322,7 @@ void stop_if_checks_failed(const nlohmann::json &summary, const std::string &fol
   Mistakes failed(folder);
   for (const auto &text : summary.value("failed_checks", nlohmann::json::array()))
     failed.add(0, text.get<std::string>() + ". What was computed is kept.");
-  if (!failed.empty())
-    throw Failure(kCheckFailed, failed.text());
+  failed.stop_if_any(kCheckFailed);
 }
 
 } // namespace calendem

@@ -5,6 +5,8 @@
 #define CALENDEM_SIMULATE_COLLECT_H
 
 #include "physics/contact_range.h"
+#include "physics/inertial_number.h"
+#include "physics/roll_nip.h"
 #include "simulate/fracture.h"
 #include "simulate/run.h"
 #include <cstddef>
@@ -87,6 +89,60 @@ std::pair<int, int> write_bodies(const std::string &folder, const ElectrodeFacts
                                  const std::string &electrode_folder,
                                  const std::vector<std::pair<long, double>> &frames,
                                  const std::vector<MomentOfRun> &moments, double elongation);
+
+// The energy ledger of a run: work of the platen against what it has become.
+
+/// A ledger with more than this fraction of the work unaccounted for does not close.
+inline constexpr double kLedgerLimit = 0.01;
+
+/// Every term, in fJ and since the first row, at maximum pressure and at the end, and what is left
+/// over: `unaccounted_fraction` is the largest |rest| of any row over the largest work. Terms that
+/// the run did not measure are NaN (null in the file).
+nlohmann::json energy_ledger(const std::vector<RawRow> &rows, const RawRow &top);
+
+/// Warning when the ledger does not close; empty when it does or was not kept.
+std::string ledger_warning(const nlohmann::json &energy);
+
+// Binder bridges along a run: bridges.csv from what the input scripts wrote, and what of it goes
+// into the summary. They are no bonds of bodies and are counted apart from them.
+
+/// Writes bridges.csv, a row for each of `rows`; returns made and broken, at the row of the largest
+/// pressure and at the end, by what they join CBD to. Null, and no file, in a run without bridges.
+nlohmann::json write_bridges(const std::string &folder, const std::vector<RawRow> &rows,
+                             const RawRow &top);
+
+// What the passes under a roll amount to: line load, length of the nip, and the times of the real
+// passage against those of the run.
+
+RollNip roll_nip(const Settings &settings);
+
+/// For each pass its smallest gap, largest pressure, and line load and contact length on both sides
+/// of the nip; the time under the roll at the web's real speed, and how much faster the run was.
+nlohmann::json roll_passes(const std::vector<RawRow> &rows, const Settings &settings);
+
+// Whether a run stayed where its laws hold: overlaps within the range of Hertz' law, the platen
+// slow enough to count as quasi-static.
+
+/// Contacts beyond this overlap over the smaller radius are what a warning speaks of ...
+inline constexpr int kWarnedLimit = 1; // of kRangeLimit: 0.2
+/// ... when they carry more than this share of the force.
+inline constexpr double kWarnedShare = 0.1;
+
+/// Names of the columns that end each row of curve.csv, and their cells; each begins with a comma.
+std::string validity_columns();
+std::string validity_cells(const RawRow &row, const MeanSphere &primary);
+
+/// Inertial number and kinetic over elastic energy, that of bonds and contacts: at maximum
+/// pressure, and the largest of the rows above 5 MPa before the release.
+nlohmann::json inertia(const std::vector<RawRow> &rows, const RawRow &top,
+                       const MeanSphere &primary);
+
+/// Shares of contacts and of force beyond each limit, mean and largest overlap, by kind and of all
+/// but those inside bodies: at maximum pressure, and the largest of any row.
+nlohmann::json contact_range(const std::vector<RawRow> &rows, const RawRow &top);
+
+/// Warning when too much of the force is carried beyond the range; empty: nothing.
+std::string range_warning(const nlohmann::json &range);
 
 } // namespace calendem
 

@@ -175,12 +175,10 @@ ElectrodeFacts read_electrode(const std::string &folder) {
                            rows, e.primaries, kAgain));
   if (!ends_with_newline(folder + "/electrode.in"))
     script.add(0, fmt::format("is cut. {}", kAgain));
-  std::string problems;
-  for (const Mistakes *m : {&description, &data, &map, &script})
-    if (!m->empty())
-      problems += (problems.empty() ? "" : "\n") + m->text();
-  if (!problems.empty())
-    throw Failure(kBadInput, problems);
+  Mistakes all;
+  for (const Mistakes *of_file : {&description, &data, &map, &script})
+    all.add(*of_file);
+  all.stop_if_any();
   return e;
 }
 

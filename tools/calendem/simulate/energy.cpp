@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "simulate/energy.h"
+#include "simulate/collect.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

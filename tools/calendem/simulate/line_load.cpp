@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "simulate/line_load.h"
 #include "base/provenance.h"
-#include "simulate/roll_passes.h"
-#include "simulate/run_folder.h"
+#include "simulate/collect.h"
+#include "simulate/resume.h"
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>

@@ -3,6 +3,7 @@
 #include "base/case.h"
 #include "base/child.h"
 #include "base/provenance.h"
+#include "base/run_folder.h"
 #include "electrode/pack/pack.h"
 #include "simulate/run.h"
 #include "simulate/study.h"
@@ -11,7 +12,6 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -203,13 +203,13 @@ std::string Making::packing_folder(const RunState &s) const {
 }
 
 std::string Making::status_of(const RunState &s) const {
-  std::ifstream in(run_folder(s) + "/summary.json");
-  const nlohmann::json j = nlohmann::json::parse(in, nullptr, false);
-  if (!j.is_object())
+  RunFolder run(run_folder(s));
+  const nlohmann::json &summary = run.object("summary.json");
+  if (summary.is_null())
     return "not started";
-  if (!j.value("finished", false))
+  if (!run.unfinished().empty())
     return "not finished";
-  return j.value("failed_checks", nlohmann::json::array()).empty() ? "done" : kChecksFailed;
+  return summary.value("failed_checks", nlohmann::json::array()).empty() ? "done" : kChecksFailed;
 }
 
 std::string Making::results(const RunState &s) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "simulate/roll_passes.h"
+#include "simulate/collect.h"
 #include <algorithm>
 
 namespace calendem {

@@ -5,15 +5,15 @@
 #include "base/liggghts_job.h"
 #include "base/provenance.h"
 #include "base/recipe.h"
+#include "base/run_folder.h"
 #include "simulate/collect.h"
 #include "simulate/line_load.h"
 #include "simulate/progress.h"
-#include "simulate/run_folder.h"
+#include "simulate/resume.h"
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <iostream>
 #include <unistd.h>
 
@@ -137,9 +137,9 @@ std::string keep_what_there_is(const std::string &folder, const Settings &settin
 
 /// Steps and time that a run which goes on has behind it.
 void remember_what_was_done(const std::string &folder, RunFacts &facts) {
-  std::ifstream in(folder + "/summary.json");
-  const nlohmann::json old = nlohmann::json::parse(in, nullptr, false);
-  if (old.is_object() && old.contains("wall_clock_s") && old["wall_clock_s"].is_number())
+  RunFolder before(folder);
+  const nlohmann::json &old = before.object("summary.json");
+  if (old.contains("wall_clock_s") && old["wall_clock_s"].is_number())
     facts.earlier_s = old["wall_clock_s"];
   const std::vector<RawRow> rows = read_raw(folder + "/curve_raw.csv");
   facts.first_step = rows.empty() ? 0.0 : rows.back().step;

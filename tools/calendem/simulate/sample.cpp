@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "simulate/sample.h"
 #include "base/case.h"
-#include "base/csv_table.h"
 #include "base/provenance.h"
-#include "simulate/sample_cells.h"
+#include "base/run_folder.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -22,56 +21,43 @@ struct Cell {
   nlohmann::json summary, electrode;
 };
 
-nlohmann::json json_of(const std::string &file, Mistakes &mistakes) {
-  nlohmann::json j = nlohmann::json::parse(text_of_file(file), nullptr, false);
-  if (!j.is_object())
-    mistakes.add(0, fmt::format("{} is missing, cut or damaged. Give a directory made by calendem "
-                                "run.",
-                                file));
-  return j;
-}
-
-void read_paths(const std::string &file, Cell &cell, Mistakes &mistakes) {
-  const CsvTable table = CsvTable::parse(text_of_file(file));
-  for (const char *column : {"stage", "thickness_um", "pressure_MPa", "porosity_total"})
-    if (!table.has(column))
-      return mistakes.add(0, fmt::format("{} has no column '{}'.", file, column));
-  const std::vector<std::string> stage = table.texts("stage");
-  const std::vector<double> gap = table.numbers("thickness_um"), p = table.numbers("pressure_MPa"),
-                            porosity = table.numbers("porosity_total");
+/// Gap and pressure down and up.
+void read_paths(RunFolder &folder, Cell &cell, Mistakes &mistakes) {
+  const Curve curve =
+      folder.curve({"thickness_um", "pressure_MPa", "porosity_total"}, mistakes, mistakes);
   PressPath down, up;
-  for (std::size_t k = 0; k < stage.size(); ++k) {
-    if (stage[k] != "relaxation" && !up.gap.empty())
-      return mistakes.add(0, fmt::format("{} is of a run that was pressed again after a release: a "
-                                         "sample is made of single passes.",
-                                         file));
-    PressPath &path = stage[k] == "relaxation" ? up : down;
-    path.gap.push_back(gap[k]);
-    path.pressure.push_back(p[k]);
+  for (std::size_t k = 0; k < curve.rows(); ++k) {
+    const bool released = curve.stage[k] == "relaxation";
+    if (!released && !up.gap.empty())
+      return mistakes.add(folder.path_of("curve.csv"),
+                          "of a run that was pressed again after a release",
+                          "make a sample of single passes");
+    PressPath &path = released ? up : down;
+    path.gap.push_back(curve["thickness_um"][k]);
+    path.pressure.push_back(curve["pressure_MPa"][k]);
   }
+  if (curve.rows() == 0)
+    return;
   if (down.gap.empty() || up.gap.empty())
-    return mistakes.add(
-        0, fmt::format("{} has no {}.", file, up.gap.empty() ? "relaxation" : "compression"));
-  cell.solid = gap[0] * (1.0 - porosity[0]);
+    return mistakes.add(folder.path_of("curve.csv"),
+                        fmt::format("it has no {}", up.gap.empty() ? "relaxation" : "compression"),
+                        "run the case again");
+  cell.solid = curve["thickness_um"][0] * (1.0 - curve["porosity_total"][0]);
   cell.pressed.down = monotone(down, false);
   cell.pressed.up = monotone(up, true);
 }
 
-Cell read_cell(const std::string &folder, Mistakes &mistakes) {
+Cell read_cell(const std::string &path, Mistakes &mistakes) {
   Cell cell;
-  cell.summary = json_of(folder + "/summary.json", mistakes);
-  cell.electrode = json_of(folder + "/electrode.json", mistakes);
-  if (!cell.summary.is_object() || !cell.electrode.is_object())
+  RunFolder folder(path);
+  folder.must_be_finished(mistakes);
+  cell.summary = folder.object("summary.json");
+  cell.electrode = folder.object("electrode.json", mistakes);
+  if (cell.summary.is_null() || cell.electrode.is_null())
     return cell;
-  if (!cell.summary.value("finished", false))
-    mistakes.add(0, fmt::format("{} is of a run that is not finished. Go on with calendem run "
-                                "--resume.",
-                                folder));
-  Mistakes of_case(folder + "/case.toml");
-  cell.settings = read_toml(folder + "/case.toml", FileKind::Case, case_keys(), of_case);
-  of_case.stop_if_any();
+  cell.settings = folder.settings();
   cell.loading = cell.electrode.value("loading_mg_cm2", std::nan(""));
-  read_paths(folder + "/curve.csv", cell, mistakes);
+  read_paths(folder, cell, mistakes);
   cell.pressed.thickness =
       cell.solid / (1.0 - cell.summary.value("porosity_initial", std::nan("")));
   return cell;
@@ -212,7 +198,7 @@ std::string case_of(const std::vector<Cell> &cells, const Pressed &sample) {
 }
 
 std::vector<Cell> read_cells(const std::vector<std::string> &runs, OneFor shared) {
-  Mistakes mistakes("sample", 20);
+  Mistakes mistakes("sample");
   std::vector<Cell> cells;
   for (const std::string &run : runs)
     cells.push_back(read_cell(run, mistakes));

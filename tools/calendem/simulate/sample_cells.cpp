@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "simulate/sample_cells.h"
+#include "simulate/sample.h"
 #include <algorithm>
 #include <limits>
 

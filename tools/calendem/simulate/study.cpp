@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "simulate/study.h"
 #include "base/child.h"
-#include "base/csv_table.h"
 #include "base/liggghts_job.h"
 #include "base/provenance.h"
+#include "base/run_folder.h"
 #include "simulate/making.h"
 #include "simulate/slurm.h"
 #include <algorithm>
@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 #include <iostream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
 namespace calendem {
 
@@ -141,9 +140,9 @@ std::string no_results(const std::vector<double> &pressures) {
 }
 
 std::string results_of(const std::string &folder, const std::vector<double> &pressures) {
-  const nlohmann::json s =
-      nlohmann::json::parse(text_of_file(folder + "/summary.json"), nullptr, false);
-  if (!s.is_object())
+  RunFolder run(folder);
+  const nlohmann::json &s = run.object("summary.json");
+  if (s.is_null())
     return no_results(pressures);
   const auto value = [&s](const std::string &place) {
     const nlohmann::json::json_pointer at(place);
@@ -156,9 +155,8 @@ std::string results_of(const std::string &folder, const std::vector<double> &pre
     out += "," + number(value(n.place));
   if (pressures.empty())
     return out;
-  const CsvTable curve = CsvTable::parse(text_of_file(folder + "/curve.csv"));
   for (const double p : pressures)
-    for (const double v : at_pressure(curve, p))
+    for (const double v : at_pressure(run.table("curve.csv"), p))
       out += "," + number(v);
   return out;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/answer.h"
 #include "base/child.h"
+#include "base/gap_file.h"
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "diagnose/inference/scatter.h"
@@ -63,10 +64,6 @@ std::string most_probable_effect(const inference::Which &which) {
   return name;
 }
 
-std::string claim_in(const std::string &gap_file) {
-  return nlohmann::json::parse(bytes_of(gap_file)).at("which").at("claim");
-}
-
 class Answering {
 public:
   explicit Answering(const AnswerOptions &o)
@@ -109,7 +106,7 @@ public:
     if (made_of(here + "/" + kShrink, identity))
       return;
     fs::remove(here + "/" + kShrink);
-    if (!names_effect(claim_in(here + "/" + kFiles[0])))
+    if (!names_effect(read_diagnosis(here + "/" + kFiles[0]).at("which").at("claim")))
       return;
     const Experiment experiment = experiment_in(o_.handed_out + "/" + id);
     const Diagnosed d = diagnosed(experiment, table_, 0.0, models_);

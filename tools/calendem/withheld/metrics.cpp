@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "withheld/metrics.h"
 #include "diagnose/inference/scores.h"
+#include "withheld/score.h"
 #include <algorithm>
 #include <cmath>
 #include <set>

@@ -4,7 +4,7 @@
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "base/random.h"
-#include "diagnose/bank/bank_design.h"
+#include "diagnose/bank/bank_table.h"
 #include "diagnose/diagnose.h"
 #include "diagnose/inference/scores.h"
 #include "withheld/make.h"

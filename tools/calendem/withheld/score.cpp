@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/score.h"
 #include "base/effects.h"
+#include "base/gap_file.h"
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "report/page_template.h"
@@ -135,7 +136,7 @@ std::vector<ScoredCase> open_round(const std::string &folder, const std::string 
         continue;
       must_be(sha256(bytes_of(answers + "/" + name)), list.at("sha256").value(name, ""),
               "the answer " + name);
-      answer[k] = json_of(answers + "/" + name);
+      answer[k] = k == 0 ? read_diagnosis(answers + "/" + name) : json_of(answers + "/" + name);
     }
     add_cases(truth, answer[0], answer[1], answer[2], answer[3], out);
   }

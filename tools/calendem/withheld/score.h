@@ -3,10 +3,83 @@
 #ifndef CALENDEM_WITHHELD_SCORE_H
 #define CALENDEM_WITHHELD_SCORE_H
 
-#include "withheld/metrics.h"
+#include <cmath>
+#include <functional>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
 
 namespace calendem {
+
+// How good the answers of a round are. Pure: cases in, numbers with intervals out.
+
+/// One answered case beside its truth.
+struct ScoredCase {
+  std::string id, block; ///< of the truth; left_out: the answer without the case's own effect
+  int cluster = 0;       ///< number of the truth: cases of one packing share it
+  std::string truth;     ///< what should be said
+  std::string claim;
+  std::map<std::string, double> probability; ///< of hypotheses
+  std::vector<std::string> set95;
+  bool located = false;         ///< some block lies beyond the threshold
+  bool next_named = false;      ///< a measurement that would decide is named
+  double signal_to_noise = 0.0; ///< of a single effect; 0: not known
+  std::vector<bool> covered;    ///< base parameters inside their 90 % intervals
+  std::vector<bool> covered_amplitude;
+  /// Share by which the claimed effect shrinks the held-out gap: by the emulators, run again with
+  /// its 90 % interval, and the placebo's. NaN: not run again, or there was no gap.
+  double predicted_shrinkage = NAN, shrinkage = NAN, least_shrinkage = NAN, most_shrinkage = NAN;
+  double placebo_shrinkage = NAN;
+  std::map<std::string, std::string> baselines;
+
+  /// The n-th most probable hypothesis, from 0; empty beyond the last.
+  std::string ranked(int n) const;
+};
+
+using CaseTest = std::function<bool(const ScoredCase &)>;
+/// Some of the cases of a round, which outlives the list.
+using Cases = std::vector<const ScoredCase *>;
+
+/// One number of the score, with a 90 % interval.
+struct Metric {
+  std::string name;
+  double value = 0.0, low = 0.0, high = 0.0; ///< NaN: no case for it
+  int cases = 0, clusters = 0;
+  std::string gate; ///< ">= 0.85"; empty: reported only
+  enum Verdict { none, met, missed, not_measured } verdict = none;
+  bool certain = false; ///< the whole interval meets the gate
+};
+
+/// Every gate and what is reported beside it, then the baselines.
+std::vector<Metric> metrics_of(const std::vector<ScoredCase> &cases);
+
+/// truth -> claim -> cases.
+std::map<std::string, std::map<std::string, int>>
+confusion_of(const std::vector<ScoredCase> &cases);
+
+/// Share of the cases chosen for which `hit` holds. Interval by drawing whole clusters; where all
+/// cases agree, the exact one of a proportion of clusters, since no draw could differ.
+Metric share_of(const std::string &name, const std::vector<ScoredCase> &cases,
+                const CaseTest &chosen, const CaseTest &hit);
+
+/// Any statistic of the cases, which are not none; the interval by drawing whole clusters. NaN
+/// without cases.
+Metric statistic_of(const std::string &name, const Cases &cases,
+                    const std::function<double(const Cases &)> &statistic);
+
+Cases chosen_of(const std::vector<ScoredCase> &cases, const CaseTest &chosen);
+
+/// Mean of -ln of the probability given to the truth, 1e-6 at least.
+double log_score_of(const Cases &cases);
+/// Against always giving the round's own frequencies: the best that knows nothing of the data.
+double brier_skill_of(const Cases &cases);
+/// Of the probability given to "unknown", where that is the truth against where it is not.
+double auroc_of_unknown(const Cases &cases);
+
+/// Signal-to-noise from which the gates of `where` and `which` count, and that of the detection
+/// limit: log-odds of 3 are half of a squared distance of 6.
+constexpr double kLoudEnough = 6.0, kDetectable = 2.449489742783178;
 
 /// Truths and answers of a round. Throws Failure: 4 if a truth, what was handed out or an answer
 /// is not what its hash says, 2 if files are missing.

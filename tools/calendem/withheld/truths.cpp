@@ -2,7 +2,7 @@
 #include "withheld/truths.h"
 #include "base/case.h"
 #include "base/random.h"
-#include "diagnose/bank/bank_design.h"
+#include "diagnose/bank/bank_table.h"
 #include "withheld/round_file.h"
 #include "withheld/sealing.h"
 #include <algorithm>

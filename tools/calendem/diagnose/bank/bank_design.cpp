@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "diagnose/bank/bank_design.h"
 #include "base/messages.h"
+#include "diagnose/bank/bank_table.h"
 #include "diagnose/inference/numerics.h"
 #include <algorithm>
 #include <cmath>

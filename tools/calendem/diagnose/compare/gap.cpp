@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/compare/gap.h"
-#include "diagnose/compare/image_observables.h"
+#include "diagnose/compare/observables.h"
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -98,10 +98,7 @@ std::string amount(double value, const std::string &unit) {
 void say(Gap &gap) {
   for (const Residual &r : gap.rows)
     if (r.significant)
-      gap.said.push_back(
-          fmt::format("{}, {} ({}): the simulation is {} too {} (z = {:.1f}, {:.0f} % of the gap).",
-                      r.condition, r.observable, r.stage, amount(std::fabs(r.residual), r.unit),
-                      r.residual > 0.0 ? "high" : "low", r.z, 100.0 * r.share));
+      gap.said.push_back(in_words(to_json(r), "the simulation"));
     else if (r.sd > 0.0)
       gap.not_said.push_back(fmt::format(
           "{}, {}: a difference of {} is not significant; the detection limit here is {}.",
@@ -170,7 +167,8 @@ void add_entries(const Experiment &experiment, const Condition &c,
   observables.insert(observables.end(), on_images.begin(), on_images.end());
   std::map<std::string, std::vector<std::string>> without; // by the reason
   for (const Observable &o : observables) {
-    Entry e{{}, per_packing(mine, o.simulated)};
+    Entry e;
+    e.packings = per_packing(mine, o.simulated);
     e.row.observable = o.name;
     e.row.stage = o.stage;
     e.row.condition = c.id;

@@ -5,8 +5,8 @@
 #define CALENDEM_DIAGNOSE_COMPARE_GAP_H
 
 #include "base/experiment.h"
+#include "base/gap_file.h"
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,18 +44,13 @@ bool add_if_higher(std::vector<double> &pressures, std::vector<double> &displace
 double displacement_at(const std::vector<double> &pressures,
                        const std::vector<double> &displacements, double pressure);
 
-/// One observable of one condition. `residual` is simulation minus experiment; all in `unit`.
-struct Residual {
-  std::string observable, stage, condition, unit;
-  double measured = 0.0, simulated = 0.0, residual = 0.0;
+/// One observable of one condition; values in `unit`.
+struct Residual : Place {
+  double measured = 0.0, simulated = 0.0;
   int packings = 0;            ///< that `simulated` is the mean of
   double sd_measurement = 0.0; ///< of the measured value
   double sd_seeds = 0.0;       ///< of the mean over packings; NaN: not known
   double sd_pressure = 0.0;    ///< by the uncertainty of the condition's pressure
-  double sd = 0.0;             ///< of the residual
-  double z = 0.0;              ///< residual / sd
-  double share = 0.0;          ///< z^2 over the sum of all z^2
-  bool significant = false; ///< beyond the threshold that the whole table crosses by chance in 5 %
 };
 
 struct Gap {
@@ -71,9 +66,9 @@ struct Gap {
 /// Throws Failure(2) if no run belongs to any condition.
 Gap find_gap(const Experiment &experiment, const std::vector<SimulatedRun> &runs);
 
-/// gap.json (contract: "where") and the page made from it.
-nlohmann::json to_json(const Gap &gap);
-std::string gap_page(const nlohmann::json &gap);
+/// gap.json and the page made from it.
+nlohmann::ordered_json to_json(const Gap &gap);
+std::string gap_page(const nlohmann::ordered_json &gap);
 
 } // namespace calendem
 

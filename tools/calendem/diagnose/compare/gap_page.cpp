@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/compare/gap_page.h"
-#include "base/provenance.h"
 #include "diagnose/compare/gap.h"
 #include "report/page_template.h"
 #include <algorithm>
@@ -39,45 +38,37 @@ nlohmann::json table(const nlohmann::json &gap) {
 
 } // namespace
 
-nlohmann::json to_json(const Gap &gap) {
-  nlohmann::json where = nlohmann::json::array();
-  for (const Residual &r : gap.rows)
-    where.push_back({{"observable", r.observable},
-                     {"stage", r.stage},
-                     {"condition", r.condition},
-                     {"unit", r.unit},
-                     {"measured", r.measured},
-                     {"simulated", r.simulated},
-                     {"packings", r.packings},
-                     {"residual", r.residual},
-                     {"sd_measurement", r.sd_measurement},
-                     {"sd_seeds", number_or_null(r.sd_seeds)},
-                     {"sd_pressure", r.sd_pressure},
-                     {"sd", r.sd},
-                     {"z", number_or_null(r.z)},
-                     {"share", r.share},
-                     {"significant", r.significant}});
-  return {{"experiment", gap.experiment},
-          {"where", where},
-          {"threshold_z", gap.threshold},
-          {"chi2", number_or_null(gap.chi2)},
-          {"p_value", gap.p_value},
-          {"seed_degrees_of_freedom", gap.degrees_of_freedom},
-          {"said", gap.said},
-          {"not_said", gap.not_said},
-          {"provenance", {{"calendem", version()}}}};
+nlohmann::ordered_json to_json(const Gap &gap) {
+  nlohmann::ordered_json where = nlohmann::ordered_json::array();
+  for (const Residual &r : gap.rows) {
+    where.push_back(to_json(static_cast<const Place &>(r)));
+    where.back().update({{"measured", r.measured},
+                         {"simulated", r.simulated},
+                         {"packings", r.packings},
+                         {"sd_measurement", r.sd_measurement},
+                         {"sd_seeds", number_or_null(r.sd_seeds)},
+                         {"sd_pressure", r.sd_pressure}});
+  }
+  nlohmann::ordered_json out =
+      new_gap(gap.experiment, where, gap.threshold, gap.degrees_of_freedom);
+  out["chi2"] = number_or_null(gap.chi2);
+  out["p_value"] = gap.p_value;
+  out["said"] = gap.said;
+  out["not_said"] = gap.not_said;
+  return out;
 }
 
-std::string gap_page(const nlohmann::json &gap) {
+std::string gap_page(const nlohmann::ordered_json &ordered) {
+  const nlohmann::json gap = ordered;
   nlohmann::json values = gap;
   values["css"] = report::embedded::kPageCss;
   values["table"] = table(gap);
-  values["map"] = heat_map(gap["where"], gap["threshold_z"]);
-  values["threshold_text"] = shown(gap["threshold_z"], "{:.2f}");
+  values["map"] = heat_map(gap["where"], gap["threshold"]);
+  values["threshold_text"] = shown(gap["threshold"], "{:.2f}");
   values["chi2_text"] = shown(gap["chi2"], "{:.1f}");
   values["p_text"] = shown(gap["p_value"], "{:.2g}");
   values["rows_text"] = fmt::format("{}", gap["where"].size());
-  values["json"] = report::in_script(gap.dump());
+  values["json"] = report::in_script(ordered.dump());
   return report::fill_template(kGapHtml, values);
 }
 

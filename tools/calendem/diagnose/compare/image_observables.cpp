@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "diagnose/compare/image_observables.h"
-#include "measure/contacts.h"
+#include "diagnose/compare/observables.h"
 #include "measure/structure.h"
 #include <algorithm>
 #include <array>

@@ -7,6 +7,7 @@
 #include "diagnose/inference/model.h"
 #include "diagnose/inference/where.h"
 #include "diagnose/inference/which.h"
+#include <nlohmann/json_fwd.hpp>
 
 namespace calendem::inference {
 
@@ -85,8 +86,8 @@ Diagnosis diagnose(const Model &model, const Bank &bank, const Vector &values,
                    const DiagnosisSettings &settings,
                    const std::vector<PointNoise> &point_noise = {});
 
-/// The parts "where" and "which" of gap.json and what else is known, as text of a JSON object.
-std::string to_json(const Diagnosis &diagnosis);
+/// gap.json but for units, words and "shrink".
+nlohmann::ordered_json to_json(const Diagnosis &diagnosis, const std::string &experiment);
 
 } // namespace calendem::inference
 

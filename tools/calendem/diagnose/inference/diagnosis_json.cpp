@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/gap_file.h"
 #include "diagnose/inference/diagnosis.h"
-#include <nlohmann/json.hpp>
 
 namespace calendem::inference {
 namespace {
@@ -11,15 +11,10 @@ Json where_of(const Diagnosis &d) {
   Json rows = Json::array();
   for (const WhereRow &r : d.where.rows) {
     const Block &b = d.blocks[r.block];
-    rows.push_back({{"observable", b.name},
-                    {"stage", b.stage},
-                    {"condition", b.condition},
-                    {"residual", d.residual[r.block].residual},
-                    {"sd", d.residual[r.block].sd},
-                    {"z", r.z},
-                    {"share", r.share},
-                    {"significant", r.significant},
-                    {"worst_coordinate", d.residual[r.block].worst_coordinate}});
+    const BlockResidual &left = d.residual[r.block];
+    rows.push_back(to_json(Place{b.name, b.stage, b.condition, "", left.residual, left.sd, r.z,
+                                 r.share, r.significant}));
+    rows.back()["worst_coordinate"] = left.worst_coordinate;
   }
   return rows;
 }
@@ -140,9 +135,10 @@ Json predictions_of(const Predictions &p) {
 
 } // namespace
 
-std::string to_json(const Diagnosis &d) {
-  Json out = {{"where", where_of(d)}, {"which", which_of(d)}};
-  out["threshold"] = d.where.threshold;
+Json to_json(const Diagnosis &d, const std::string &experiment) {
+  Json out = new_gap(experiment, where_of(d), d.where.threshold, d.degrees_of_freedom);
+  out["scatter"]["shrinkage"] = d.shrinkage;
+  out["which"] = which_of(d);
   out["conflicts"] = conflicts_of(d);
   out["conflict_matrix"] = conflict_matrix_of(d);
   for (const StageFit &s : d.where.stages)
@@ -162,8 +158,7 @@ std::string to_json(const Diagnosis &d) {
                                      {"high90", e.high90}});
   out["predictions"] = predictions_of(d.predictions);
   out["emulators"] = emulators_of(d);
-  out["scatter"] = {{"degrees_of_freedom", d.degrees_of_freedom}, {"shrinkage", d.shrinkage}};
-  return out.dump(1) + "\n";
+  return out;
 }
 
 } // namespace calendem::inference

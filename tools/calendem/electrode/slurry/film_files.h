@@ -6,7 +6,7 @@
 
 #include "electrode/pack/description.h"
 #include "electrode/pack/placement.h"
-#include "electrode/slurry/film_recipe.h"
+#include "electrode/slurry/dry.h"
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "electrode/slurry/film_recipe.h"
 #include "electrode/pack/placement.h"
+#include "electrode/slurry/dry.h"
 #include "physics/pi.h"
 #include <cmath>
 #include <fmt/format.h>

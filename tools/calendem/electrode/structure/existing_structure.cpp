@@ -130,9 +130,8 @@ ExistingStructure read_structure(const StructureSource &s) {
                              "structure.body_map, or write it with atom_style hybrid sphere "
                              "molecular.",
                              columns_of(s.atom_style)));
-  if (!mistakes.empty() || !in_map.empty())
-    throw Failure(kBadInput, mistakes.text() + (mistakes.empty() || in_map.empty() ? "" : "\n") +
-                                 in_map.text());
+  mistakes.add(in_map);
+  mistakes.stop_if_any();
   measure_height(data.box.z(), s.z_periodic, g);
   return g;
 }

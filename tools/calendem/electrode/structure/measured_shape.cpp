@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/structure/measured_shape.h"
+#include "base/messages.h"
 #include "electrode/structure/particle_mask.h"
 #include "physics/pi.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 namespace calendem {
 
@@ -39,7 +39,7 @@ void complete(MeasuredShape &s) {
         if (s.inside[(size_t(k) * s.n[1] + j) * s.n[0] + i])
           cells.emplace_back((i + 0.5) * s.cell, (j + 0.5) * s.cell, (k + 0.5) * s.cell);
   if (cells.empty())
-    throw std::runtime_error("no cell is inside");
+    throw Failure(kBadInput, "no cell is inside");
   s.centre.setZero();
   for (const Eigen::Vector3d &c : cells)
     s.centre += c / double(cells.size());
@@ -117,7 +117,7 @@ MeasuredShape shape_from_json(const nlohmann::json &j) {
   s.cell = j.at("cell_um");
   const size_t size = size_t(std::max(0, s.n[0])) * std::max(0, s.n[1]) * std::max(0, s.n[2]);
   if (size < 27 || size > 1000000 || !(s.cell > 0.0) || !(s.volume > 0.0) || !(s.weight > 0.0))
-    throw std::runtime_error(fmt::format("cells {} x {} x {} of {} um, volume {} um3, weight {}: "
+    throw Failure(kBadInput, fmt::format("cells {} x {} x {} of {} um, volume {} um3, weight {}: "
                                          "all must be positive",
                                          s.n[0], s.n[1], s.n[2], s.cell, s.volume, s.weight));
   char value = 0;
@@ -128,8 +128,8 @@ MeasuredShape shape_from_json(const nlohmann::json &j) {
     value = value ? 0 : 1;
   }
   if (s.inside.size() != size)
-    throw std::runtime_error(
-        fmt::format("runs_outside_inside fill {} of {} cells", s.inside.size(), size));
+    throw Failure(kBadInput,
+                  fmt::format("runs_outside_inside fill {} of {} cells", s.inside.size(), size));
   complete(s);
   return s;
 }

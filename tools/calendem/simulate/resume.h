@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The folder of a run before it starts: may it be written, does it hold a run, can that go on, is
 // its restart file complete.
-#ifndef CALENDEM_SIMULATE_RUN_FOLDER_H
-#define CALENDEM_SIMULATE_RUN_FOLDER_H
+#ifndef CALENDEM_SIMULATE_RESUME_H
+#define CALENDEM_SIMULATE_RESUME_H
 
 #include "simulate/run.h"
 #include <string>

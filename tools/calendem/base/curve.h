@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The course of a run as columns, and what is read off it.
-#ifndef CALENDEM_MEASURE_CURVE_H
-#define CALENDEM_MEASURE_CURVE_H
+#ifndef CALENDEM_BASE_CURVE_H
+#define CALENDEM_BASE_CURVE_H
 
 #include <map>
 #include <string>

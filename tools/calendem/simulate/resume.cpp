@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "simulate/run_folder.h"
+#include "simulate/resume.h"
 #include "base/case.h"
 #include "base/liggghts_job.h"
 #include "base/provenance.h"
+#include "base/run_folder.h"
 #include "simulate/collect.h"
 #include <cmath>
 #include <cstdint>
@@ -55,11 +56,12 @@ FolderLock::~FolderLock() {
 
 bool holds_this_run(const RunOptions &o, const Settings &settings, const std::string &hash,
                     const std::string &electrode) {
-  std::ifstream in(o.folder + "/summary.json");
-  const nlohmann::json old = nlohmann::json::parse(in, nullptr, false);
-  if (!old.is_object()) // none, or cut: what else is there decides
+  RunFolder before(o.folder);
+  const nlohmann::json &old = before.object("summary.json");
+  if (old.is_null()) // none, or cut: what else is there decides
     return false;
-  const bool finished = old.value("finished", false), same = old.value("case_hash", "") == hash;
+  const std::string why = before.unfinished();
+  const bool finished = why.empty(), same = old.value("case_hash", "") == hash;
   if (finished && same) {
     stop_if_checks_failed(old, o.folder);
     return true;
@@ -87,7 +89,7 @@ bool holds_this_run(const RunOptions &o, const Settings &settings, const std::st
     throw Failure(kBadInput,
                   fmt::format("'{}' holds an unfinished run: {}. Go on with --resume, or "
                               "start again with --force.",
-                              o.folder, old.value("stopped_because", "?")));
+                              o.folder, why));
   return false;
 }
 

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/gap_file.h"
+#include "base/messages.h"
+#include "base/provenance.h"
+#include <cmath>
+#include <fmt/format.h>
+
+namespace calendem {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Place &p) {
+  const auto or_null = [](double x) { return std::isfinite(x) ? Json(x) : Json(); };
+  return {{"observable", p.observable},  {"stage", p.stage},
+          {"condition", p.condition},    {"unit", p.unit},
+          {"residual", p.residual},      {"sd", p.sd},
+          {"z", or_null(p.z)},           {"share", p.share},
+          {"significant", p.significant}};
+}
+
+std::string in_words(const Json &place, const std::string &model) {
+  const std::string unit = place["unit"];
+  const double residual = place["residual"];
+  return fmt::format("{}, {} ({}): {} is {:.3g}{}{} too {} (z = {:.1f}, {:.0f} % of the gap).",
+                     place["condition"].get<std::string>(), place["observable"].get<std::string>(),
+                     place["stage"].get<std::string>(), model, std::fabs(residual),
+                     unit.empty() ? "" : " ", unit == "%" ? "points" : unit,
+                     residual > 0.0 ? "high" : "low", place["z"].get<double>(),
+                     100.0 * place["share"].get<double>());
+}
+
+Json new_gap(const std::string &experiment, Json where, double threshold,
+             double degrees_of_freedom) {
+  return {{"experiment", experiment},
+          {"where", std::move(where)},
+          {"threshold", threshold},
+          {"scatter",
+           {{"degrees_of_freedom", degrees_of_freedom < 0.0 ? Json() : Json(degrees_of_freedom)}}},
+          {"which", nullptr},
+          {"shrink", nullptr},
+          {"said", Json::array()},
+          {"not_said", Json::array()},
+          {"provenance", {{"calendem", version()}, {"hashes", "64-bit FNV-1a"}}}};
+}
+
+void write_gap(const Json &gap, const std::string &page, const std::string &folder) {
+  write_file(folder + "/gap.json", gap.dump(1) + "\n");
+  write_file(folder + "/gap.html", page);
+}
+
+nlohmann::json read_diagnosis(const std::string &file) {
+  nlohmann::json gap = nlohmann::json::parse(text_of_file(file), nullptr, false);
+  Mistakes mistakes;
+  if (!gap.is_object())
+    mistakes.add(file, "missing, cut or damaged: it holds no JSON object", "diagnose again");
+  else
+    for (const char *part : {"where", "which"})
+      if (!gap.contains(part) || gap[part].is_null())
+        mistakes.add(file, fmt::format("it has no '{}'", part),
+                     "give a gap.json that calendem diagnose wrote");
+  mistakes.stop_if_any();
+  return gap;
+}
+
+} // namespace calendem

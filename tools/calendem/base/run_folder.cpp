@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/run_folder.h"
+#include "base/case.h"
+#include "base/provenance.h"
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace calendem {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kLeastRows = 2;
+const char *const kCollectAgain = "collect the run again with this version (calendem collect)";
+
+/// A name without its unit, which is behind the last underscore.
+std::string without_unit(const std::string &column) { return column.substr(0, column.rfind('_')); }
+
+/// " (there is 'time_s', of another unit)"
+std::string of_another_unit(const std::string &column, const CsvTable &table) {
+  for (const std::string &other : table.header())
+    if (without_unit(other) == without_unit(column) && column.find('_') != std::string::npos)
+      return fmt::format(" (there is '{}', of another unit)", other);
+  return "";
+}
+
+void check_numbers(const std::string &file, const std::vector<std::string> &columns,
+                   const Curve &curve, Mistakes &mistakes) {
+  for (const std::string &column : columns) {
+    const Column &values = curve[column];
+    const auto bad =
+        std::find_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
+    if (bad != values.end())
+      mistakes.add(file,
+                   fmt::format("column {}, row {}: not a number", column, bad - values.begin() + 1),
+                   "see log.liggghts for what went wrong, and run the case again");
+  }
+}
+
+} // namespace
+
+bool RunFolder::has(const std::string &name) const {
+  return std::filesystem::exists(path_of(name));
+}
+
+const json &RunFolder::object(const std::string &name) {
+  const auto [at, first] = objects_.try_emplace(name);
+  if (first)
+    at->second = json::parse(text_of_file(path_of(name)), nullptr, false);
+  if (!at->second.is_object())
+    at->second = nullptr;
+  return at->second;
+}
+
+const json &RunFolder::object(const std::string &name, Mistakes &mistakes) {
+  const json &found = object(name);
+  if (!has(name))
+    mistakes.add(path_of(name), "missing", "give a folder made by calendem run");
+  else if (found.is_null())
+    mistakes.add(path_of(name), "cut or damaged: it holds no JSON object", "run the case again");
+  return found;
+}
+
+double RunFolder::number(const std::string &key, Mistakes &mistakes) {
+  const json &summary = object("summary.json");
+  if (summary.is_object() && summary.contains(key) && summary[key].is_number())
+    return summary[key];
+  mistakes.add(path_of("summary.json"), fmt::format("it has no number '{}'", key), kCollectAgain);
+  return 0.0;
+}
+
+const CsvTable &RunFolder::table(const std::string &name) {
+  const auto [at, first] = tables_.try_emplace(name);
+  if (first)
+    at->second = CsvTable::parse(text_of_file(path_of(name)));
+  return at->second;
+}
+
+bool RunFolder::has_columns(const std::string &name, const std::vector<std::string> &columns,
+                            Mistakes &mistakes) {
+  std::vector<std::string> missing;
+  for (const std::string &column : columns)
+    if (!table(name).has(column))
+      missing.push_back(column + of_another_unit(column, table(name)));
+  if (!missing.empty())
+    mistakes.add(path_of(name), fmt::format("columns missing: {}", fmt::join(missing, ", ")),
+                 kCollectAgain);
+  return missing.empty();
+}
+
+bool RunFolder::rows_are_whole(const std::string &name, Mistakes &mistakes, Mistakes &notes) {
+  bool whole = true;
+  for (const int line : table(name).bad_lines()) {
+    const std::string what = fmt::format("line {} is cut short or has cells too many", line);
+    if (line == table(name).last_line() && !unfinished().empty()) {
+      notes.add(path_of(name), what + "; it is left out: the run was still writing it",
+                "let the run go on (calendem run --resume)");
+      continue;
+    }
+    mistakes.add(path_of(name), what, "run the case again");
+    whole = false;
+  }
+  return whole;
+}
+
+std::map<std::string, Column> RunFolder::columns(const std::string &name,
+                                                 const std::vector<std::string> &columns,
+                                                 Mistakes &mistakes) {
+  std::map<std::string, Column> out;
+  Mistakes notes;
+  if (has_columns(name, columns, mistakes) && rows_are_whole(name, mistakes, notes))
+    for (const std::string &column : columns)
+      out[column] = table(name).numbers(column);
+  return out;
+}
+
+Curve RunFolder::curve(const std::vector<std::string> &columns, Mistakes &mistakes,
+                       Mistakes &notes) {
+  const std::string name = "curve.csv", file = path_of(name);
+  if (!has(name)) {
+    const bool raw = has("curve_raw.csv");
+    mistakes.add(
+        file, raw ? "missing, though curve_raw.csv is there: the run was interrupted" : "missing",
+        raw ? "go on with calendem run CASE.toml -o DIR --resume"
+            : "give a folder made by calendem run");
+    return {};
+  }
+  std::vector<std::string> due = columns;
+  due.push_back("stage");
+  if (!has_columns(name, due, mistakes) || !rows_are_whole(name, mistakes, notes))
+    return {};
+  const CsvTable &rows = table(name);
+  if (rows.rows() < kLeastRows) {
+    mistakes.add(file, fmt::format("{} rows, at least {} are needed", rows.rows(), kLeastRows),
+                 "let the run go on (calendem run --resume)");
+    return {};
+  }
+  Curve out;
+  out.stage = rows.texts("stage");
+  for (const std::string &column : rows.header())
+    if (column != "stage")
+      out.columns[column] = rows.numbers(column);
+  check_numbers(file, columns, out, mistakes);
+  return out;
+}
+
+Settings RunFolder::settings() const {
+  Mistakes mistakes(path_of("case.toml"));
+  const Settings out = read_toml(mistakes.file(), FileKind::Case, case_keys(), mistakes);
+  mistakes.stop_if_any();
+  return out;
+}
+
+std::string RunFolder::unfinished() {
+  const json &summary = object("summary.json");
+  if (summary.is_null())
+    return has("summary.json") ? "summary.json is cut or damaged" : "summary.json is missing";
+  return summary.value("finished", false) ? ""
+                                          : summary.value("stopped_because", "no reason is given");
+}
+
+void RunFolder::must_be_finished(Mistakes &mistakes) {
+  if (object("summary.json", mistakes).is_null())
+    return;
+  if (const std::string why = unfinished(); !why.empty())
+    mistakes.add(folder_, fmt::format("the run is not finished ({})", why),
+                 "go on with calendem run --resume");
+}
+
+} // namespace calendem

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The folder of a run, read: which files there are, each parsed once and checked in one way. What
+// a caller needs and cannot have is a Mistake that names the file and what to do.
+#ifndef CALENDEM_BASE_RUN_FOLDER_H
+#define CALENDEM_BASE_RUN_FOLDER_H
+
+#include "base/csv_table.h"
+#include "base/curve.h"
+#include "base/messages.h"
+#include "base/toml_reader.h"
+#include <nlohmann/json.hpp>
+
+namespace calendem {
+
+class RunFolder {
+public:
+  explicit RunFolder(std::string folder) : folder_(std::move(folder)) {}
+
+  const std::string &folder() const { return folder_; }
+  std::string path_of(const std::string &name) const { return folder_ + "/" + name; }
+  bool has(const std::string &name) const;
+
+  /// The object in summary.json, electrode.json or another file; null where the file is missing,
+  /// cut or damaged.
+  const nlohmann::json &object(const std::string &name);
+  const nlohmann::json &object(const std::string &name, Mistakes &mistakes);
+  /// A number of summary.json; 0 and a mistake where it is none.
+  double number(const std::string &key, Mistakes &mistakes);
+  /// The rows that are whole; an empty table where the file is missing.
+  const CsvTable &table(const std::string &name);
+  /// The table's `columns`, by name; empty after a mistake: a column missing, a row cut short.
+  std::map<std::string, Column>
+  columns(const std::string &name, const std::vector<std::string> &columns, Mistakes &mistakes);
+  /// curve.csv, which must have `columns` (and `stage`), two rows and a number in every cell of
+  /// them. Empty after a mistake. Of a run that is not finished the last row may be cut short: it is
+  /// left out, which is a note.
+  Curve curve(const std::vector<std::string> &columns, Mistakes &mistakes, Mistakes &notes);
+  /// case.toml, as run. Throws Failure(2) with every mistake of it.
+  Settings settings() const;
+
+  /// Why the run is not finished; empty: it is.
+  std::string unfinished();
+  /// Adds a mistake where it is not.
+  void must_be_finished(Mistakes &mistakes);
+
+private:
+  std::string folder_;
+  std::map<std::string, nlohmann::json> objects_;
+  std::map<std::string, CsvTable> tables_;
+
+  bool has_columns(const std::string &name, const std::vector<std::string> &columns,
+                   Mistakes &mistakes);
+  bool rows_are_whole(const std::string &name, Mistakes &mistakes, Mistakes &notes);
+};
+
+} // namespace calendem
+
+#endif
