@@ -9,7 +9,6 @@
 namespace {
 using namespace calendem;
 using namespace calendem_test;
-namespace fs = std::filesystem;
 
 const std::string kData = std::string(CALENDEM_TEST_DATA) + "/";
 
