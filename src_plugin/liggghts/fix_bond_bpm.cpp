@@ -20,7 +20,6 @@
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
-using calendem::BreakMode;
 
 namespace {
 const int kEventSize = sizeof(BreakEvent) / sizeof(double);

@@ -14,7 +14,6 @@
 
 using namespace LAMMPS_NS;
 using calendem::BridgeKind;
-using calendem::Vec3;
 
 namespace {
 // Beside the bond's values, where on the wall it ends.

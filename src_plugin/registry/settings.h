@@ -9,6 +9,7 @@
 
 namespace calendem {
 
+// NOLINTNEXTLINE(readability-function-size): a table, one row for each setting
 inline std::vector<Key> base_settings() {
   return {
       {"electrode", "electrode", "", 0, 0, "", "folder made by calendem pack", "", true},

@@ -31,7 +31,7 @@ build_readers() {
     clang++ "${options[@]}" -c "$source" -o "${objects[-1]}" &
   done
   wait
-  clang++ "${options[@]}" "${objects[@]}" -lfmt -lcrypto -o "$work/readers"
+  clang++ "${options[@]}" "${objects[@]}" -lfmt -lcrypto -lnlopt -o "$work/readers"
 }
 build_label_image() {
   local vtk suffix
@@ -39,8 +39,8 @@ build_label_image() {
   [ -n "$vtk" ] || { echo "skipped: no headers of VTK in /usr/include"; exit 77; }
   suffix=${vtk##*/vtk}
   clang++ "${options[@]}" -isystem "$vtk" "$here/fuzz_image.cpp" \
-    "$core"/electrode/structure/{data_rows,image_formats,image_header,label_image}.cpp \
-    "$core"/base/{messages,provenance}.cpp -lfmt -lz \
+    "$core"/electrode/structure/{data_rows,image_header,label_image,tiff_image,vti_header}.cpp \
+    "$core"/base/{messages,provenance}.cpp -lfmt -lz -ltiff \
     -lvtk{IOImage,IOXML,CommonExecutionModel,CommonDataModel,CommonCore,sys}"$suffix" -o "$work/label_image_reader"
 }
 program=$work/readers

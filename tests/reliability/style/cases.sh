@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# cases.sh CASE: one case of the style tests. Exit status 0 passed, 1 failed, 77 skipped.
+# cases.sh CASE BUILD: one case of the style tests. Exit status 0 passed, 1 failed, 77 skipped.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../../.."
 
@@ -47,11 +47,14 @@ includes_point_one_way() { # physics <- registry <- liggghts, tools/calendem; te
     without "^($known)?$" | report "folders of tools/calendem that have no place in the order of includes" || exit 1
   includes tools/calendem | matching '<(gtest|gmock|benchmark)/' | report "tools/calendem must not include tests"
 }
-headers_agree() { # no two definitions of one name: all headers in one translation unit
+header_options=(-std=c++17 -Wall -Wextra -I src_plugin -I tools/calendem -isystem /usr/include/eigen3 -x c++)
+all_headers() { # of physics, registry and tools/calendem as one translation unit
   { find src_plugin/physics src_plugin/registry -name '*.h' -printf '%P %H\n' | sed 's|\(.*\) src_plugin/\(.*\)|\2/\1|'
-    find tools/calendem -name '*.h' -printf '%P\n'; } | LC_ALL=C sort | sed 's/.*/#include "&"/' |
-    "${CXX:-g++}" -std=c++17 -Wall -Wextra -Werror -fsyntax-only -I src_plugin -I tools/calendem \
-      -isystem /usr/include/eigen3 -x c++ - || { echo "FAILED: a name is defined in two headers"; exit 1; }
+    find tools/calendem -name '*.h' -printf '%P\n'; } | LC_ALL=C sort | sed 's/.*/#include "&"/'
+}
+headers_agree() { # no two definitions of one name
+  all_headers | "${CXX:-g++}" "${header_options[@]}" -Werror -fsyntax-only - ||
+    { echo "FAILED: a name is defined in two headers"; exit 1; }
 }
 no_large_files() { # in the repository, or in the tree where there is no git
   { git ls-files -z 2>/dev/null || find . -path ./build -prune -o -type f -print0; } |
@@ -66,6 +69,27 @@ formatted() {
   cxx_files | xargs clang-format --dry-run 2>&1 | matching 'warning:' | cut -d: -f1 | sort | uniq -c |
     report "not as .clang-format says (number of places, file); clang-format -i FILE mends it"
 }
+bodies_are_short() { # at once, for all files; clang-tidy counts too, but reads few of them unless asked for all
+  cxx_files | xargs awk -f tests/reliability/style/long_bodies.awk | report "bodies of more than 60 lines"
+}
+# clang-tidy on all headers and, as a source takes it some seconds, on twelve of the sources that the last commit
+# or the work since has changed; with CALENDEM_HEAVY=1 on every source: about 15 minutes on two idle cores. The
+# adapters, which are built in the host's tree, keep the host's manner: NULL, no override.
+tidy() { # BUILD: where compile_commands.json is
+  command -v clang-tidy >/dev/null || skip "no clang-tidy; tools/install-dependencies --test brings it"
+  clang-tidy --version | grep -q 'version 14' || skip "clang-tidy is not version 14; others find other things"
+  local run=(clang-tidy --quiet --config-file=.clang-tidy) each=(xargs -r -n 1 -P "$(nproc)") headers sources failed=0
+  headers=$(mktemp --suffix=.cpp)
+  trap 'rm -f "$headers"' EXIT
+  all_headers >"$headers"
+  "${run[@]}" "$headers" -- "${header_options[@]}" || { echo "FAILED: clang-tidy on the headers"; exit 1; }
+  if [ "${CALENDEM_HEAVY:-0}" = 1 ]; then sources=$(cxx_files | matching '\.cpp$')
+  else sources=$(git diff --name-only --diff-filter=d HEAD~1 -- '*.cpp' 2>/dev/null | head -n 12 || true); fi
+  without '^src_plugin/liggghts/' <<<"$sources" | "${each[@]}" "${run[@]}" -p "$1" || failed=1
+  sed -n "s|^src_plugin/liggghts/|$1/host/src/|p" <<<"$sources" |
+    "${each[@]}" "${run[@]}" -p "$1" '--checks=-modernize-*' || failed=1
+  [ $failed -eq 0 ] || { echo "FAILED: the files named above; see .clang-tidy"; exit 1; }
+}
 shell_is_clean() {
   command -v shellcheck >/dev/null || skip "no shellcheck; tools/install-dependencies --test brings it"
   local files
@@ -73,6 +97,6 @@ shell_is_clean() {
   shellcheck "${files[@]}"
 }
 case ${1:-} in
-  "" | *[!a-z_]*) echo "usage: cases.sh CASE" >&2; exit 1 ;;
-  *) "$1" ;;
+  "" | *[!a-z_]*) echo "usage: cases.sh CASE BUILD" >&2; exit 1 ;;
+  *) "$@" ;;
 esac

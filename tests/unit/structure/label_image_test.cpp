@@ -2,11 +2,7 @@
 #include "electrode/structure/label_image.h"
 #include "support.h"
 #include <fmt/format.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkTIFFWriter.h>
-#include <vtkUnsignedShortArray.h>
+#include <tiffio.h>
 
 namespace {
 using namespace calendem;
@@ -37,21 +33,24 @@ void expect_sample(const LabelImage &image) {
   EXPECT_EQ(image.label, sample().label);
 }
 
-// Pages first..last of the sample as TIFF, by VTK's own writer.
+// Pages first..last of the sample as TIFF.
 void write_tiff(const std::string &file, int first, int last, int width = 12) {
   const LabelImage image = sample();
-  vtkNew<vtkImageData> data;
-  data->SetDimensions(width, 5, last - first + 1);
-  vtkNew<vtkUnsignedShortArray> values;
-  for (int k = first; k <= last; ++k)
-    for (int j = 0; j < 5; ++j)
+  TIFF *out = TIFFOpen(file.c_str(), "w");
+  for (int k = first; k <= last; ++k) {
+    TIFFSetField(out, TIFFTAG_IMAGEWIDTH, width);
+    TIFFSetField(out, TIFFTAG_IMAGELENGTH, 5);
+    TIFFSetField(out, TIFFTAG_BITSPERSAMPLE, 16);
+    TIFFSetField(out, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+    for (int j = 0; j < 5; ++j) {
+      std::array<std::uint16_t, 12> row{};
       for (int i = 0; i < width; ++i)
-        values->InsertNextValue(static_cast<unsigned short>(image.at(i, j, k)));
-  data->GetPointData()->SetScalars(values);
-  vtkNew<vtkTIFFWriter> writer;
-  writer->SetInputData(data);
-  writer->SetFileName(file.c_str());
-  writer->Write();
+        row[i] = static_cast<std::uint16_t>(image.at(i, j, k));
+      TIFFWriteScanline(out, row.data(), std::uint32_t(j));
+    }
+    TIFFWriteDirectory(out);
+  }
+  TIFFClose(out);
 }
 
 void cut(const fs::path &file, double share) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A comma-separated table with a header line; lines that begin with '#' are comments,
 // a byte-order mark is skipped. Cells are kept as text, numbers are made on request (an empty or
-// unreadable cell is NaN). No quoting: none of the project's tables needs it.
+// unreadable cell is NaN). No quoting: none of the project's tables needs it. Not a library: of those
+// packaged libcsv knows no lines and no comments, fast-cpp-csv-parser wants the columns at
+// compile time, VTK's reader does not say which rows are short.
 #ifndef CALENDEM_BASE_CSV_TABLE_H
 #define CALENDEM_BASE_CSV_TABLE_H
 

@@ -46,7 +46,8 @@ struct Seen {
 
 constexpr int kFaces[6][3] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
 
-// Visits all voxels connected by faces to `start` that bear its label; notes what they touch.
+// Visits all voxels connected by faces to `start` that bear its label; notes what they touch. VTK's
+// filter of connected parts knows neither periodic faces nor neighbours.
 long visit_part(const PhaseImage &image, size_t start, std::vector<char> &done, bool &cut,
                 Pairs &neighbours) {
   const std::int32_t label = image.label[start];

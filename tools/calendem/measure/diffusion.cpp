@@ -175,7 +175,8 @@ Tortuosity tortuosity(const PhaseImage &whole, int axis) {
   return t;
 }
 
-// Which open voxels lie on a path through the image.
+// Which open voxels lie on a path through the image. VTK's filter of connected parts knows no
+// periodic faces.
 
 namespace {
 

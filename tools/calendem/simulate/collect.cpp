@@ -220,14 +220,87 @@ std::optional<double> gap_at_loss(const std::vector<RawRow> &rows, double fracti
   return std::nullopt;
 }
 
+namespace {
+
+using Rows = std::vector<RawRow>;
+
+/// Gaps and porosities of the model, and what the press's instruments make of them.
+nlohmann::json thickness(const Rows &rows, const RawRow &top, const Settings &settings,
+                         const ElectrodeFacts &e) {
+  const double lost = settings.number("platen.contact_lost_fraction");
+  // a run that was stopped has no gap after relaxation: the last one stands for it
+  const double gap = gap_at_loss(rows, lost, top.p_top).value_or(rows.back().gap);
+  const PressInstruments press = instruments_of(settings);
+  const double last = rows.back().elongation;
+  nlohmann::json by_threshold = nlohmann::json::object();
+  for (double f : {0.005, 0.01, 0.02, 0.05})
+    if (const auto at = gap_at_loss(rows, f, top.p_top))
+      by_threshold[fmt::format("{}", f)] = total_porosity(e, *at, last);
+  if (rows.back().stage > 3.5) // the pressure of every row may lie above what stopped the platen
+    by_threshold[fmt::format("{}", lost)] = total_porosity(e, gap, last);
+  nlohmann::json s = {
+      {"max_pressure_MPa", top.p_top},
+      {"thickness_at_max_um", top.gap},
+      {"porosity_at_max", total_porosity(e, top.gap, top.elongation)},
+      {"thickness_after_relaxation_um", gap},
+      {"porosity_after_relaxation", total_porosity(e, gap, last)},
+      {"porosity_initial", total_porosity(e, e.thickness)},
+      {"contact_lost_fraction", lost},
+      {"springback", (gap - top.gap) / top.gap},
+      {"porosity_initial_shown", total_porosity(e, press.thickness_shown(e.thickness))},
+      {"max_pressure_shown_MPa", press.pressure_shown(top.p_top)},
+      {"thickness_at_max_shown_um", press.thickness_shown(top.gap)},
+      {"thickness_after_relaxation_shown_um", press.thickness_shown(gap)},
+      {"porosity_after_relaxation_shown", total_porosity(e, press.thickness_shown(gap), last)}};
+  if (!by_threshold.empty())
+    s["porosity_after_relaxation_by_threshold"] = by_threshold;
+  return s;
+}
+
+/// How the run went, and of what.
+nlohmann::json provenance(const std::string &folder, const Rows &rows, const Settings &settings,
+                          const ElectrodeFacts &e, const RunFacts &facts) {
+  nlohmann::json s = {{"timestep_us", rows.back().time / rows.back().step},
+                      {"steps", static_cast<long>(rows.back().step)},
+                      {"case_hash", facts.case_hash},
+                      {"finished", rows.back().stage > 3.5 && facts.stopped_because.empty()}};
+  if (facts.ranks > 0) {
+    s["wall_clock_s"] = facts.earlier_s + facts.wall_clock_s;
+    s["ranks"] = facts.ranks;
+    s["atom_steps_per_second"] =
+        std::max(0.0, rows.back().step - facts.first_step) * e.atoms / facts.wall_clock_s;
+  }
+  s["provenance"] = {
+      {"calendem", version()},
+      {"case_toml", hash_of_file(folder + "/case.toml")},
+      {"electrode_data", hash_of_file(settings.text("electrode") + "/electrode.data")},
+      {"liggghts", facts.program.empty() ? "not known" : facts.program},
+      {"input_scripts", hash_of_folder(input_scripts() + "/common")},
+      {"hashes", "64-bit FNV-1a"}};
+  if (facts.stopped_because.empty())
+    s["failed_checks"] = failed_checks(rows, settings, e, count_rows(folder + "/breaks.csv"));
+  else
+    s["stopped_because"] = facts.stopped_because;
+  return s;
+}
+
+void warn(const nlohmann::json &s) {
+  for (const std::string &warning :
+       {ledger_warning(s["energy_fJ"]), speed_warning(s["quasi_static"]),
+        range_warning(s["contact_range"])})
+    if (!warning.empty())
+      fmt::print(stderr, "warning: {}\n", warning);
+}
+
+} // namespace
+
 nlohmann::json collect(const std::string &folder, const Settings &settings, const ElectrodeFacts &e,
                        const RunFacts &facts) {
-  std::vector<RawRow> rows = read_raw(folder + "/curve_raw.csv");
+  Rows rows = read_raw(folder + "/curve_raw.csv");
   if (rows.size() < 2)
     throw Failure(kSimulationFailed, fmt::format("'{}/curve_raw.csv' holds no curve", folder));
   const bool elongates = add_elongation(folder, rows);
-  const double dt = rows.back().time / rows.back().step;
-  const auto frames = write_series(folder, dt);
+  const auto frames = write_series(folder, rows.back().time / rows.back().step);
   const UnionVolume filled = union_volumes(folder, e, frames, rows);
   write_file(folder + "/curve.csv", curve(rows, e, filled, settings, elongates));
   std::vector<MomentOfRun> moments;
@@ -239,29 +312,12 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
 
   const RawRow top = *std::max_element(
       rows.begin(), rows.end(), [](const RawRow &a, const RawRow &b) { return a.p_top < b.p_top; });
-  const double lost = settings.number("platen.contact_lost_fraction");
-  // a run that was stopped has no gap after relaxation: the last one stands for it
-  const double gap = gap_at_loss(rows, lost, top.p_top).value_or(rows.back().gap);
-  nlohmann::json s;
-  s["max_pressure_MPa"] = top.p_top;
-  s["thickness_at_max_um"] = top.gap;
-  s["porosity_at_max"] = total_porosity(e, top.gap, top.elongation);
-  s["thickness_after_relaxation_um"] = gap;
-  s["porosity_after_relaxation"] = total_porosity(e, gap, last);
-  s["porosity_initial"] = total_porosity(e, e.thickness);
-  s["contact_lost_fraction"] = lost;
-  for (double f : {0.005, 0.01, 0.02, 0.05})
-    if (const auto at = gap_at_loss(rows, f, top.p_top))
-      s["porosity_after_relaxation_by_threshold"][fmt::format("{}", f)] =
-          total_porosity(e, *at, last);
-  if (rows.back().stage > 3.5) // the pressure of every row may lie above what stopped the platen
-    s["porosity_after_relaxation_by_threshold"][fmt::format("{}", lost)] =
-        total_porosity(e, gap, last);
+  nlohmann::json s = thickness(rows, top, settings, e);
+  s.update(provenance(folder, rows, settings, e, facts));
   if (!frames.empty())
     s["height_of_tops_after_um"] = height_of_tops(folder, frames.back().first);
   s["broken_fraction_at_max"] = top.made > 0 ? top.broken / top.made : 0.0;
   s["broken_fraction_after"] = top.made > 0 ? rows.back().broken / top.made : 0.0;
-  s["springback"] = (gap - top.gap) / top.gap;
   s["bonds_initial"] = static_cast<long>(rows.back().made);
   s["bodies"] = bodies;
   s["cracked_bodies"] = cracked;
@@ -282,39 +338,8 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   if (settings.number("roll.line_load_N_mm") > 0.0)
     s["roll"]["rehearsals"] = rehearsals_in(folder);
   s["energy_fJ"] = energy_ledger(rows, top);
-  const PressInstruments press = instruments_of(settings);
-  s["porosity_initial_shown"] = total_porosity(e, press.thickness_shown(e.thickness));
-  s["max_pressure_shown_MPa"] = press.pressure_shown(top.p_top);
-  s["thickness_at_max_shown_um"] = press.thickness_shown(top.gap);
-  s["thickness_after_relaxation_shown_um"] = press.thickness_shown(gap);
-  s["porosity_after_relaxation_shown"] = total_porosity(e, press.thickness_shown(gap), last);
-  if (facts.ranks > 0) {
-    s["wall_clock_s"] = facts.earlier_s + facts.wall_clock_s;
-    s["ranks"] = facts.ranks;
-    s["atom_steps_per_second"] =
-        std::max(0.0, rows.back().step - facts.first_step) * e.atoms / facts.wall_clock_s;
-  }
-  s["timestep_us"] = dt;
-  s["steps"] = static_cast<long>(rows.back().step);
-  s["case_hash"] = facts.case_hash;
-  s["finished"] = rows.back().stage > 3.5 && facts.stopped_because.empty();
-  s["provenance"] = {
-      {"calendem", version()},
-      {"case_toml", hash_of_file(folder + "/case.toml")},
-      {"electrode_data", hash_of_file(settings.text("electrode") + "/electrode.data")},
-      {"liggghts", facts.program.empty() ? "not known" : facts.program},
-      {"input_scripts", hash_of_folder(input_scripts() + "/common")},
-      {"hashes", "64-bit FNV-1a"}};
-  if (facts.stopped_because.empty())
-    s["failed_checks"] = failed_checks(rows, settings, e, count_rows(folder + "/breaks.csv"));
-  else
-    s["stopped_because"] = facts.stopped_because;
   write_file(folder + "/summary.json", s.dump(2) + "\n");
-  for (const std::string &warning :
-       {ledger_warning(s["energy_fJ"]), speed_warning(s["quasi_static"]),
-        range_warning(s["contact_range"])})
-    if (!warning.empty())
-      fmt::print(stderr, "warning: {}\n", warning);
+  warn(s);
   return s;
 }
 

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "simulate/fracture.h"
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 #include <fmt/format.h>
-#include <numeric>
 
 namespace calendem {
 namespace {
-
-int root(std::vector<int> &parent, int i) {
-  while (parent[i] != i)
-    i = parent[i] = parent[parent[i]];
-  return i;
-}
 
 std::vector<double> times_of(const BodyBonds &body) {
   std::vector<double> times;
@@ -46,18 +40,18 @@ struct Totals {
 
 FractureState state_at(const BodyBonds &body, double time_us) {
   FractureState s;
-  std::vector<int> parent(body.primaries), size(body.primaries, 0);
-  std::iota(parent.begin(), parent.end(), 0);
+  boost::disjoint_sets_with_storage<> fragments(static_cast<std::size_t>(body.primaries));
+  std::vector<int> size(body.primaries, 0);
   s.bonds = static_cast<int>(body.bonds.size());
   for (const BodyBond &b : body.bonds)
     if (b.broken_us <= time_us)
       ++s.broken;
     else
-      parent[root(parent, b.i)] = root(parent, b.j);
+      fragments.union_set(b.i, b.j);
   for (const BodyBond &b : body.bonds)
-    s.parting += b.broken_us <= time_us && root(parent, b.i) != root(parent, b.j);
+    s.parting += b.broken_us <= time_us && fragments.find_set(b.i) != fragments.find_set(b.j);
   for (int i = 0; i < body.primaries; ++i)
-    ++size[root(parent, i)];
+    ++size[fragments.find_set(i)];
   s.fragments =
       static_cast<int>(std::count_if(size.begin(), size.end(), [](int n) { return n > 0; }));
   s.largest = double(*std::max_element(size.begin(), size.end())) / body.primaries;

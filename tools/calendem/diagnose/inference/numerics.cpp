@@ -5,72 +5,49 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/random/sobol.hpp>
 #include <cmath>
+#include <memory>
+#include <nlopt.h>
 
 namespace calendem::inference {
 
 namespace {
 
-constexpr double kGain = 1e-9;   // smaller ones end the search
-constexpr double kArmijo = 1e-4; // of the promised descent that a step must keep
-constexpr double kLongest = 2.0; // step, in any one variable: they are logarithms or scores
-constexpr int kHalvings = 30;    // of a step
+constexpr double kGain = 1e-9; // smaller ones end the search
+constexpr int kCalls = 240;    // of the function, if it does not end before
 constexpr double kDifference = 1e-4;
 
-/// Shortens `step` until the value falls enough; false: it does not.
-bool descend(const WithGradient &function, const Vector &step, double slope, Minimum &best,
-             Vector &gradient) {
-  double length = 1.0;
-  for (int k = 0; k < kHalvings; ++k, length *= 0.5) {
-    Vector there_gradient(step.size());
-    const Vector there = best.at + length * step;
-    const double value = function(there, there_gradient);
-    if (std::isfinite(value) && there_gradient.allFinite() &&
-        value <= best.value + kArmijo * length * slope) {
-      best = {there, value};
-      gradient = there_gradient;
-      return true;
-    }
-  }
-  return false;
+/// What NLopt asks for, and the least of it so far.
+struct Search {
+  const WithGradient &function;
+  Minimum best;
+};
+
+double value_of(unsigned n, const double *x, double *slopes, void *data) {
+  Search &search = *static_cast<Search *>(data);
+  const Vector at = Vector::Map(x, n);
+  Vector gradient = Vector::Zero(n);
+  const double value = search.function(at, gradient);
+  const bool finite = std::isfinite(value) && gradient.allFinite();
+  if (finite && value < search.best.value)
+    search.best = {at, value};
+  if (slopes != nullptr)
+    Vector::Map(slopes, n) = finite ? gradient : Vector(Vector::Zero(n));
+  return finite ? value : HUGE_VAL;
 }
 
 } // namespace
 
-Minimum minimise(const WithGradient &function, const Vector &start, int most) {
-  const auto n = start.size();
-  Vector gradient(n);
-  Minimum best{start, function(start, gradient)};
-  Matrix inverse = Matrix::Identity(n, n);
-  bool fresh = true; // no curvature seen yet
-  for (int k = 0; k < most && n > 0; ++k) {
-    Vector step = -inverse * gradient;
-    if (step.dot(gradient) >= 0.0) {
-      inverse.setIdentity();
-      step = -gradient;
-    }
-    step *= std::min(1.0, kLongest / std::max(step.cwiseAbs().maxCoeff(), 1e-300));
-    const Minimum before = best;
-    const Vector old_gradient = gradient;
-    if (!descend(function, step, step.dot(gradient), best, gradient)) {
-      if (fresh)
-        break;
-      inverse.setIdentity();
-      fresh = true;
-      continue;
-    }
-    const Vector s = best.at - before.at, y = gradient - old_gradient;
-    const double sy = s.dot(y);
-    if (sy > 1e-12 * s.norm() * y.norm()) {
-      if (fresh)
-        inverse *= sy / y.squaredNorm();
-      fresh = false;
-      const Matrix left = Matrix::Identity(n, n) - s * y.transpose() / sy;
-      inverse = left * inverse * left.transpose() + s * s.transpose() / sy;
-    }
-    if (before.value - best.value < kGain)
-      break;
-  }
-  return best;
+Minimum minimise(const WithGradient &function, const Vector &start) {
+  Search search{function, {start, INFINITY}};
+  const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> lbfgs(
+      nlopt_create(NLOPT_LD_LBFGS, unsigned(start.size())), nlopt_destroy);
+  nlopt_set_min_objective(lbfgs.get(), value_of, &search);
+  nlopt_set_ftol_abs(lbfgs.get(), kGain);
+  nlopt_set_maxeval(lbfgs.get(), kCalls);
+  Vector x = start;
+  double unused = 0.0;
+  nlopt_optimize(lbfgs.get(), x.data(), &unused); // where no step gains any more it says failure
+  return search.best;
 }
 
 WithGradient with_differences(const std::function<double(const Vector &)> &function) {

@@ -22,8 +22,9 @@ struct Minimum {
 /// Value, and the gradient into the second argument. May be infinite away from the start.
 using WithGradient = std::function<double(const Vector &, Vector &)>;
 
-/// A local minimum from `start`; stops when a step gains less than 1e-9, or after `most` steps.
-Minimum minimise(const WithGradient &function, const Vector &start, int most = 60);
+/// A local minimum from `start` by NLopt's L-BFGS; stops when a step gains less than 1e-9, or after
+/// 240 calls of the function.
+Minimum minimise(const WithGradient &function, const Vector &start);
 
 /// The gradient by central differences of step 1e-4.
 WithGradient with_differences(const std::function<double(const Vector &)> &function);

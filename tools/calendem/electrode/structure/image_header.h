@@ -24,8 +24,7 @@ constexpr long kMostVoxels = 2147483647;
 /// announces and says nothing that VTK takes otherwise than the format's description.
 void check_meta_image(const std::string &file);
 void check_nrrd(const std::string &file);
-void check_vti(const std::string &file);  ///< as far as its first MB says
-void check_tiff(const std::string &file); ///< every page of the size of the first
+void check_vti(const std::string &file); ///< as far as its first MB says
 
 /// The lines "name = value" (MetaImage, separator "=") or "name: value" (NRRD, ": ") up to the
 /// data.

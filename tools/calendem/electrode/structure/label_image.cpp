@@ -3,6 +3,7 @@
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "electrode/structure/image_header.h"
+#include "electrode/structure/tiff_image.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -20,7 +21,6 @@
 #include <vtkNrrdReader.h>
 #include <vtkPointData.h>
 #include <vtkStringOutputWindow.h>
-#include <vtkTIFFReader.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLImageDataWriter.h>
 
@@ -98,9 +98,7 @@ vtkSmartPointer<vtkImageData> read_one(const std::string &file) {
     vtkNew<vtkNrrdReader> reader;
     image = read_with(file, reader);
   } else {
-    check_tiff(file);
-    vtkNew<vtkTIFFReader> reader;
-    image = read_with(file, reader);
+    image = read_tiff(file);
   }
   if (!image || image->GetNumberOfPoints() == 0 || !image->GetPointData()->GetScalars())
     refuse_image(file, "it holds no voxels. Point data with one whole number per voxel is wanted.");
@@ -124,12 +122,6 @@ void append_labels(const std::string &file, vtkImageData &image, LabelImage &out
                                      p / out.n[0] / out.n[1] + out.n[2], v));
     out.label.push_back(static_cast<std::int32_t>(v));
   }
-  // VTK turns a single page of TIFF upside down and leaves the pages of a stack as they are.
-  if (is_tiff(file) && image.GetDimensions()[2] == 1)
-    for (int j = 0; 2 * j + 1 < out.n[1]; ++j)
-      std::swap_ranges(out.label.end() - long(out.n[0]) * (out.n[1] - j),
-                       out.label.end() - long(out.n[0]) * (out.n[1] - j - 1),
-                       out.label.end() - long(out.n[0]) * (j + 1));
 }
 
 void append(const std::string &file, LabelImage &out) {

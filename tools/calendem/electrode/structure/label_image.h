@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Label images (segmented tomograms): 0 or another number is background, every other number one
-// particle. Read and written by VTK's own classes.
+// particle. Read and written by VTK's classes, TIFF by libtiff.
 #ifndef CALENDEM_ELECTRODE_STRUCTURE_LABEL_IMAGE_H
 #define CALENDEM_ELECTRODE_STRUCTURE_LABEL_IMAGE_H
 

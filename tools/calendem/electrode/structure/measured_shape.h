@@ -41,7 +41,7 @@ MeasuredShape shape_from_json(const nlohmann::json &j);
 
 /// Distance [unit of `cell`] from every cell's centre to the face between inside and outside: > 0
 /// outside, < 0 inside; half a cell is taken off because the face lies between two centres.
-/// Felzenszwalb & Huttenlocher, Theory of Computing 8 (2012) 415, algorithm 1, per axis.
+/// Saito and Toriwaki, Pattern Recognition 27 (1994) 1551, as VTK has it.
 std::vector<float> signed_distance(const std::vector<char> &inside, const std::array<int, 3> &n,
                                    double cell);
 

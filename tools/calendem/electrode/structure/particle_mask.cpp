@@ -5,63 +5,58 @@
 #include <map>
 #include <unordered_map>
 #include <vtkFlyingEdges3D.h>
+#include <vtkImageConnectivityFilter.h>
 #include <vtkImageData.h>
 #include <vtkMassProperties.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkSignedCharArray.h>
+#include <vtkSmartPointer.h>
 #include <vtkWindowedSincPolyDataFilter.h>
 
 namespace calendem {
 
 namespace {
 
-// Marks in `mark` all voxels of value `from` connected by faces to `start` with `to`; their number.
-long flood(ParticleMask &m, size_t start, char from, char to) {
-  std::vector<size_t> front = {start};
-  m.inside[start] = to;
-  const long step[3] = {1, m.n[0], long(m.n[0]) * m.n[1]};
-  long count = 0;
-  while (!front.empty()) {
-    const size_t at = front.back();
-    front.pop_back();
-    ++count;
-    const int place[3] = {int(at % m.n[0]), int(at / step[1] % m.n[1]), int(at / step[2])};
-    for (int axis = 0; axis < 3; ++axis)
-      for (int side : {-1, 1}) {
-        if (place[axis] + side < 0 || place[axis] + side >= m.n[axis])
-          continue;
-        const size_t next = at + side * step[axis];
-        if (m.inside[next] == from) {
-          m.inside[next] = to;
-          front.push_back(next);
-        }
-      }
-  }
-  return count;
+vtkSmartPointer<vtkImageData> image_of(const ParticleMask &m) {
+  const auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(m.n.data());
+  image->SetSpacing(m.voxel.data());
+  vtkNew<vtkSignedCharArray> values;
+  values->SetNumberOfValues(vtkIdType(m.inside.size()));
+  std::copy(m.inside.begin(), m.inside.end(), values->GetPointer(0));
+  image->GetPointData()->SetScalars(values);
+  return image;
 }
 
-// Leaves the largest part as 1, drops the others to 0.
+// Numbers from 1 of the parts, connected by faces, of the voxels with inside == value; 0 elsewhere.
+std::vector<int> parts_of(const ParticleMask &m, int value, bool largest_only) {
+  vtkNew<vtkImageConnectivityFilter> filter;
+  filter->SetInputData(image_of(m));
+  filter->SetScalarRange(value, value);
+  filter->SetLabelScalarTypeToInt();
+  if (largest_only)
+    filter->SetExtractionModeToLargestRegion();
+  filter->Update();
+  const int *part = static_cast<const int *>(filter->GetOutput()->GetScalarPointer());
+  return {part, part + m.inside.size()};
+}
+
 void keep_largest_part(ParticleMask &m) {
-  std::vector<std::pair<long, size_t>> parts; // size, first voxel
-  for (size_t v = 0; v < m.inside.size(); ++v)
-    if (m.inside[v] == 1)
-      parts.emplace_back(flood(m, v, 1, 2), v);
-  const auto largest = std::max_element(parts.begin(), parts.end());
-  for (auto part = parts.begin(); part != parts.end(); ++part)
-    if (part != largest) {
-      flood(m, part->second, 2, 0);
-      m.loose_voxels += part->first;
-    }
-  m.solid_voxels = flood(m, largest->second, 2, 1);
+  const std::vector<int> largest = parts_of(m, 1, true);
+  for (size_t v = 0; v < m.inside.size(); ++v) {
+    m.solid_voxels += largest[v] > 0;
+    m.loose_voxels += m.inside[v] == 1 && largest[v] == 0;
+    m.inside[v] = largest[v] > 0;
+  }
 }
 
-// The corner is outside; what outside does not reach is inside.
+// The corner is outside; what is not connected to it is inside.
 void close_pores(ParticleMask &m) {
-  flood(m, 0, 0, 2);
-  for (char &v : m.inside) {
-    m.pore_voxels += v == 0;
-    v = v == 2 ? 0 : 1;
+  const std::vector<int> empty = parts_of(m, 0, false);
+  for (size_t v = 0; v < m.inside.size(); ++v) {
+    m.pore_voxels += empty[v] > 0 && empty[v] != empty[0];
+    m.inside[v] = empty[v] != empty[0];
   }
 }
 
@@ -111,15 +106,8 @@ ParticleMask extract_particle(const LabelImage &image, const Region &r) {
 }
 
 SurfaceMeasures measure_surface(const ParticleMask &mask) {
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(mask.n.data());
-  image->SetSpacing(mask.voxel.data());
-  vtkNew<vtkSignedCharArray> values;
-  values->SetNumberOfValues(vtkIdType(mask.inside.size()));
-  std::copy(mask.inside.begin(), mask.inside.end(), values->GetPointer(0));
-  image->GetPointData()->SetScalars(values);
   vtkNew<vtkFlyingEdges3D> surface;
-  surface->SetInputData(image);
+  surface->SetInputData(image_of(mask));
   surface->SetValue(0, 0.5);
   surface->ComputeNormalsOff();
   vtkNew<vtkWindowedSincPolyDataFilter> smooth;

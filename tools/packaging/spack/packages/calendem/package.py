@@ -25,6 +25,8 @@ class Calendem(CMakePackage):
     depends_on("cli11@2:")
     depends_on("eigen@3.4:3")
     depends_on("fmt@9:")
+    depends_on("libtiff")
+    depends_on("nlopt")
     depends_on("nlohmann-json@3.11:")
     depends_on("openssl")
     depends_on("tomlplusplus@3:")
