@@ -2,7 +2,7 @@
 #include "diagnose/compare/gap_page.h"
 #include "base/provenance.h"
 #include "diagnose/compare/gap.h"
-#include "report/page_template.h"
+#include "report/page.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -69,16 +69,14 @@ nlohmann::json to_json(const Gap &gap) {
 }
 
 std::string gap_page(const nlohmann::json &gap) {
-  nlohmann::json values = gap;
-  values["css"] = report::embedded::kPageCss;
-  values["table"] = table(gap);
-  values["map"] = heat_map(gap["where"], gap["threshold_z"]);
-  values["threshold_text"] = shown(gap["threshold_z"], "{:.2f}");
-  values["chi2_text"] = shown(gap["chi2"], "{:.1f}");
-  values["p_text"] = shown(gap["p_value"], "{:.2g}");
-  values["rows_text"] = fmt::format("{}", gap["where"].size());
-  values["json"] = report::in_script(gap.dump());
-  return report::fill_template(kGapHtml, values);
+  report::Page page{kGapHtml, gap};
+  page.values = {{"table", table(gap)},
+                 {"map", heat_map(gap["where"], gap["threshold_z"])},
+                 {"threshold_text", shown(gap["threshold_z"], "{:.2f}")},
+                 {"chi2_text", shown(gap["chi2"], "{:.1f}")},
+                 {"p_text", shown(gap["p_value"], "{:.2g}")},
+                 {"rows_text", fmt::format("{}", gap["where"].size())}};
+  return report::to_html(page);
 }
 
 namespace {
