@@ -204,8 +204,8 @@ Plot.prototype.drawLegend = function() {
   this.chart.series.forEach(function(s, k) {
     if (!s.name)
       return;
-    var g =
-        self.svg.append('g').style('cursor', 'pointer').attr('opacity', self.hidden[k] ? 0.35 : 1);
+    var g = self.svg.append('g').style('cursor', 'pointer').attr('data-series', k);
+    g.attr('opacity', self.hidden[k] ? 0.35 : 1);
     g.append('title').text('Click: hide or show');
     if (s.mark === 'area')
       g.append('rect').attr(
