@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 # Figures of the pages, from a finished run of the demo:
 #   docs/figures/make.py build/demo
-# Takes pictures and curves from what `calendem report` makes of the run. Needs python3-pil.
+# Takes pictures and curves from what `calendem report` makes of the run. Needs python3-pil, and chromium, which draws
+# the page's charts.
 import base64
 import io
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -20,10 +20,20 @@ pictures = ["Electrode: Before", "Electrode: At maximum pressure", "Electrode: A
 
 with tempfile.TemporaryDirectory() as folder:
     page = pathlib.Path(folder) / "report.html"
-    subprocess.run([calendem, "report", sys.argv[1], "-o", page, "--figures", folder], check=True)
-    for curve in curves:
-        shutil.copy(f"{folder}/{curve}.svg", here / f"demo_{curve.removesuffix('-1')}.svg")
+    subprocess.run([calendem, "report", sys.argv[1], "-o", page], check=True)
     html = page.read_text()
+    browser = ["chromium", "--headless", "--no-sandbox", "--disable-3d-apis", f"--user-data-dir={folder}/profile"]
+    drawn = subprocess.run(browser + ["--window-size=700,900", "--dump-dom", page.as_uri()],
+                           check=True, capture_output=True, text=True).stdout
+
+for curve in curves:
+    size, content = re.search(f'data-chart="{curve}".*?viewBox="0 0 ([0-9. ]+)"[^>]*>(.*?)<g class="pointer"', drawn,
+                              re.S).groups()
+    width, height = size.split()
+    (here / f"demo_{curve.removesuffix('-1')}.svg").write_text(
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" '
+        f'font-family="DejaVu Sans, Verdana, sans-serif" font-size="13">\n<rect width="100%" height="100%" fill="#fff"/>'
+        f'\n{content}\n</svg>\n')
 
 shown = []
 for name in pictures:

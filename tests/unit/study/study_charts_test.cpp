@@ -2,8 +2,10 @@
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "report/study_page.h"
+#include "support/page.h"
 #include "support/test_folder.h"
 #include <cmath>
+#include <set>
 
 namespace {
 
@@ -69,18 +71,39 @@ TEST(Charts, CurvesAreOfTheFirstPackingOfEachSetting) {
   EXPECT_EQ(asked, (std::vector<std::string>{"a", "c"}));
 }
 
-TEST(Page, IsDrawnFromTheTableAndSaysWhatIsMissing) {
+// The strengths of two kinds of bonds have one short name.
+TEST(Charts, EachHasAnIdOfItsOwn) {
+  const std::vector<std::string> varied = {"case.bond.tensile_strength_MPa",
+                                           "case.bridge.tensile_strength_MPa"};
+  const StudyTable two(
+      CsvTable::parse("status,run,case.bond.tensile_strength_MPa,case.bridge.tensile_strength_MPa,"
+                      "max_pressure_MPa,porosity_after_relaxation,springback\n"
+                      "done,a,200,1,80,0.3,0.1\ndone,b,400,1,80,0.3,0.1\n"
+                      "done,c,200,2,80,0.3,0.1\n"),
+      varied);
+  std::multiset<std::string> ids;
+  for (const auto &chart : study_charts(two, [](const auto &) { return CsvTable::parse(""); }))
+    ids.insert(chart.id);
+  for (const std::string &setting : varied)
+    EXPECT_EQ(ids.count(setting + "-springback"), 1u);
+  EXPECT_EQ(std::set<std::string>(ids.begin(), ids.end()).size(), ids.size());
+}
+
+TEST(StudyPage, IsDrawnFromTheTableAndSaysWhatIsMissing) {
   const std::string folder = calendem_test::test_folder().string();
   EXPECT_THROW(draw_study(kVaried, folder), Failure);
   write_file(folder + "/study.csv", kTable);
   EXPECT_THROW(draw_study(kVaried, folder), Failure);
-  write_file(folder + "/study.json", "{\"name\": \"a < b\", \"runs\": 5, \"provenance\": {}}");
+  write_file(folder + "/study.json", R"({"name": "a < b</script>", "runs": 5, "provenance": {}})");
   draw_study(kVaried, folder);
   const std::string page = text_of_file(folder + "/study.html");
   EXPECT_NE(page.find("Study: a &lt; b"), std::string::npos);
   EXPECT_NE(page.find("4 of 5 runs"), std::string::npos);
   EXPECT_NE(page.find("31.0 ± 1.4"), std::string::npos);
-  EXPECT_EQ(text_of_file(folder + "/figures/porosity.svg").rfind("<svg xmlns=", 0), 0u);
+  const nlohmann::json data = calendem_test::data_in(page);
+  EXPECT_EQ(data["name"], "a < b</script>");
+  EXPECT_EQ(data["charts"][0]["id"], "porosity");
+  EXPECT_EQ(data["table"]["rows"].size(), 2u);
 }
 
 } // namespace

@@ -76,11 +76,11 @@ void add_compare_verb(CLI::App &app) {
 void add_report_verb(CLI::App &app) {
   struct Options {
     std::vector<std::string> directories;
-    std::string page, figures;
+    std::string page;
   };
   const auto options = std::make_shared<Options>();
   CLI::App *verb = app.add_subcommand(
-      "report", "One self-contained page with plots and pictures of one or more runs");
+      "report", "One self-contained page with charts and pictures of one or more runs");
   verb->add_option("DIR", options->directories, "Directories made by calendem run")
       ->required()
       ->type_name("");
@@ -88,10 +88,7 @@ void add_report_verb(CLI::App &app) {
                    "Page to write; its data go to the same name with .json. Default: report.html "
                    "in the run's directory, or here if there are several")
       ->type_name("FILE.html");
-  verb->add_option("--figures", options->figures, "Folder for every plot as a file (SVG) too")
-      ->type_name("FOLDER");
-  verb->callback(
-      [options] { report::write_report(options->directories, options->page, options->figures); });
+  verb->callback([options] { report::write_report(options->directories, options->page); });
 }
 
 } // namespace calendem

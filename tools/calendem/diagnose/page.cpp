@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/page.h"
 #include "diagnose/compare/gap_page.h"
-#include "report/page_template.h"
+#include "report/page.h"
 #include "report/tables.h"
 #include <algorithm>
 #include <cmath>
@@ -101,28 +101,27 @@ std::string release_noise(const json &gap) {
 
 std::string diagnosis_page(const nlohmann::ordered_json &ordered) {
   const json gap = ordered;
-  json values = {{"experiment", gap["experiment"]}, {"said", gap["which"]}};
-  values["css"] = report::embedded::kPageCss;
-  values["claim"] = gap["which"]["claim"];
-  values["why"] = gap["which"]["why"];
-  values["threshold"] = shown(gap["threshold"], "{:.2f}");
-  values["map"] = heat_map(gap["where"], gap["threshold"], conditions_of(gap));
-  values["ranking"] = ranking_part(gap);
-  values["predictions"] = predictions_part(gap);
-  values["conflict"] = conflict_part(gap);
-  values["drift"] = drift_part(gap);
-  values["confounding"] = confounding_part(gap);
-  values["shrink"] = shrink_part(gap);
-  values["measurements"] = measurements_of(gap["which"]);
-  values["parameters"] = parameters_of(gap);
-  values["emulators"] = emulators_of(gap);
-  values["evidence"] = evidence_of(gap["which"]);
-  values["degrees"] = shown(gap["scatter"]["degrees_of_freedom"], "{:.0f}");
-  values["release_noise"] = release_noise(gap);
-  values["not_said"] = gap["not_said"];
-  values["provenance_rows"] = report::facts_of(gap["provenance"], {});
-  values["json"] = report::in_script(ordered.dump());
-  return report::fill_template(kDiagnosisHtml, values);
+  const std::vector<report::Chart> predicted = prediction_charts(gap), rerun = rerun_charts(gap);
+  report::Page page{kDiagnosisHtml, ordered, {}, predicted};
+  page.charts.insert(page.charts.end(), rerun.begin(), rerun.end());
+  page.values = {{"claim", gap["which"]["claim"]},
+                 {"why", gap["which"]["why"]},
+                 {"threshold_text", shown(gap["threshold"], "{:.2f}")},
+                 {"map", heat_map(gap["where"], gap["threshold"], conditions_of(gap))},
+                 {"ranking", ranking_part(gap)},
+                 {"predictions", predictions_part(gap)},
+                 {"conflict", conflict_part(gap)},
+                 {"drift", drift_part(gap)},
+                 {"confounding", confounding_part(gap)},
+                 {"shrink", shrink_part(gap)},
+                 {"measurements", measurements_of(gap["which"])},
+                 {"parameters", parameters_of(gap)},
+                 {"emulators", emulators_of(gap)},
+                 {"evidence", evidence_of(gap["which"])},
+                 {"degrees", shown(gap["scatter"]["degrees_of_freedom"], "{:.0f}")},
+                 {"release_noise", release_noise(gap)},
+                 {"provenance_rows", report::facts_of(gap["provenance"], {})}};
+  return report::to_html(page);
 }
 
 namespace {

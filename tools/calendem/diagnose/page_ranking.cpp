@@ -2,7 +2,7 @@
 #include "diagnose/compare/gap_page.h"
 #include "diagnose/inference/which.h"
 #include "diagnose/page.h"
-#include "report/chart.h"
+#include "report/page.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -67,7 +67,7 @@ std::vector<double> column(const Block &rows, const char *key) {
   return out;
 }
 
-json chart(const Block &rows, const std::string &best, std::size_t number) {
+report::Chart chart(const Block &rows, const std::string &best, std::size_t number) {
   using namespace report;
   const std::string unit = rows[0]["unit"], name = rows[0]["observable"];
   Chart c;
@@ -92,22 +92,31 @@ json chart(const Block &rows, const std::string &best, std::size_t number) {
     add(best, "best", Symbol::triangle).colour = "#0b62a8";
   Series &measured = add("measured ± sd", "measured", Symbol::circle);
   measured.mark = Mark::points, measured.y_error = column(rows, "sd_measurement");
-  return {{"title", c.title}, {"svg", to_svg(c)}};
+  c.note = "Base: the base model, recalibrated. Predictions are the emulators', not runs.";
+  return c;
 }
 
 } // namespace
 
-json predictions_part(const json &gap) {
-  const std::string best = gap["predictions"]["best"];
-  json strips = json::array(), charts = json::array();
+std::vector<report::Chart> prediction_charts(const json &gap) {
+  std::vector<report::Chart> charts;
   for (const Block &rows : blocks_of(gap["predictions"]["observables"]))
     if (rows.size() > 1)
-      charts.push_back(chart(rows, best, charts.size()));
-    else
+      charts.push_back(chart(rows, gap["predictions"]["best"], charts.size()));
+  return charts;
+}
+
+json predictions_part(const json &gap) {
+  const std::string best = gap["predictions"]["best"];
+  json strips = json::array();
+  for (const Block &rows : blocks_of(gap["predictions"]["observables"]))
+    if (rows.size() == 1)
       strips.push_back(strip(rows[0], best != "none"));
-  return {{"best", best},     {"has_best", best != "none"},
-          {"strips", strips}, {"has_strips", !strips.empty()},
-          {"charts", charts}, {"has_charts", !charts.empty()}};
+  return {{"best", best},
+          {"has_best", best != "none"},
+          {"strips", strips},
+          {"has_strips", !strips.empty()},
+          {"charts", report::places_of(prediction_charts(gap))}};
 }
 
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/compare/gap_page.h"
 #include "diagnose/page.h"
-#include "report/chart.h"
+#include "report/page.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -125,27 +125,8 @@ report::Series series_of(const json &curve) {
   return s;
 }
 
-/// One chart for each condition, in their order.
-json charts_of(const json &curves) {
-  std::vector<report::Chart> charts;
-  for (const json &curve : curves) {
-    const std::string condition = curve["condition"];
-    auto at = std::find_if(charts.begin(), charts.end(),
-                           [&](const report::Chart &c) { return c.title == condition; });
-    if (at == charts.end()) {
-      report::Chart c;
-      c.id = fmt::format("held_out{}", charts.size());
-      c.title = condition;
-      c.x_label = "Displacement, µm";
-      c.y_label = "Pressure, MPa";
-      at = charts.insert(charts.end(), c);
-    }
-    at->series.push_back(series_of(curve));
-  }
-  json out = json::array();
-  for (const report::Chart &c : charts)
-    out.push_back({{"title", c.title}, {"svg", to_svg(c)}});
-  return out;
+bool has_reruns(const json &gap) {
+  return gap.contains("shrink") && gap["shrink"].is_object() && gap["shrink"].contains("models");
 }
 
 /// What stays, and whether another effect or none would have done as well.
@@ -180,8 +161,29 @@ json words_of(const json &shrink) {
 
 } // namespace
 
+std::vector<report::Chart> rerun_charts(const json &gap) {
+  std::vector<report::Chart> charts;
+  if (!has_reruns(gap))
+    return charts;
+  for (const json &curve : gap["shrink"].value("curves", json::array())) {
+    const std::string condition = curve["condition"];
+    auto at = std::find_if(charts.begin(), charts.end(),
+                           [&](const report::Chart &c) { return c.title == condition; });
+    if (at == charts.end()) {
+      report::Chart c;
+      c.id = fmt::format("held_out{}", charts.size());
+      c.title = condition;
+      c.x_label = "Displacement (µm)";
+      c.y_label = "Pressure (MPa)";
+      at = charts.insert(charts.end(), c);
+    }
+    at->series.push_back(series_of(curve));
+  }
+  return charts;
+}
+
 json shrink_part(const json &gap) {
-  if (!gap.contains("shrink") || !gap["shrink"].is_object() || !gap["shrink"].contains("models"))
+  if (!has_reruns(gap))
     return nullptr;
   const json &shrink = gap["shrink"];
   json bars = json::array(), observables = json::array();
@@ -189,13 +191,12 @@ json shrink_part(const json &gap) {
     bars.push_back(bar_of(m, largest(shrink["models"])));
   for (const json &o : shrink.value("observables", json::array()))
     observables.push_back(observable_of(o));
-  const json charts = charts_of(shrink.value("curves", json::array()));
   json part = {{"bars", bars},
                {"words", words_of(shrink)},
                {"observables", observables},
                {"has_observables", !observables.empty()},
                {"images", images_of(shrink)},
-               {"charts", charts}};
+               {"charts", report::places_of(rerun_charts(gap))}};
   for (const char *ids : {"train", "held_out"})
     part[ids] = fmt::format("{}", fmt::join(shrink.value(ids, std::vector<std::string>()), ", "));
   const json &s = shrink.value("shrinkage", json::object());

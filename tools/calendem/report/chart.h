@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A chart as data, and its drawing as SVG. Linear axes; a second y axis on the right when a series
-// asks for it. Every series differs from the others by dash, marker or hatch as well as by colour.
+// A chart as data; page.js draws it. Linear axes; a second y axis on the right when a series asks
+// for it. Every series differs from the others by dash, marker or hatch as well as by colour.
 #ifndef CALENDEM_REPORT_CHART_H
 #define CALENDEM_REPORT_CHART_H
 
@@ -40,7 +40,7 @@ struct Limit { ///< a horizontal line with a label, on the left axis
 };
 
 struct Chart {
-  std::string id; ///< unique in a page; prefix of the ids in the SVG
+  std::string id; ///< unique in a page; name of the files that are saved from it
   std::string title;
   std::string x_label, y_label, right_label; ///< with units
   std::vector<Series> series;
@@ -50,36 +50,8 @@ struct Chart {
   bool from_zero = true; ///< the left axis; false: from the data, to see small differences
 };
 
-/// The drawing; sizes in CSS pixels, text in the font of the page.
-std::string to_svg(const Chart &chart);
-
-/// The drawing as a file of its own, with the page's style.
-std::string to_svg_file(const Chart &chart);
-
-/// The same chart as data, for report.json.
+/// Numbers and looks; a value that is not finite is null.
 nlohmann::json to_json(const Chart &chart);
-
-// A linear axis: range rounded outwards to ticks of 1, 2 or 5 times a power of ten.
-
-struct Axis {
-  double low = 0, high = 1; ///< in units of the data
-  double step = 0.2;
-
-  std::vector<double> ticks() const;
-  std::string label(double tick) const; ///< as many decimals as the step needs
-  /// Position between `begin` (for low) and `end` (for high).
-  double place(double value, double begin, double end) const;
-};
-
-/// Axis that holds [low, high] with about `count` ticks. A range of no width is widened.
-Axis axis_for(double low, double high, int count);
-
-/// Smallest and largest finite value; `first` false when there is none.
-struct Range {
-  bool any = false;
-  double low = 0, high = 0;
-  void include(double value);
-};
 
 } // namespace calendem::report
 

@@ -4,6 +4,7 @@
 //   {{#key}}…{{/key}}  once per array element, or once if the value is an object, true or not empty
 //   {{^key}}…{{/key}}  only if the value is missing, false or empty
 //   {{.}}              the element itself
+//   {{> part}}         the file part.html of this folder, put in when the program is built
 // A key is searched from the innermost section outwards.
 #ifndef CALENDEM_REPORT_PAGE_TEMPLATE_H
 #define CALENDEM_REPORT_PAGE_TEMPLATE_H
@@ -25,19 +26,14 @@ std::string in_script(std::string json);
 
 } // namespace calendem::report
 
-namespace calendem {
-
 // Text files of this folder, compiled in by CMakeLists.txt (embedded.cpp.in).
-
-extern const char *const kPageHtml; ///< page.html
-
-} // namespace calendem
-
 namespace calendem::report::embedded {
 
-extern const char *const kPageCss;  ///< page.css
-extern const char *const kExplorer; ///< explorer.js
-extern const char *const kThree;    ///< three.js of the distribution (libjs-three, MIT licence)
+extern const char *const kPageCss;    ///< page.css
+extern const char *const kPageScript; ///< page.js
+extern const char *const kD3;         ///< d3 of the distribution (libjs-d3, BSD licence)
+extern const char *const kExplorer;   ///< explorer.js
+extern const char *const kThree;      ///< three.js of the distribution (libjs-three, MIT licence)
 extern const char *const kOrbitControls; ///< its controls
 extern const char *const kTable1;        ///< reference/table1.csv
 extern const char *const kPaperBonds;    ///< reference/paper_bonds.csv

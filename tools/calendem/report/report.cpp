@@ -11,6 +11,10 @@
 #include <filesystem>
 #include <iostream>
 
+namespace calendem {
+extern const char *const kPageHtml;
+}
+
 namespace calendem::report {
 
 namespace {
@@ -94,29 +98,27 @@ Report make_report(std::vector<Run> runs, const std::string &command) {
   return report;
 }
 
-json to_json(const Report &report) {
-  json runs = json::array(), charts = json::array();
+namespace {
+
+json json_of(const Report &report) {
+  json runs = json::array();
   bool unfinished = false;
   for (const auto &run : report.runs) {
     runs.push_back(to_json(run));
     unfinished = unfinished || !run.unfinished.empty();
   }
-  for (const auto &chart : report.charts)
-    charts.push_back(to_json(chart));
   return {{"title", report.title},
           {"status", unfinished ? "unfinished" : "finished"},
           {"provenance", report.provenance},
           {"comparison", report.comparison},
-          {"runs", runs},
-          {"charts", charts}};
+          {"runs", runs}};
 }
 
-namespace {
-
-json drawn(const Picture &picture) {
+json drawn(const Picture &picture, const std::string &label) {
   constexpr double kEdge = 12; // px between scale bar and the picture's edge
   const double length = picture.scale_bar_um * picture.pixels_per_um;
-  return {{"moment", picture.moment},
+  return {{"label", label},
+          {"moment", picture.moment},
           {"time", shown(picture.time_us, 2)},
           {"pressure", shown(picture.pressure_MPa, 1)},
           {"broken", shown(100 * picture.broken_fraction, 1)},
@@ -135,59 +137,59 @@ json drawn(const Picture &picture) {
 }
 
 /// The pictures of one subject, as the template wants them; null: none.
-json list_of(const std::vector<Picture> &pictures, const char *subject) {
+json row_of(const std::vector<Picture> &pictures, const char *subject, const std::string &name,
+            bool by_pressure) {
   json list = json::array();
-  for (const auto &picture : pictures)
-    if (picture.subject == subject)
-      list.push_back(drawn(picture));
+  for (const auto &p : pictures)
+    if (p.subject == subject)
+      list.push_back(
+          drawn(p, name + ": " + (by_pressure ? shown(p.pressure_MPa, 1) + " MPa" : p.moment)));
   return list.empty() ? json(nullptr) : json{{"list", list}};
 }
 
-/// Adds what the page draws but the JSON twin leaves out.
+/// A row of pictures for every subject that has some.
+json rows_of(const std::vector<Picture> &pictures,
+             std::initializer_list<std::pair<const char *, const char *>> subjects) {
+  json rows = json::array();
+  for (const auto &[subject, name] : subjects)
+    if (json row = row_of(pictures, subject, name, true); !row.is_null())
+      rows.push_back(std::move(row));
+  return rows;
+}
+
+/// What the page draws of a run, but the JSON twin leaves out.
 void add_pictures(const RunPart &part, json &run) {
-  json electrode = json::array(), bonds = json::array();
-  for (const auto &picture : part.pictures)
-    (picture.subject == "bonds" ? bonds : electrode).push_back(drawn(picture));
-  run["electrode_pictures"] = {{"list", electrode}};
-  run["bond_pictures"] = {{"list", bonds}};
   run["facts_table"] = !part.facts.empty();
   run["electrode_table"] = !part.electrode.empty();
   run["has_pictures"] = !part.pictures.empty();
-  run["has_bond_pictures"] = !bonds.empty();
-  run["stage_electrodes"] = list_of(part.stages, "electrode");
-  run["stage_bonds"] = list_of(part.stages, "bonds");
+  run["electrode_pictures"] = row_of(part.pictures, "electrode", "Electrode", false);
+  run["bond_pictures"] = row_of(part.pictures, "bonds", "Bonds", false);
   run["has_stages"] = !part.stages.empty();
-  run["body_place"] = list_of(part.one_body, "place");
-  run["body_shapes"] = list_of(part.one_body, "shape");
-  run["body_bonds"] = list_of(part.one_body, "bonds");
+  run["stage_rows"] = rows_of(part.stages, {{"electrode", "Electrode"}, {"bonds", "Bonds"}});
   run["has_one_body"] = !part.one_body.empty();
+  run["body_rows"] = rows_of(part.one_body, {{"place", "Place of the particle"},
+                                             {"shape", "Shape of the particle"},
+                                             {"bonds", "Bonds of the particle"}});
   run["has_view"] = !part.explorer.is_null();
-  run["view"] = part.explorer.dump();
+  run["view"] = in_script(part.explorer.dump());
 }
 
 } // namespace
 
-std::string to_html(const Report &report) {
-  json values = to_json(report);
-  values["css"] = embedded::kPageCss;
-  values["is_unfinished"] = values["status"] == "unfinished";
-  values["several"] = report.runs.size() > 1;
-  values["provenance_rows"] = facts_of(values["provenance"], {});
-  bool any_view = false;
+Page page_of(const Report &report) {
+  Page page{kPageHtml, json_of(report), {}, report.charts};
+  page.values = {{"is_unfinished", page.json["status"] == "unfinished"},
+                 {"several", report.runs.size() > 1},
+                 {"provenance_rows", facts_of(report.provenance, {})},
+                 {"runs", page.json["runs"]}};
   for (std::size_t i = 0; i < report.runs.size(); ++i) {
-    add_pictures(report.runs[i], values["runs"][i]);
-    any_view = any_view || !report.runs[i].explorer.is_null();
+    add_pictures(report.runs[i], page.values["runs"][i]);
+    if (!report.runs[i].explorer.is_null())
+      page.values["scripts"] = {{"three", embedded::kThree},
+                                {"orbit", embedded::kOrbitControls},
+                                {"explorer", embedded::kExplorer}};
   }
-  if (any_view)
-    values["scripts"] = {{"three", embedded::kThree},
-                         {"orbit", embedded::kOrbitControls},
-                         {"explorer", embedded::kExplorer}};
-  for (std::size_t i = 0; i < report.charts.size(); ++i) {
-    json &chart = values["charts"][i];
-    chart.erase("series");
-    chart["svg"] = to_svg(report.charts[i]);
-  }
-  return fill_template(kPageHtml, values);
+  return page;
 }
 
 namespace {
@@ -203,8 +205,7 @@ std::string command_line(const std::vector<std::string> &directories, const std:
 
 } // namespace
 
-void write_report(const std::vector<std::string> &directories, std::string page,
-                  const std::string &figures) {
+void write_report(const std::vector<std::string> &directories, std::string page) {
   Mistakes mistakes;
   std::vector<Run> runs;
   for (const auto &directory : directories)
@@ -223,13 +224,9 @@ void write_report(const std::vector<std::string> &directories, std::string page,
                 << "); the report says so\n";
   }
   const fs::path twin = fs::path(page).replace_extension(".json");
-  write_file(twin.string(), to_json(report).dump(1) + "\n");
-  write_file(page, to_html(report));
-  if (!figures.empty())
-    fs::create_directories(figures);
-  for (const Chart &chart : report.charts)
-    if (!figures.empty())
-      write_file(figures + "/" + chart.id + ".svg", to_svg_file(chart));
+  const Page contents = page_of(report);
+  write_file(twin.string(), data_of(contents).dump(1) + "\n");
+  write_file(page, to_html(contents));
   std::cout << comparison_text(report.comparison) << "report: " << page
             << "\ndata:   " << twin.string() << '\n';
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A report: one object, from which both report.json and the page are made.
+// A report: one object, from which both report.json and report.html are made.
 #ifndef CALENDEM_REPORT_REPORT_H
 #define CALENDEM_REPORT_REPORT_H
 
 #include "measure/run_directory.h"
-#include "report/chart.h"
+#include "report/page.h"
 #include "report/pictures.h"
 #include <nlohmann/json.hpp>
 #include <string>
@@ -35,16 +35,12 @@ struct Report {
 /// Everything that is shown about `runs`; `command` is the command line that asked for it.
 Report make_report(std::vector<Run> runs, const std::string &command);
 
-/// The report as data; pictures by their frame file, without pixels.
-nlohmann::json to_json(const Report &report);
+/// The report as a page; its object has pictures by their frame file, without pixels.
+Page page_of(const Report &report);
 
-/// Writes `page` (HTML), its twin beside it with the ending .json and, if a folder is given, every
-/// plot as `figures`/ID.svg. Throws Failure(2) with the mistakes of all directories; nothing is
-/// written then.
-void write_report(const std::vector<std::string> &directories, std::string page,
-                  const std::string &figures = "");
-
-std::string to_html(const Report &report);
+/// Writes `page` (HTML) and its twin beside it with the ending .json. Throws Failure(2) with the
+/// mistakes of all directories; nothing is written then.
+void write_report(const std::vector<std::string> &directories, std::string page);
 
 } // namespace calendem::report
 

@@ -150,7 +150,7 @@ Chart curve_chart(const StudyTable &table, const CurveOfRun &curve_of) {
 Chart against(const StudyTable &table, const std::string &setting, const std::string &result,
               const std::string &title, double factor) {
   Chart chart;
-  chart.id = short_name(setting) + "-" + result;
+  chart.id = setting + "-" + result;
   chart.title = fmt::format("{} against {}", title, short_name(setting));
   chart.x_label = setting.substr(setting.find('.') + 1);
   chart.y_label = title;

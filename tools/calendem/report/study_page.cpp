@@ -3,7 +3,7 @@
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "base/run_folder.h"
-#include "report/page_template.h"
+#include "report/page.h"
 #include "report/tables.h"
 #include "simulate/collect.h"
 #include <cmath>
@@ -85,24 +85,14 @@ double distance_to_paper(const StudyTable &table, const StudyGroup &group) {
 
 std::string study_page(const StudyTable &table, const std::vector<report::Chart> &charts,
                        const nlohmann::json &description) {
-  nlohmann::json values = {{"css", report::embedded::kPageCss},
-                           {"name", description["name"]},
-                           {"finished", table.finished()},
-                           {"runs", description["runs"]},
-                           {"head", head(table)},
-                           {"rows", nlohmann::json::array()},
-                           {"charts", nlohmann::json::array()},
-                           {"json", description.dump()}};
+  report::Page page{kStudyHtml, description, {}, charts};
+  nlohmann::json rows = nlohmann::json::array();
   for (const StudyGroup &group : table.groups())
-    values["rows"].push_back(row_of(table, group));
-  for (const report::Chart &chart : charts)
-    values["charts"].push_back({{"title", chart.title},
-                                {"svg", report::to_svg(chart)},
-                                {"note", chart.note},
-                                {"id", chart.id}});
-  for (const auto &[key, value] : description["provenance"].items())
-    values["provenance"].push_back({{"name", key}, {"value", value}});
-  return report::fill_template(kStudyHtml, values);
+    rows.push_back(row_of(table, group));
+  page.json["finished"] = table.finished();
+  page.json["table"] = {{"head", head(table)}, {"rows", rows}};
+  page.values = {{"provenance_rows", report::facts_of(description["provenance"], {})}};
+  return report::to_html(page);
 }
 
 void draw_study(const std::vector<std::string> &columns, const std::string &folder) {
@@ -119,11 +109,7 @@ void draw_study(const std::vector<std::string> &columns, const std::string &fold
   const auto curve = [&](const std::string &run) {
     return RunFolder(folder + "/runs/" + run).table("curve.csv");
   };
-  const std::vector<report::Chart> charts = study_charts(table, curve);
-  std::filesystem::create_directories(folder + "/figures");
-  for (const report::Chart &chart : charts)
-    write_file(folder + "/figures/" + chart.id + ".svg", report::to_svg_file(chart));
-  write_file(folder + "/study.html", study_page(table, charts, description));
+  write_file(folder + "/study.html", study_page(table, study_charts(table, curve), description));
   fmt::print("page: {}/study.html\n", folder);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A study as a page and as drawings.
+// A study as a page.
 #ifndef CALENDEM_REPORT_STUDY_PAGE_H
 #define CALENDEM_REPORT_STUDY_PAGE_H
 
@@ -16,7 +16,7 @@ std::string study_page(const StudyTable &table, const std::vector<report::Chart>
 /// percentage points; NaN if there are none. Nothing says that the paper's are the truth.
 double distance_to_paper(const StudyTable &table, const StudyGroup &group);
 
-/// Writes study.html and figures/ of a study into its folder, from study.csv, study.json and the
+/// Writes study.html of a study into its folder, from study.csv, study.json and the
 /// runs' curves there.
 void draw_study(const std::vector<std::string> &columns, const std::string &folder);
 

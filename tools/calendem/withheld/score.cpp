@@ -4,7 +4,7 @@
 #include "base/gap_file.h"
 #include "base/messages.h"
 #include "base/provenance.h"
-#include "report/page_template.h"
+#include "report/page.h"
 #include "withheld/sealing.h"
 #include <cmath>
 #include <fmt/format.h>
@@ -232,12 +232,11 @@ std::string as_markdown(const OrderedJson &scores) {
 }
 
 std::string as_page(const OrderedJson &scores) {
-  nlohmann::json values = nlohmann::json::parse(scores.dump());
-  values["css"] = report::embedded::kPageCss;
+  Json matrix = Json::array(), cases = scores["cases"];
   for (const auto &[truth, claims] : scores["confusion"].items())
     for (const auto &[claim, n] : claims.items())
-      values["matrix"].push_back({{"truth", truth}, {"claim", claim}, {"n", n.get<int>()}});
-  for (nlohmann::json &c : values["cases"]) {
+      matrix.push_back({{"truth", truth}, {"claim", claim}, {"n", n.get<int>()}});
+  for (Json &c : cases) {
     const auto percent = [&c](const char *key) {
       return c[key].is_number() ? fmt::format("{:.0f} %", 100.0 * c[key].get<double>())
                                 : std::string("–");
@@ -248,8 +247,7 @@ std::string as_page(const OrderedJson &scores) {
     c["rerun_shown"] = percent("shrinkage_rerun");
     c["placebo_shown"] = percent("shrinkage_placebo");
   }
-  values["json"] = scores.dump();
-  return report::fill_template(kScoresHtml, values);
+  return report::to_html({kScoresHtml, scores, {{"matrix", matrix}, {"cases", cases}}});
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/compare/gap_page.h"
 #include "diagnose/compare/gap.h"
-#include "report/page_template.h"
+#include "report/page.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -60,16 +60,14 @@ nlohmann::ordered_json to_json(const Gap &gap) {
 
 std::string gap_page(const nlohmann::ordered_json &ordered) {
   const nlohmann::json gap = ordered;
-  nlohmann::json values = gap;
-  values["css"] = report::embedded::kPageCss;
-  values["table"] = table(gap);
-  values["map"] = heat_map(gap["where"], gap["threshold"]);
-  values["threshold_text"] = shown(gap["threshold"], "{:.2f}");
-  values["chi2_text"] = shown(gap["chi2"], "{:.1f}");
-  values["p_text"] = shown(gap["p_value"], "{:.2g}");
-  values["rows_text"] = fmt::format("{}", gap["where"].size());
-  values["json"] = report::in_script(ordered.dump());
-  return report::fill_template(kGapHtml, values);
+  report::Page page{kGapHtml, ordered};
+  page.values = {{"table", table(gap)},
+                 {"map", heat_map(gap["where"], gap["threshold"])},
+                 {"threshold_text", shown(gap["threshold"], "{:.2f}")},
+                 {"chi2_text", shown(gap["chi2"], "{:.1f}")},
+                 {"p_text", shown(gap["p_value"], "{:.2g}")},
+                 {"rows_text", fmt::format("{}", gap["where"].size())}};
+  return report::to_html(page);
 }
 
 namespace {

@@ -52,6 +52,14 @@ class Calendem(CMakePackage):
         expand=False,
         placement="orbit-controls",
     )
+    # ... and d3, 3.5.17 there too.
+    resource(
+        name="d3",
+        url="https://raw.githubusercontent.com/d3/d3/v3.5.17/d3.min.js",
+        sha256="b81e673dc58af2faf97bcdec9eab4c5182769ffe536773d5f42091935a73a1be",
+        expand=False,
+        placement="d3",
+    )
 
     @run_before("cmake")
     def prepare_sources(self):
@@ -65,6 +73,7 @@ class Calendem(CMakePackage):
         return [
             self.define("CALENDEM_HOST_DIR", source / "build/host"),
             self.define("CALENDEM_THREE_DIR", source / "three"),
+            self.define("CALENDEM_D3_DIR", source / "d3"),
             self.define("CALENDEM_TUNE", False),  # spack's compiler wrappers tune for the target
             self.define("BUILD_TESTING", False),
         ]
