@@ -73,7 +73,7 @@ bodies_are_short() { # at once, for all files; clang-tidy counts too, but reads 
   cxx_files | xargs awk -f tests/reliability/style/long_bodies.awk | report "bodies of more than 60 lines"
 }
 # clang-tidy on all headers and, as a source takes it some seconds, on twelve of the sources that the last commit
-# or the work since has changed; with CALENDEM_HEAVY=1 on every source: about 15 minutes on two idle cores. The
+# or the work since has changed; with CALENDEM_HEAVY=1 on every source: some ten minutes on two idle cores. The
 # adapters, which are built in the host's tree, keep the host's manner: NULL, no override.
 tidy() { # BUILD: where compile_commands.json is
   command -v clang-tidy >/dev/null || skip "no clang-tidy; tools/install-dependencies --test brings it"

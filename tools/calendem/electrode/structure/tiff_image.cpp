@@ -45,22 +45,28 @@ struct Page {
   }
 };
 
-class Tiff {
+// While it lives, libtiff's errors are noted and its warnings dropped.
+class Handlers {
 public:
-  explicit Tiff(const std::string &file)
-      : file_(file), warnings_(TIFFSetWarningHandler(nullptr)),
-        errors_(TIFFSetErrorHandler(note_error)) {
-    said.clear();
-    tiff_.reset(TIFFOpen(file.c_str(), "r"));
-    if (!tiff_)
-      refuse_page(1);
-  }
-  ~Tiff() {
+  Handlers() { said.clear(); }
+  ~Handlers() {
     TIFFSetWarningHandler(warnings_);
     TIFFSetErrorHandler(errors_);
   }
-  Tiff(const Tiff &) = delete;
-  Tiff &operator=(const Tiff &) = delete;
+  Handlers(const Handlers &) = delete;
+  Handlers &operator=(const Handlers &) = delete;
+
+private:
+  TIFFErrorHandler warnings_ = TIFFSetWarningHandler(nullptr);
+  TIFFErrorHandler errors_ = TIFFSetErrorHandler(note_error);
+};
+
+class Tiff {
+public:
+  explicit Tiff(const std::string &file) : file_(file), tiff_(TIFFOpen(file.c_str(), "r")) {
+    if (!tiff_)
+      refuse_page(1);
+  }
 
   vtkSmartPointer<vtkImageData> read() {
     const Page first = page();
@@ -82,8 +88,8 @@ private:
   struct Close {
     void operator()(TIFF *tiff) const { TIFFClose(tiff); }
   };
+  Handlers handlers_;
   std::string file_;
-  TIFFErrorHandler warnings_, errors_;
   std::unique_ptr<TIFF, Close> tiff_;
 
   [[noreturn]] void refuse_page(long number) const {
