@@ -12,7 +12,12 @@ mkdir -p "$work"
 "$make_run" "$work/other" strong
 "$bin/calendem" report "$work/one" "$work/other" -o "$work/report.html" >"$work/report.log"
 # The first value of each series is taken away: a gap.
-{ sed -E '/id="data"/s/"y":\[[^],]+/"y":[null/g; s/<\/html>$//' "$work/report.html"; echo "<script>"; cat "$here/use.js"; echo "</script></html>"; } >"$work/used.html"
+{
+  sed -E '/id="data"/s/"y":\[[^],]+/"y":[null/g; s/<\/html>$//' "$work/report.html"
+  echo "<script>"
+  cat "$here/use.js"
+  echo "</script></html>"
+} >"$work/used.html"
 for width in 1200 500; do
   "$browser" --headless --no-sandbox --disable-3d-apis --user-data-dir="$work/profile" --window-size="$width,900" \
     --virtual-time-budget=20000 --dump-dom "file://$work/used.html" >"$work/dom.html" 2>"$work/browser.log"

@@ -101,7 +101,7 @@ TEST(ShrinkPart, SaysWhatStaysAndWhetherAnotherDidAsWell) {
 }
 
 TEST(ShrinkPart, OneChartForEachCondition) {
-  EXPECT_EQ(shrink_part(made_shrink())["charts"][0]["title"], "p80");
+  EXPECT_EQ(shrink_part(made_shrink())["charts"][0]["title"], "p80: pressure against displacement");
   const auto charts = calendem::rerun_charts(made_shrink());
   ASSERT_EQ(charts.size(), 2u);
   std::vector<std::string> roles;

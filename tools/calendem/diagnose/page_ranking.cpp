@@ -45,7 +45,7 @@ json strip(const json &r, bool has_best) {
   const auto wide = [&](double length) { return fmt::format("{:.1f}", length / reach * kHalf); };
   return {{"condition", r["condition"]},
           {"name", r["name"]},
-          {"unit", r["unit"]},
+          {"unit", shown_unit(r["unit"])},
           {"stage", r["stage"]},
           {"measured", shown(r["measured"], "{:.4g}")},
           {"sd", shown(r["sd_measurement"], "{:.2g}")},
@@ -69,14 +69,14 @@ std::vector<double> column(const Block &rows, const char *key) {
 
 report::Chart chart(const Block &rows, const std::string &best, std::size_t number) {
   using namespace report;
-  const std::string unit = rows[0]["unit"], name = rows[0]["observable"];
+  const std::string unit = shown_unit(rows[0]["unit"]), name = rows[0]["observable"];
   Chart c;
   c.id = fmt::format("curve{}", number);
   c.title = fmt::format("{}: {}, {}", rows[0]["condition"].get<std::string>(), name,
                         rows[0]["stage"].get<std::string>());
   c.from_zero = false;
-  c.x_label = "Pressure, MPa";
-  c.y_label = unit.empty() ? name : name + ", " + (unit == "um" ? "µm" : unit);
+  c.x_label = "Pressure (MPa)";
+  c.y_label = unit.empty() ? name : name + " (" + unit + ")";
   const auto add = [&](const std::string &legend, const char *key, Symbol symbol) -> Series & {
     c.series.push_back({});
     Series &s = c.series.back();

@@ -84,8 +84,7 @@ json image_row(const json &row) {
     return row.contains(role) ? shown(row[role].value(key, json()), format) : "–";
   };
   return {{"condition", row["condition"]},
-          {"name",
-           fmt::format("{}, {}", row["name"].get<std::string>(), row["unit"].get<std::string>())},
+          {"name", fmt::format("{}, {}", row["name"].get<std::string>(), shown_unit(row["unit"]))},
           {"measured", shown(row["measured"], "{:.4g}")},
           {"sd", shown(row["sd"], "{:.2g}")},
           {"before", of("before", "mean", "{:.4g}")},
@@ -101,7 +100,7 @@ json images_of(const json &shrink) {
   json rows = json::array();
   for (const json &row : shrink["images"]["rows"])
     rows.push_back(image_row(row));
-  return {{"rows", rows}, {"without", shrink["images"]["without"]}};
+  return {{"rows", rows}, {"has_rows", !rows.empty()}, {"without", shrink["images"]["without"]}};
 }
 
 report::Series series_of(const json &curve) {
@@ -179,6 +178,8 @@ std::vector<report::Chart> rerun_charts(const json &gap) {
     }
     at->series.push_back(series_of(curve));
   }
+  for (report::Chart &chart : charts)
+    chart.title += ": pressure against displacement";
   return charts;
 }
 

@@ -249,7 +249,8 @@ Explorer.prototype.report = function(m, counts) {
 };
 
 Explorer.prototype.resize = function() {
-  var canvas = this.renderer.domElement, width = canvas.parentNode.clientWidth, height = 620;
+  var canvas = this.renderer.domElement, width = canvas.parentNode.clientWidth,
+      height = Math.min(620, 1.3 * width);
   this.renderer.setPixelRatio(window.devicePixelRatio || 1);
   this.renderer.setSize(width, height);
   this.camera.aspect = width / height;
@@ -276,6 +277,7 @@ function start() {
       });
     } catch (e) {
       roots[i].dataset.error = e.message;
+      roots[i].querySelector('canvas').style.display = 'none';
       roots[i].querySelector('.view-text').textContent =
           'This browser shows no 3-D graphics (WebGL): ' + e.message;
     }

@@ -181,8 +181,9 @@ json headline_of(const Run &run) {
   figures.push_back(figure("Maximum pressure", max_pressure(run), "MPa", 1));
   figures.push_back(
       figure("Total porosity before", kPercent * c["porosity_total"].front(), "%", 1));
-  figures.push_back(figure("… at maximum pressure", kPercent * c["porosity_total"][top], "%", 1));
-  figures.push_back(figure("… after relaxation", porosity_after(run), "%", 1));
+  figures.push_back(
+      figure("Total porosity at maximum", kPercent * c["porosity_total"][top], "%", 1));
+  figures.push_back(figure("Total porosity after relaxation", porosity_after(run), "%", 1));
   figures.push_back(
       figure("Thickness after relaxation", number_in(s, "thickness_after_relaxation_um"), "µm", 1));
   figures.push_back(figure("Springback", kPercent * springback, "%", 1));

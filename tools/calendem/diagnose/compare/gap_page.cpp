@@ -22,7 +22,7 @@ nlohmann::json table(const nlohmann::json &gap) {
     rows.push_back({{"condition", r["condition"]},
                     {"observable", r["observable"]},
                     {"stage", r["stage"]},
-                    {"unit", r["unit"]},
+                    {"unit", shown_unit(r["unit"])},
                     {"measured", shown(r["measured"], "{:.4g}")},
                     {"simulated", shown(r["simulated"], "{:.4g}")},
                     {"packings", r["packings"]},
@@ -82,9 +82,9 @@ std::string colour_of(double z, double threshold) {
 
 nlohmann::json square(const nlohmann::json &r, double threshold) {
   const double z = r["z"].is_number() ? r["z"].get<double>() : INFINITY;
-  return {{"text", fmt::format("{}{} (z {})", shown(r["residual"], "{:+.3g}"),
-                               r["unit"] == "" ? "" : " " + r["unit"].get<std::string>(),
-                               shown(r["z"], "{:+.1f}"))},
+  const std::string unit = shown_unit(r["unit"]);
+  return {{"text", fmt::format("{}{} (z\u00a0{})", shown(r["residual"], "{:+.3g}"),
+                               unit.empty() ? "" : "\u00a0" + unit, shown(r["z"], "{:+.1f}"))},
           {"colour", colour_of(z, threshold)}};
 }
 
@@ -98,6 +98,8 @@ void add(std::vector<std::string> &list, const std::string &name) {
 std::string shown(const nlohmann::json &number, const char *format) {
   return number.is_number() ? fmt::format(fmt::runtime(format), number.get<double>()) : "–";
 }
+
+std::string shown_unit(const std::string &unit) { return unit == "um" ? "µm" : unit; }
 
 nlohmann::json heat_map(const nlohmann::json &where, double threshold,
                         const std::vector<std::string> &conditions) {

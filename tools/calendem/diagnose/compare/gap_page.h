@@ -17,6 +17,9 @@ nlohmann::json heat_map(const nlohmann::json &where, double threshold,
 /// A JSON number in that format; a dash where it is none.
 std::string shown(const nlohmann::json &number, const char *format);
 
+/// A unit of gap.json as a reader writes it.
+std::string shown_unit(const std::string &unit);
+
 } // namespace calendem
 
 #endif
