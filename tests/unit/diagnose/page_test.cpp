@@ -86,7 +86,8 @@ TEST(GapFile, CompareWritesTheSameNames) {
     EXPECT_TRUE(diagnosed[name].type() == compared[name].type() || compared[name].is_null())
         << name;
   }
-  for (const auto &[name, value] : to_json(Place()).items())
+  const nlohmann::ordered_json place = to_json(Place());
+  for (const auto &[name, value] : place.items())
     for (const auto &row : {diagnosed["where"][0], compared["where"][0]})
       EXPECT_TRUE(row.contains(name)) << name;
 }
