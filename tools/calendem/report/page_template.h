@@ -29,7 +29,7 @@ std::string in_script(std::string json);
 // Text files of this folder, compiled in by CMakeLists.txt (embedded.cpp.in).
 namespace calendem::report::embedded {
 
-extern const char *const kPageCss;  ///< page.css
+extern const char *const kPageCss;    ///< page.css
 extern const char *const kPageScript; ///< page.js
 extern const char *const kD3;         ///< d3 of the distribution (libjs-d3, BSD licence)
 extern const char *const kExplorer;   ///< explorer.js
