@@ -71,6 +71,11 @@ TEST(Charts, CurvesAreOfTheFirstPackingOfEachSetting) {
   EXPECT_EQ(asked, (std::vector<std::string>{"a", "c"}));
 }
 
+TEST(Charts, SettingsAreWrittenInWords) {
+  EXPECT_EQ(setting_in_words("case.bond.tensile_strength_MPa"), "bond tensile strength (MPa)");
+  EXPECT_EQ(setting_in_words("recipe.seed"), "seed");
+}
+
 // The strengths of two kinds of bonds have one short name.
 TEST(Charts, EachHasAnIdOfItsOwn) {
   const std::vector<std::string> varied = {"case.bond.tensile_strength_MPa",

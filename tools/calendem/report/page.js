@@ -91,13 +91,14 @@ Plot.prototype.values = function(of) {
   return d3.extent(out.filter(isNumber));
 };
 
+/// Of an error bar that reaches from a positive value below zero only the positive part counts.
 Plot.prototype.domains = function() {
   var chart = this.chart;
   function y(right) {
     return function(s, i, out) {
       var error = s.y_error && s.y_error[i] || 0;
       if (!!s.right === right && isNumber(s.y[i]))
-        out.push(s.y[i] - error, s.y[i] + error);
+        out.push(Math.max(s.y[i] - error, Math.min(s.y[i], 0)), s.y[i] + error);
     };
   }
   function widened(range) {

@@ -151,8 +151,10 @@ Chart against(const StudyTable &table, const std::string &setting, const std::st
               const std::string &title, double factor) {
   Chart chart;
   chart.id = setting + "-" + result;
-  chart.title = fmt::format("{} against {}", title, short_name(setting));
-  chart.x_label = setting.substr(setting.find('.') + 1);
+  const std::string words = setting_in_words(setting);
+  chart.title = fmt::format("{} against {}", title.substr(0, title.rfind(" (")),
+                            words.substr(0, words.rfind(" (")));
+  chart.x_label = words;
   chart.y_label = title;
   std::size_t k = 0;
   for (const StudyGroup &line : table.groups({setting})) {
@@ -187,6 +189,13 @@ std::vector<Chart> charts_of_setting(const StudyTable &table, const std::string 
 }
 
 } // namespace
+
+std::string setting_in_words(const std::string &key) {
+  const auto fact = report::facts_of({{key.substr(key.find('.') + 1), nullptr}}, {})[0];
+  std::string name = fact["name"], unit = fact["unit"];
+  std::replace(name.begin(), name.end(), '.', ' ');
+  return unit.empty() ? name : name + " (" + unit + ")";
+}
 
 std::vector<Chart> study_charts(const StudyTable &table, const CurveOfRun &curve) {
   std::vector<Chart> out = {porosity_chart(table), broken_chart(table), curve_chart(table, curve)};

@@ -13,6 +13,9 @@ namespace calendem {
 /// The curve.csv of a run by its name in the table; a table without rows if it is not there.
 using CurveOfRun = std::function<CsvTable(const std::string &run)>;
 
+/// A setting's key in words: "bond tensile strength (MPa)".
+std::string setting_in_words(const std::string &key);
+
 std::vector<report::Chart> study_charts(const StudyTable &table, const CurveOfRun &curve);
 
 } // namespace calendem

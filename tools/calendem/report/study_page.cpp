@@ -56,14 +56,14 @@ nlohmann::json row_of(const StudyTable &table, const StudyGroup &group) {
 nlohmann::json head(const StudyTable &table) {
   nlohmann::json out = nlohmann::json::array();
   for (const std::string &column : table.settings())
-    out.push_back(column.substr(column.find('.') + 1));
+    out.push_back(setting_in_words(column));
   out.push_back("packings");
-  out.push_back("max. pressure, MPa");
+  out.push_back("maximum pressure (MPa)");
   for (const double p : table.pressures("broken_fraction"))
-    out.push_back(fmt::format("broken at {:g} MPa, %", p));
-  for (const char *name :
-       {"broken: distance to paper, points", "porosity at max., %", "after relaxation, %",
-        "less Table 1, points", "springback, %", "pressures differ by, %"})
+    out.push_back(fmt::format("broken at {:g} MPa (%)", p));
+  for (const char *name : {"broken: distance to paper (points)", "porosity at maximum (%)",
+                           "porosity after relaxation (%)", "minus Table 1 (points)",
+                           "springback (%)", "pressures differ by (%)"})
     out.push_back(name);
   return out;
 }
