@@ -78,9 +78,8 @@ bodies_are_short() { # at once, for all files; clang-tidy counts too, but reads 
 tidy() { # BUILD: where compile_commands.json is
   command -v clang-tidy >/dev/null || skip "no clang-tidy; tools/install-dependencies --test brings it"
   clang-tidy --version | grep -q 'version 14' || skip "clang-tidy is not version 14; others find other things"
-  local run=(clang-tidy --quiet --config-file=.clang-tidy) each=(xargs -r -n 1 -P "$(nproc)") headers sources failed=0
-  headers=$(mktemp --suffix=.cpp)
-  trap 'rm -f "$headers"' EXIT
+  local run=(clang-tidy --quiet --config-file=.clang-tidy) each=(xargs -r -n 1 -P "$(nproc)") headers=$1/all_headers.cpp
+  local sources failed=0
   all_headers >"$headers"
   "${run[@]}" "$headers" -- "${header_options[@]}" || { echo "FAILED: clang-tidy on the headers"; exit 1; }
   if [ "${CALENDEM_HEAVY:-0}" = 1 ]; then sources=$(cxx_files | matching '\.cpp$')
