@@ -109,6 +109,7 @@ std::string diagnosis_page(const nlohmann::ordered_json &ordered) {
   values["map"] = heat_map(gap["where"], gap["threshold"], conditions_of(gap));
   values["ranking"] = ranking_part(gap);
   values["predictions"] = predictions_part(gap);
+  values["effects"] = effects_part(gap);
   values["conflict"] = conflict_part(gap);
   values["drift"] = drift_part(gap);
   values["confounding"] = confounding_part(gap);

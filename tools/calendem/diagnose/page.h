@@ -15,6 +15,8 @@ std::string diagnosis_page(const nlohmann::ordered_json &gap);
 nlohmann::json ranking_part(const nlohmann::json &gap);
 /// What was measured beside base model and best hypothesis: numbers as strips, curves as charts.
 nlohmann::json predictions_part(const nlohmann::json &gap);
+/// How probable each effect is and what limits it; what of a base parameter may be a hidden effect.
+nlohmann::json effects_part(const nlohmann::json &gap);
 nlohmann::json conflict_part(const nlohmann::json &gap);
 /// Base parameters from one stage at a time.
 nlohmann::json drift_part(const nlohmann::json &gap);

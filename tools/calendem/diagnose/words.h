@@ -9,11 +9,14 @@
 namespace calendem {
 
 /// Adds to gap.json: "unit" to the rows of "where"; "name", "unit", "pressure_MPa" to those of
-/// "predictions"; to amplitudes the effect's "key" and its "value" in the key's unit; which
+/// "predictions"; to amplitudes the effect's "key" and its "value" in the key's unit; to
+/// "which.effects" what may be "said" of each; which
 /// measurements the bank cannot predict; and "said", the claim in words.
 void put_in_words(const ExperimentData &data, const BankTable &bank, nlohmann::ordered_json &gap);
 
-/// {"headline", "meaning", "next": [""]} for a gap.json: what the claim means, what to do next.
+/// {"answer", "headline", "meaning", "next": [""]} for a gap.json: what the claim means, what to do
+/// next. Answers: "explained", "one of these", "something else" (that no model here has), "nothing
+/// to see" (that these data could show).
 nlohmann::ordered_json claim_in_words(const nlohmann::ordered_json &gap);
 
 } // namespace calendem

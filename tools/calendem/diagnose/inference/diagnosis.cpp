@@ -85,6 +85,9 @@ Diagnosis diagnose(const Model &model, const Bank &bank, const Vector &values,
   d.next = next_measurements(d.which, model.extensions(values), settings.next);
   d.parameters = parameters_of(bank.base, d.which.judged.front());
   d.effects = effects_of(bank, best_predicting(d.which));
+  d.ranges = effect_ranges(problem, d.which);
+  d.parameters_of_all = parameter_ranges(bank.base, d.which);
+  d.groups = effect_groups(d.which, d.confounding);
   d.predictions = predictions(model, problem, d.which, values);
   d.emulators = model.quality();
   d.degrees_of_freedom = model.scatter().degrees_of_freedom;

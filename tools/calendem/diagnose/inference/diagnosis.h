@@ -3,6 +3,7 @@
 #ifndef CALENDEM_DIAGNOSE_INFERENCE_DIAGNOSIS_H
 #define CALENDEM_DIAGNOSE_INFERENCE_DIAGNOSIS_H
 
+#include "diagnose/inference/averaged.h"
 #include "diagnose/inference/confounding.h"
 #include "diagnose/inference/model.h"
 #include "diagnose/inference/where.h"
@@ -65,6 +66,9 @@ struct Diagnosis {
   std::vector<NextMeasurement> next;
   std::vector<Recalibrated> parameters; ///< of the base model, under the most probable hypothesis
   std::vector<FittedEffect> effects;
+  std::vector<EffectRange> ranges;               ///< of all effects, over all hypotheses
+  std::vector<ParameterRange> parameters_of_all; ///< the same of the base model's parameters
+  std::vector<EffectGroup> groups;
   Predictions predictions;
   std::vector<EmulatorQuality> emulators;
   double degrees_of_freedom = 0.0, shrinkage = 0.0; ///< of the scatter between packings
