@@ -104,6 +104,21 @@ TEST(ClaimInWords, AnEffectIsSwitchedOnAndAnInstrumentIsChecked) {
   expect_parts(gap, {"Explained by friction + thickness_zero", "Switch it on"});
 }
 
+// Below what noise leaves, a cause neither shrinks nor enlarges the gap.
+TEST(HowFarInWords, TheNoiseFloorStandsBesideTheGap) {
+  const auto said = [](double before, double after) {
+    return how_far_in_words({{"before", before}, {"after", after}, {"noise_floor", 35.0}});
+  };
+  EXPECT_EQ(said(5.2, 8.1),
+            "Gap 5.2 before, 8.1 after; errors of measurement and sample alone leave "
+            "up to 35.0 (95 %): these data show no gap here, nor that it shrinks "
+            "or grows.");
+  EXPECT_NE(said(80.0, 8.1).find("what is left may be nothing"), std::string::npos);
+  EXPECT_EQ(said(80.0, 50.0).find("nothing"), std::string::npos);
+  EXPECT_EQ(how_far_in_words({{"before", 50.0}, {"noise_floor", 35.0}}),
+            "Gap 50.0; errors of measurement and sample alone leave up to 35.0 (95 %).");
+}
+
 // A reciprocal amplitude: 1/GPa. The strongest effect is the smallest yield pressure.
 TEST(PutInWords, AmplitudesBecomeValuesOfTheKeyWithTheSmallerEndFirst) {
   Json gap = claimed("nmc_plasticity");

@@ -13,6 +13,7 @@ struct CoveredCondition {
   Condition condition;
   double pressure; ///< MPa
   std::vector<Observable> observables;
+  int specimens = 1; ///< of which these are means
 };
 
 /// The conditions named in `wanted` (all if it is empty) whose pressure the bank reaches. What is

@@ -42,6 +42,12 @@ struct Diagnosed {
 Diagnosed diagnosed(const Experiment &experiment, const BankTable &table, double cells,
                     SharedModels &models);
 
+/// What changed from one experiment to the other, whose conditions have the same ids: an effect that
+/// is on after it and was not before. Readings' and specimens' errors count twice, those of the
+/// press and of the bank's numerics cancel. Throws Failure(2) if nothing was measured in both.
+Diagnosed diagnosed_change(const Experiment &before, const Experiment &after,
+                           const BankTable &table, double cells);
+
 } // namespace calendem
 
 #endif

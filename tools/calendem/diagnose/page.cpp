@@ -110,6 +110,7 @@ std::string diagnosis_page(const nlohmann::ordered_json &ordered) {
   values["ranking"] = ranking_part(gap);
   values["predictions"] = predictions_part(gap);
   values["effects"] = effects_part(gap);
+  values["budget"] = budget_part(gap);
   values["conflict"] = conflict_part(gap);
   values["drift"] = drift_part(gap);
   values["confounding"] = confounding_part(gap);

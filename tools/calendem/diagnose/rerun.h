@@ -32,6 +32,7 @@ HeldOut held_out_of(const ExperimentData &data);
 struct RerunOptions {
   StudyOptions study; ///< folder, program, jobs
   int packings = 4;
+  double cells = 1.0; ///< of the bank's, that the measured sample is as large as
 };
 
 /// Runs them in the bank's cell and returns "shrink" of gap.json. Throws Failure as make_study.

@@ -219,10 +219,27 @@ Json claim_in_words(const Json &gap) {
                   : claim == "unknown"   ? unknown(gap)
                   : claim == "undecided" ? undecided(gap)
                                          : named(gap);
+  const bool change = gap.contains("change_from");
   return {{"answer", answer_of(claim)},
-          {"headline", w.headline},
+          {"headline", change ? "What changed. " + w.headline : w.headline},
           {"meaning", w.meaning},
           {"next", w.next}};
+}
+
+std::string how_far_in_words(const Json &shrink) {
+  const double before = shrink["before"], floor = shrink["noise_floor"];
+  const double after = shrink.value("after", before);
+  const bool both = shrink.contains("after");
+  const std::string gaps = both ? fmt::format("Gap {:.1f} before, {:.1f} after", before, after)
+                                : fmt::format("Gap {:.1f}", before);
+  const std::string noise =
+      fmt::format("errors of measurement and sample alone leave up to {:.1f} (95 %)", floor);
+  if (before <= floor && after <= floor)
+    return fmt::format("{}; {}: these data show no gap here, nor that it shrinks or grows.", gaps,
+                       noise);
+  if (both && after <= floor)
+    return fmt::format("{}; {}: what is left may be nothing.", gaps, noise);
+  return fmt::format("{}; {}.", gaps, noise);
 }
 
 namespace {

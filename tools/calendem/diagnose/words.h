@@ -14,6 +14,9 @@ namespace calendem {
 /// measurements the bank cannot predict; and "said", the claim in words.
 void put_in_words(const ExperimentData &data, const BankTable &bank, nlohmann::ordered_json &gap);
 
+/// How far, with what noise alone would leave, in one sentence: of "before", "after", "noise_floor".
+std::string how_far_in_words(const nlohmann::ordered_json &shrink);
+
 /// {"answer", "headline", "meaning", "next": [""]} for a gap.json: what the claim means, what to do
 /// next. Answers: "explained", "one of these", "something else" (that no model here has), "nothing
 /// to see" (that these data could show).

@@ -71,9 +71,16 @@ Discrimination discriminate(const Model &model, const Problem &problem,
 
 Diagnosis diagnose(const Model &model, const Bank &bank, const Vector &values,
                    const DiagnosisSettings &settings, const std::vector<PointNoise> &point_noise) {
-  Diagnosis d;
   Problem problem = model.problem(values);
   problem.point_noise = point_noise;
+  Diagnosis d = diagnose(model, problem, bank, values, settings);
+  d.next = next_measurements(d.which, model.extensions(values), settings.next);
+  return d;
+}
+
+Diagnosis diagnose(const Model &model, const Problem &problem, const Bank &bank,
+                   const Vector &values, const DiagnosisSettings &settings) {
+  Diagnosis d;
   d.blocks = problem.blocks;
   Discrimination t = discriminate(model, problem, settings);
   d.which = std::move(t.which);
@@ -82,7 +89,6 @@ Diagnosis diagnose(const Model &model, const Bank &bank, const Vector &values,
   d.residual = residuals_of(model, values, d.which.base.mean.head(model.map().emulated()));
   for (WhereRow &row : d.where.rows)
     row.z = std::copysign(row.z, d.residual[row.block].residual);
-  d.next = next_measurements(d.which, model.extensions(values), settings.next);
   d.parameters = parameters_of(bank.base, d.which.judged.front());
   d.effects = effects_of(bank, best_predicting(d.which));
   d.ranges = effect_ranges(problem, d.which);

@@ -89,6 +89,10 @@ Diagnosis diagnose(const Model &model, const Bank &bank, const Vector &values,
                    const DiagnosisSettings &settings,
                    const std::vector<PointNoise> &point_noise = {});
 
+/// Of a problem that the model's predictions are part of only; no next measurements.
+Diagnosis diagnose(const Model &model, const Problem &problem, const Bank &bank,
+                   const Vector &values, const DiagnosisSettings &settings);
+
 /// The parts "where" and "which" of gap.json and what else is known, as text of a JSON object.
 std::string to_json(const Diagnosis &diagnosis);
 
