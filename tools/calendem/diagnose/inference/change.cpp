@@ -36,7 +36,17 @@ Problem change_of(const Model &model, const Vector &values, const Vector &predic
     out.variance = (with.variance - off.variance).cwiseMax(0.0);
     return out;
   };
-  p.slopes = nullptr;
+  p.slopes = [slopes = p.slopes, scores, factor](const Vector &s, const std::vector<Applied> &on) {
+    const Vector at = scores(s);
+    const Slopes off = slopes(at, {});
+    Slopes out = on.empty() ? off : slopes(at, on);
+    const auto chain = [&](Matrix &with, const Matrix &without) {
+      with.leftCols(s.size()) = Matrix((with.leftCols(s.size()) - without) * factor);
+    };
+    chain(out.mean, off.mean);
+    chain(out.variance, off.variance);
+    return out;
+  };
   return p;
 }
 

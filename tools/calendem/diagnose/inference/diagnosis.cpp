@@ -2,6 +2,7 @@
 #include "diagnose/inference/diagnosis.h"
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace calendem::inference {
 
@@ -50,6 +51,19 @@ std::vector<FittedEffect> effects_of(const Bank &bank, const Judged &best) {
   return list;
 }
 
+/// What can be seen at some place is not nothing, though every explanation of it may be.
+void heed_where(const Where &where, double claim_probability, Which &which) {
+  const bool seen = std::any_of(where.rows.begin(), where.rows.end(),
+                                [](const WhereRow &row) { return row.significant; });
+  const double none = which.of("none").probability;
+  if (which.claim != "none" || !seen || none >= claim_probability)
+    return;
+  which.claim = "undecided";
+  which.why = fmt::format("A difference is significant, but each effect that would explain it is "
+                          "too small to be told from none, which has {:.3g}; a claim needs {:g}.",
+                          none, claim_probability);
+}
+
 } // namespace
 
 Discrimination discriminate(const Model &model, const Problem &problem,
@@ -86,6 +100,7 @@ Diagnosis diagnose(const Model &model, const Problem &problem, const Bank &bank,
   d.which = std::move(t.which);
   d.confounding = std::move(t.confounding);
   d.where = where(problem, d.which.base, settings.where);
+  heed_where(d.where, settings.which.claim_probability, d.which);
   d.residual = residuals_of(model, values, d.which.base.mean.head(model.map().emulated()));
   for (WhereRow &row : d.where.rows)
     row.z = std::copysign(row.z, d.residual[row.block].residual);
