@@ -62,12 +62,11 @@ std::vector<ErrorTerm> error_terms(const Experiment &e, const BankSpec &bank,
       by_specimen(all, points_of_porosity * few.cwiseProduct(start)));
   add("porosity of the specimen under pressure",
       by_specimen(all, points_of_porosity * few.cwiseProduct(density)));
-  add("thickness of the specimen", by_specimen(all, each(all, [&](const auto &c, const auto &o) {
-                                                 return o.unit == "um"
-                                                            ? 0.01 * e.specimen_thickness_percent *
-                                                                  o.measured * shared(c)
-                                                            : 0.0;
-                                               })));
+  const Vector usual = of_base(&Observable::simulated), // not as measured: errors know no value
+      in_um = each(all, [](const auto &, const auto &o) { return o.unit == "um" ? 1.0 : 0.0; });
+  add("thickness of the specimen",
+      by_specimen(all, 0.01 * e.specimen_thickness_percent *
+                           few.cwiseProduct(usual.cwiseProduct(in_um))));
   for (std::size_t k = 0; k < all.size(); ++k)
     add("drift of the curve of " + all[k].condition.id,
         each(all, [&](const auto &c, const auto &o) {
