@@ -76,6 +76,8 @@ refuses "hours is -5" experiment.toml --bank price.toml --table bank.csv
 diagnose "$here/../../../input_scripts/cases/paper/experiment.toml" -o table_1 --no-rerun >table_1.log ||
   fail "the shipped bank cannot diagnose Table 1"
 grep -q "shifted by 100 % of what 3 runs of 17.46 mg/cm2 differ by" table_1.log || fail "the film's thickness is not reported"
+grep -q "beyond noise" table_1.log && grep -q "^Nothing that" table_1.log && fail "what is seen in Table 1 is called nothing"
+grep -qF '"numerics: cell": 2.0' table_1/gap.json || fail "the budget lacks the numerics"
 
 # Friction is what the table's experiment was made with; samples at 30 and 40 MPa train, 50 MPa is held out.
 sed 's/^sample_diameter_mm.*/&\nsplit = { train = ["p30", "p40"], test = ["p50"] }/' experiment.toml >split.toml

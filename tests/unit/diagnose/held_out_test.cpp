@@ -51,6 +51,18 @@ TEST(HeldOutGap, ShrinkageIsOneLessTheRatioAndNothingWhereThereIsNoGap) {
   EXPECT_TRUE(std::isnan(shrinkage_of(blocks(2), Matrix::Zero(2, 3), after).value));
 }
 
+// A sample of two cells scatters by itself: packings of variance 4/3 add 2/3 to its own 1.
+TEST(HeldOutGap, TheSamplesOwnScatterIsNoise) {
+  Matrix packings(1, 4);
+  packings << 9, 11, 9, 11;
+  HeldOut h = blocks(1);
+  add_sample_scatter({packings, packings}, 2.0, h);
+  EXPECT_NEAR(h.sd[0], std::sqrt(1.0 + 2.0 / 3.0), 1e-14);
+  HeldOut large = blocks(1);
+  add_sample_scatter({packings}, 1e12, large);
+  EXPECT_NEAR(large.sd[0], 1.0, 1e-10);
+}
+
 TEST(HeldOutGap, NoiseFloorIsTheRootOfAChiSquaredLessItsMean) {
   // one observable, packings all alike: chi^2(1) is below 3.84 with 95 %; 1000 resamples know that
   // quantile within 0.25 (two standard errors: sqrt(0.95 * 0.05 / 1000) / density 0.0298).

@@ -29,7 +29,7 @@ const Diagnosed &friction() {
 TEST(DiagnosisPage, TheEffectIsNamedWithItsValueInTheKeysUnit) {
   const nlohmann::ordered_json &gap = friction().gap;
   EXPECT_EQ(gap["which"]["claim"], "friction") << gap["which"].dump(1);
-  EXPECT_EQ(gap["which"]["headline"], "friction explains the gap");
+  EXPECT_EQ(gap["which"]["headline"], "Explained by friction");
   const auto &fitted = gap["fitted_effects"][0];
   EXPECT_EQ(fitted["keys"][0], "material.am.friction");
   EXPECT_LT(fitted["value_low90"], 0.4);
@@ -115,7 +115,7 @@ TEST(DiagnosisPage, HoldsTheClaimAndNothingFromElsewhere) {
   data.erase("charts");
   EXPECT_EQ(data, nlohmann::json::parse(friction().gap.dump()));
   for (const char *part :
-       {"friction explains the gap", "Switch it on", "p60: cracked bodies", "thickness_zero",
+       {"Explained by friction", "Switch it on", "p60: cracked bodies", "thickness_zero",
         "displacement while the pressure rises: p30, p60", "X-ray tomogram", "Q²"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   for (const char *part : {"{{", "http:", "https:", " src=", "<b>", "How far"})
@@ -130,6 +130,27 @@ TEST(DiagnosisPage, SameBytesTwice) {
   const Diagnosed two = diagnosed(e, made_bank(), 1e4, others);
   EXPECT_EQ(one.gap.dump(), two.gap.dump());
   EXPECT_EQ(diagnosis_page(one.gap), diagnosis_page(two.gap));
+}
+
+// The truth is 0.4, the parameters those of the table.
+TEST(DiagnosisPage, EveryEffectHasARangeOrALimitOverAllExplanations) {
+  const auto &effects = friction().gap["which"]["effects"];
+  ASSERT_EQ(effects.size(), 2u);
+  EXPECT_EQ(effects[0]["effect"], "friction");
+  EXPECT_GT(effects[0]["inclusion"], 0.8);
+  EXPECT_LT(effects[0]["value_low95"], 0.4);
+  EXPECT_GT(effects[0]["value_high95"], 0.4);
+  EXPECT_LT(effects[1]["inclusion"], 0.5);
+  EXPECT_TRUE(effects[1]["two_sided"]); // thickness_zero
+  EXPECT_NE(effects[1]["said"].get<std::string>().find(" between "), std::string::npos)
+      << effects[1].dump();
+  for (const auto &p : friction().gap["parameters"]) {
+    EXPECT_LE(p["low95"], p["low90"]) << p.dump();
+    EXPECT_GE(p["high95"], p["high90"]) << p.dump();
+  }
+  const std::string page = diagnosis_page(friction().gap);
+  for (const char *part : {"how large at most", "Budget of uncertainty", "reading 0.1, "})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
 }
 
 TEST(RankingPart, BarsAreProbabilitiesAndTheRestIsCounted) {

@@ -45,6 +45,13 @@ const std::vector<Key> &head_keys() {
       {"labels_cbd", "", "-", -1e9, 1e9, "", "label of CBD in them; without: all is AM", "", false,
        true},
       {"labels_voxel_um", "", "0", 1e-3, 10, "um", "their voxel size, if not as they state"},
+      {"measured_on", "", "press", 0, 0, "",
+       "simulation: by a run like the bank's; its numerics are no error, specimens alike",
+       "press|simulation"},
+      {"specimen_porosity_points", "", "0.5", 0, 10, "%",
+       "by what specimens of the coating differ in porosity before, and again under pressure (sd)"},
+      {"specimen_thickness_percent", "", "1", 0, 20, "%",
+       "by what they differ in thickness (sd), where compared in um"},
   };
   return keys;
 }
@@ -61,6 +68,9 @@ const std::vector<Key> &condition_keys() {
       {"labels_after", "", "-", 0, 0, "", "label image after calendering", "", true},
       {"dwell_s", "", "0", 0, 1e6, "s", "time at the target"},
       {"curve_sd_um", "", "0", 0, 100, "um", "of the curve's displacements, independent"},
+      {"curve_drift_um", "", "0", 0, 100, "um", "of the displacement at the curve's end (sd)"},
+      {"specimen", "", "-", 0, 0, "",
+       "the piece that was pressed, where conditions share one; default: one of its own", "", true},
   };
   return keys;
 }

@@ -24,12 +24,14 @@ struct Measured {
 /// One pressed sample. Units are in the names; fractions 0-1.
 struct Condition {
   std::string id;
-  std::string control; ///< pressure, displacement, thickness or roll_gap
+  std::string specimen; ///< the piece that was pressed; conditions may share one
+  std::string control;  ///< pressure, displacement, thickness or roll_gap
   std::optional<Measured> roll_gap_um, displacement_um, thickness_at_max_um, max_pressure_MPa,
       loading_mg_cm2, porosity_before_percent, porosity_after_percent, thickness_after_um, mass_mg,
       cracked_bodies_fraction;
   std::string curve;                       ///< absolute path of a CSV file, empty if none
   double curve_sd_um = 0.0;                ///< of each displacement of the curve; 0: not given
+  double curve_drift_um = 0.0;             ///< sd at the curve's end, from 0 at its beginning
   std::string labels_before, labels_after; ///< absolute paths of label images, or empty
   double dwell_s = 0.0;
 };
@@ -44,6 +46,9 @@ struct Experiment {
   int labels_pore = 0;           ///< label of the pores in the label images
   std::optional<int> labels_cbd; ///< none: the images show no CBD
   double labels_voxel_um = 0.0;  ///< 0: as the images state
+  bool on_press = false;         ///< not by a simulation like the bank's
+  /// By what specimens of one coating differ (standard deviations).
+  double specimen_porosity_points = 0.0, specimen_thickness_percent = 0.0;
   std::vector<Condition> conditions;
   std::vector<std::string> train, test; ///< ids
 };

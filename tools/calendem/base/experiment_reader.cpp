@@ -60,6 +60,11 @@ private:
     return "";
   }
 
+  /// The specimens of a simulation are alike unless the file says otherwise.
+  double of_specimen(const toml::table &head, const Key &key) {
+    return e_.on_press || head.contains(key.name) ? number(head, key) : 0.0;
+  }
+
   void read_head(const toml::table &head) {
     std::vector<std::string> known = {"split"};
     for (const Key &key : head_keys())
@@ -74,6 +79,9 @@ private:
     if (head.contains(head_keys()[6].name))
       e_.labels_cbd = static_cast<int>(number(head, head_keys()[6]));
     e_.labels_voxel_um = number(head, head_keys()[7]);
+    e_.on_press = text(head, head_keys()[8]) == "press";
+    e_.specimen_porosity_points = of_specimen(head, head_keys()[9]);
+    e_.specimen_thickness_percent = of_specimen(head, head_keys()[10]);
     if (e_.labels_cbd == e_.labels_pore)
       mistakes_.add(line_of(*head.get("labels_cbd")),
                     fmt::format("labels_cbd and labels_pore are both {}: the label of CBD is that "
@@ -109,6 +117,10 @@ private:
     c.labels_after = existing(*t, condition_keys()[4]);
     c.dwell_s = number(*t, condition_keys()[5]);
     c.curve_sd_um = number(*t, condition_keys()[6]);
+    c.curve_drift_um = number(*t, condition_keys()[7]);
+    c.specimen = text(*t, condition_keys()[8]);
+    if (c.specimen.empty())
+      c.specimen = c.id;
     for (const Quantity &q : quantities())
       if (const toml::node *value = t->get(q.key.name))
         c.*(q.field) = measured(*value, q.key);

@@ -112,7 +112,7 @@ const std::vector<Described> &kinds() {
       {FileKind::Case, "a case", "run", {"electrode", "platen", "bond", "material", "numerics"}},
       {FileKind::Experiment, "an experiment", "compare or diagnose", {"experiment", "condition"}},
       {FileKind::Study, "a study", "study", {"study", "vary"}},
-      {FileKind::Bank, "a bank", "bank", {"bank", "full_cell"}},
+      {FileKind::Bank, "a bank", "bank", {"bank", "full_cell", "numerics"}},
       {FileKind::Round, "a withheld round", "withheld make", {"round"}}};
   return all;
 }

@@ -13,7 +13,7 @@ namespace calendem {
 namespace {
 
 struct Options {
-  std::string experiment, folder, bank, table;
+  std::string experiment, before, folder, bank, table;
   std::vector<std::string> without;
   double cells = 0.0; // 0: from the sample's diameter
   bool no_rerun = false, other_electrode = false;
@@ -73,7 +73,7 @@ void print_images(const nlohmann::ordered_json &shrink) {
 
 /// The third part: adds "shrink" to gap.json once the models have run again.
 void how_far(Options &o, const Experiment &experiment, const BankTable &table, Diagnosed &d) {
-  if (o.no_rerun)
+  if (o.no_rerun || !o.before.empty())
     return;
   const std::vector<RerunModel> models = models_to_rerun(experiment, table, d, o.cells);
   if (models.empty()) {
@@ -84,6 +84,7 @@ void how_far(Options &o, const Experiment &experiment, const BankTable &table, D
   fmt::print("how far: gap on the held-out conditions, in standard deviations, as predicted\n");
   for (const RerunModel &m : models)
     fmt::print("  {:<10} {:<32} {}\n", m.role, m.hypothesis, shown(m.predicted));
+  o.rerun.cells = o.cells > 0.0 ? o.cells : cells_of(experiment, table.spec);
   o.rerun.study.folder = o.folder + "/rerun";
   d.gap["shrink"] = rerun(experiment, table, models, o.rerun);
   write_gap(d.gap, diagnosis_page(d.gap), o.folder);
@@ -91,6 +92,7 @@ void how_far(Options &o, const Experiment &experiment, const BankTable &table, D
   for (const auto &m : d.gap["shrink"]["models"])
     fmt::print("  {:<10} {:<32} {:.1f}\n", m["role"].get<std::string>(),
                m["hypothesis"].get<std::string>(), m["gap"]["value"].get<double>());
+  fmt::print("{}\n", d.gap["shrink"]["in_words"].get<std::string>());
   print_images(d.gap["shrink"]);
 }
 
@@ -134,7 +136,9 @@ void run(Options o) {
       without_effects(read_bank_table(read_bank_spec(o.bank), o.table), o.without);
   const std::string another = of_another_electrode(o, experiment, table.spec);
   SharedModels models;
-  Diagnosed d = diagnosed(experiment, table, o.cells, models);
+  Diagnosed d = o.before.empty()
+                    ? diagnosed(experiment, table, o.cells, models)
+                    : diagnosed_change(read_experiment(o.before), experiment, table, o.cells);
   std::vector<std::string> first = other_samples(experiment);
   if (!another.empty())
     first.push_back(another);
@@ -164,6 +168,8 @@ void add_diagnose_verb(CLI::App &app) {
       "diagnose", "Where simulation and experiment disagree, and which effect explains it");
   verb->add_option("EXPERIMENT", o->experiment, "experiment file (TOML)")->required();
   verb->add_option("-o,--output", o->folder, "folder for gap.json and gap.html")->required();
+  verb->add_option("--before", o->before,
+                   "experiment before a change, of which EXPERIMENT is after it: what changed?");
   verb->add_option("--bank", o->bank, "bank (TOML) that the table was made from");
   verb->add_option("--table", o->table,
                    "bank.csv as calendem bank wrote it; default: beside the bank, with its name");

@@ -69,22 +69,34 @@ double film_ratio(const Experiment &experiment, const BankTable &bank) {
   return sum / n / solid_thickness_um(experiment, experiment.recipe.loading);
 }
 
-Vector by_pressure(const std::vector<CoveredCondition> &all, const std::vector<PointRuns> &points) {
+Vector mean_of_base(const std::vector<CoveredCondition> &all, const std::vector<PointRuns> &points,
+                    const std::function<const Derivative &(const Observable &)> &of) {
   std::vector<double> out;
   for (const CoveredCondition &c : all)
     for (const Observable &o : c.observables) {
+      const Derivative &derivative = of(o);
       double sum = 0.0;
       int n = 0;
       for (const PointRuns &runs : points)
-        if (runs.front()->point.effect.empty()) {
+        if (derivative && runs.front()->point.effect.empty()) {
           const double slope =
-              o.slope(run_at(runs, c.pressure, [](const SimulatedRun &r) { return r; }));
+              derivative(run_at(runs, c.pressure, [](const SimulatedRun &r) { return r; }));
           sum += std::isfinite(slope) ? slope : 0.0; // NaN: the run ends before that pressure
           n += std::isfinite(slope);
         }
-      out.push_back(n > 0 ? sum / n * c.condition.max_pressure_MPa->sd : 0.0);
+      out.push_back(n > 0 ? sum / n : 0.0);
     }
   return Eigen::Map<Vector>(out.data(), Eigen::Index(out.size()));
+}
+
+Vector by_pressure(const std::vector<CoveredCondition> &all, const std::vector<PointRuns> &points) {
+  Vector out =
+      mean_of_base(all, points, [](const Observable &o) -> const Derivative & { return o.slope; });
+  Eigen::Index next = 0;
+  for (const CoveredCondition &c : all)
+    for (std::size_t k = 0; k < c.observables.size(); ++k)
+      out[next++] *= c.condition.max_pressure_MPa->sd;
+  return out;
 }
 
 using inference::Cholesky;
@@ -92,6 +104,7 @@ using inference::Matrix;
 namespace {
 
 constexpr std::size_t kFewestRows = 8;
+constexpr double kRowLacks = 0.1; // of the points may lack a row
 
 /// A row's distance from the line between its neighbours: rows - 2 x rows.
 Matrix second_differences(const std::vector<Observable> &rows) {
@@ -172,19 +185,49 @@ inference::PointNoise noise_of(const CoveredCondition &covered,
 
 } // namespace
 
+namespace {
+
+/// Rows that nearly all points reach; the bank's releases begin a little below their maximum.
+std::vector<Observable> reached(const std::vector<PointRuns> &points, const CoveredCondition &c) {
+  std::vector<int> lacking(c.observables.size(), 0);
+  for (const PointRuns &p : points) {
+    const Vector values = values_of({c}, p, [](const SimulatedRun &r) { return r; });
+    for (std::size_t k = 0; k < lacking.size(); ++k)
+      lacking[k] += !std::isfinite(values[Eigen::Index(k)]);
+  }
+  std::vector<Observable> out;
+  for (std::size_t k = 0; k < lacking.size(); ++k)
+    if (double(lacking[k]) <= kRowLacks * double(points.size()))
+      out.push_back(c.observables[k]);
+  return out;
+}
+
+} // namespace
+
 std::vector<inference::PointNoise> point_noise_of(const Experiment &e, const BankTable &table,
-                                                  double cells) {
+                                                  double cells,
+                                                  std::vector<std::string> &not_said) {
   std::vector<std::string> reported; // with the rest of what the bank lacks
   const std::vector<PointRuns> points = points_of(table, reported);
   std::vector<inference::PointNoise> out;
   for (CoveredCondition &c : covered_conditions(e, table, {}, reported)) {
     c.observables = release_rows(e, c.condition);
-    if (c.observables.size() < kFewestRows)
+    if (c.observables.empty() || !has_release(table))
       continue;
+    const std::size_t given = c.observables.size();
+    c.observables = reached(points, c);
     std::vector<PointRuns> whole;
-    const Matrix shown = shown_by(points, c, whole);
-    if (whole.size() > c.observables.size())
-      out.push_back(noise_of(c, whole, shown, table.spec, cells));
+    if (c.observables.size() >= kFewestRows) {
+      const Matrix shown = shown_by(points, c, whole);
+      if (whole.size() > c.observables.size()) {
+        out.push_back(noise_of(c, whole, shown, table.spec, cells));
+        continue;
+      }
+    }
+    not_said.push_back(fmt::format(
+        "{}: how much its points scatter is not judged: of {} rows of the release the bank's runs "
+        "reach {}, {} are needed.",
+        c.condition.id, given, c.observables.size(), kFewestRows));
   }
   return out;
 }

@@ -18,6 +18,7 @@ struct CoveredCondition {
   Condition condition;
   double pressure; ///< MPa
   std::vector<Observable> observables;
+  int specimens = 1; ///< of which these are means
 };
 
 /// The conditions named in `wanted` (all if it is empty) whose pressure the bank reaches. What is
@@ -62,6 +63,11 @@ inference::Vector values_of(const std::vector<CoveredCondition> &all, const Poin
 /// without base points.
 double film_ratio(const Experiment &experiment, const BankTable &bank);
 
+/// A derivative of each observable, mean of the base model's points; 0 where it has none.
+inference::Vector mean_of_base(const std::vector<CoveredCondition> &all,
+                               const std::vector<PointRuns> &points,
+                               const std::function<const Derivative &(const Observable &)> &of);
+
 /// Change of each observable by one standard deviation of the press's pressure, mean of the base
 /// model's points.
 inference::Vector by_pressure(const std::vector<CoveredCondition> &all,
@@ -72,9 +78,11 @@ inference::Vector by_pressure(const std::vector<CoveredCondition> &all,
 /// that base parameters and effects move (a linear fit of all points) counts whole, the rest, the
 /// packings' scatter, by 1 / `cells`. Not of the loading: small films yield in steps, far from
 /// normal (its score had a standard deviation of 2 on 480 curves whose errors were as stated, that
-/// of the release 0.99).
+/// of the release 0.99). Rows that the bank's runs do not reach, at the beginning of the release,
+/// are left out; a release of which too few are left is reported in `not_said`.
 std::vector<inference::PointNoise> point_noise_of(const Experiment &experiment,
-                                                  const BankTable &table, double cells);
+                                                  const BankTable &table, double cells,
+                                                  std::vector<std::string> &not_said);
 
 struct FullCellChange {
   inference::Vector change;     ///< of all observables; empty: none

@@ -28,6 +28,8 @@ std::string layout_of(const ExperimentData &data, const inference::ModelSettings
   for (const inference::BankRun &run : data.bank.runs)
     append(run.values, out);
   append(inference::Vector::Constant(1, settings.packings_in_sample), out);
+  for (const auto &[condition, specimen] : settings.specimens)
+    out += fmt::format("{}={}x{}\n", condition, specimen.name, specimen.count);
   return out;
 }
 
@@ -46,6 +48,39 @@ void tell_point_noise(const std::vector<inference::PointNoise> &noise, Diagnosed
           "(normal score {:.1f}): state what they do.",
           p.condition, times, p.score));
   }
+}
+
+/// Standard deviation of each observable by each of its errors; emulators' errors are those of the
+/// base model where it fits best.
+nlohmann::ordered_json budget_of(const Diagnosed &d) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  const auto &of = d.data.experiment.of;
+  inference::Vector readings = d.data.experiment.covariance.diagonal();
+  for (const ErrorTerm &t : d.data.terms)
+    readings -= t.columns.rowwise().squaredNorm();
+  const inference::Problem problem = d.model->problem(d.data.experiment.values);
+  const auto emulated = d.model->map().emulated();
+  const inference::Vector errors =
+      problem.predict(d.diagnosis.which.base.at, {}).variance.head(emulated);
+  const inference::Vector by_emulators = d.model->map().variances_of(errors.asDiagonal()),
+                          by_packings = d.model->map().variances_of(
+                              problem.scatter.topLeftCorner(emulated, emulated));
+  const auto sd = [](double variance) { return std::sqrt(std::max(0.0, variance)); };
+  for (std::size_t k = 0; k < of.size(); ++k) {
+    const auto i = Eigen::Index(k);
+    nlohmann::ordered_json terms = {{"reading", sd(readings[i])}};
+    for (const ErrorTerm &t : d.data.terms)
+      if (const double size = t.columns.row(i).norm(); size > 0.0)
+        terms[t.name] = size;
+    terms["packings"] = sd(by_packings[i]);
+    terms["emulators"] = sd(by_emulators[i]);
+    rows.push_back({{"condition", of[k].condition},
+                    {"observable", of[k].name},
+                    {"name", d.data.labels[k].name},
+                    {"unit", d.data.labels[k].unit},
+                    {"terms", terms}});
+  }
+  return rows;
 }
 
 } // namespace
@@ -86,14 +121,16 @@ Diagnosed diagnosed(const Experiment &experiment, const BankTable &table, double
   out.data = data_of(experiment, table, {});
   inference::DiagnosisSettings settings;
   settings.model.packings_in_sample = cells > 0.0 ? cells : cells_of(experiment, table.spec);
+  settings.model.specimens = out.data.specimens;
   out.model = models.of(out.data, settings.model);
   const std::vector<inference::PointNoise> point_noise =
-      point_noise_of(experiment, table, settings.model.packings_in_sample);
+      point_noise_of(experiment, table, settings.model.packings_in_sample, out.data.not_said);
   out.diagnosis = inference::diagnose(*out.model, out.data.bank, out.data.experiment.values,
                                       settings, point_noise);
   out.gap = inference::to_json(out.diagnosis, experiment.name);
   put_in_words(out.data, table, out.gap);
   tell_point_noise(point_noise, out);
+  out.gap["budget"] = budget_of(out);
   out.gap["not_said"] = out.data.not_said;
   return out;
 }

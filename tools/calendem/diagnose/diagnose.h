@@ -42,15 +42,26 @@ struct Diagnosed {
 Diagnosed diagnosed(const Experiment &experiment, const BankTable &table, double cells,
                     SharedModels &models);
 
+/// What changed from one experiment to the other, whose conditions have the same ids: an effect that
+/// is on after it and was not before. Readings' and specimens' errors count twice, those of the
+/// press and of the bank's numerics cancel. Throws Failure(2) if nothing was measured in both.
+Diagnosed diagnosed_change(const Experiment &before, const Experiment &after,
+                           const BankTable &table, double cells);
+
 // What the inference says, in the words and units of the experiment.
 
 /// Adds to gap.json: "unit" to the rows of "where"; "name", "unit", "pressure_MPa" to those of
-/// "predictions"; to amplitudes the effect's "key" and its "value" in the key's unit; which
-/// measurements the bank cannot predict, and the claim in words, as claim_in_words gives it; to
-/// "said" where the gap is significant.
+/// "predictions"; to amplitudes the effect's "key" and its "value" in the key's unit; to
+/// "which" what may be "said" of each effect, the measurements that the bank cannot predict, and the
+/// claim in words, as claim_in_words gives it; to "said" where the gap is significant.
 void put_in_words(const ExperimentData &data, const BankTable &bank, nlohmann::ordered_json &gap);
 
-/// {"headline", "meaning", "next": [""]} for a gap.json: what the claim means, what to do next.
+/// How far, with what noise alone would leave, in one sentence: of "before", "after", "noise_floor".
+std::string how_far_in_words(const nlohmann::ordered_json &shrink);
+
+/// {"answer", "headline", "meaning", "next": [""]} for a gap.json: what the claim means, what to do
+/// next. Answers: "explained", "one of these", "something else" (that no model here has), "nothing
+/// to see" (that these data could show).
 nlohmann::ordered_json claim_in_words(const nlohmann::ordered_json &gap);
 
 } // namespace calendem

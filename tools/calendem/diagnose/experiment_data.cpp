@@ -3,6 +3,7 @@
 #include "base/messages.h"
 #include "diagnose/bank_points.h"
 #include "diagnose/inference/numerics.h"
+#include "diagnose/repeats.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -57,10 +58,9 @@ inference::ObservableId named(const CoveredCondition &c, const Observable &o) {
   return {o.curve.empty() ? o.name : o.curve, o.stage, c.condition.id, o.coordinate};
 }
 
-/// Observables, and their covariance: the pressure's error is common to all of them, the loading's
-/// to those of a condition.
+/// Observables, and their covariance: their own errors and those that they share.
 inference::ObservableVector measured_of(const std::vector<CoveredCondition> &all,
-                                        const Vector &pressure) {
+                                        const std::vector<ErrorTerm> &terms) {
   inference::ObservableVector out;
   std::vector<double> values, sd;
   for (const CoveredCondition &c : all)
@@ -72,14 +72,7 @@ inference::ObservableVector measured_of(const std::vector<CoveredCondition> &all
   const auto n = Eigen::Index(values.size());
   out.values = Eigen::Map<Vector>(values.data(), n);
   const Vector s = Eigen::Map<Vector>(sd.data(), n);
-  out.covariance = Matrix(s.cwiseAbs2().asDiagonal()) + pressure * pressure.transpose();
-  Eigen::Index next = 0;
-  for (const CoveredCondition &c : all) {
-    Vector loading = Vector::Zero(n);
-    for (const Observable &o : c.observables)
-      loading[next++] = o.by_loading;
-    out.covariance += loading * loading.transpose();
-  }
+  out.covariance = Matrix(s.cwiseAbs2().asDiagonal()) + covariance_of(terms, n);
   return out;
 }
 
@@ -122,6 +115,8 @@ void set_experiment(const inference::ObservableVector &measured,
                                           labels[std::size_t(k)].name));
     else
       data.labels.push_back(labels[std::size_t(k)]);
+  for (ErrorTerm &t : data.terms)
+    t.columns = Matrix(t.columns(kept, Eigen::all));
   if (kept.empty())
     throw Failure(kBadInput,
                   fmt::format("nothing that was measured can be compared with the bank. Conditions "
@@ -132,10 +127,11 @@ void set_experiment(const inference::ObservableVector &measured,
 }
 
 /// Candidates for the next measurement; their values in the bank begin at `first`.
-void set_next(const std::vector<Further> &further, const std::vector<PointRuns> &points, int first,
-              ExperimentData &data, std::vector<int> &kept) {
+void set_next(const Experiment &e, const BankSpec &spec, const std::vector<Further> &further,
+              const std::vector<PointRuns> &points, int first, ExperimentData &data,
+              std::vector<int> &kept) {
   for (const Further &f : further) {
-    const inference::ObservableVector all = measured_of(f.of, by_pressure(f.of, points));
+    const inference::ObservableVector all = measured_of(f.of, error_terms(e, spec, f.of, points));
     const std::vector<int> known = known_of(data.bank, first, int(all.of.size()));
     const inference::ObservableVector had = only(all, known);
     if (!known.empty())
@@ -145,6 +141,12 @@ void set_next(const std::vector<Further> &further, const std::vector<PointRuns> 
       kept.push_back(first + k);
     first += int(all.of.size());
   }
+}
+
+/// A matrix whose product with its transpose is this covariance.
+Matrix root_of(const Matrix &covariance) {
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(covariance);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
 /// What an effect at the film's faces changes counts less in a thicker film.
@@ -270,26 +272,31 @@ ExperimentData data_of(const Experiment &experiment, const BankTable &as_given,
   BankTable table = as_given;
   const std::vector<PointRuns> all_points =
       enough(points_of(table, data.not_said), table.spec, data.not_said);
-  const std::vector<CoveredCondition> now =
-      covered_conditions(experiment, table, conditions, data.not_said);
+  const std::vector<CoveredCondition> now = pooled_repeats(
+      experiment, covered_conditions(experiment, table, conditions, data.not_said), data.not_said);
   const std::vector<Further> further = further_measurements(experiment, table, now);
   std::vector<CoveredCondition> all = now;
   for (const Further &f : further)
     all.insert(all.end(), f.of.begin(), f.of.end());
   const std::vector<PointRuns> points = complete(all_points, all, data.not_said);
   fill_bank(film_ratio(experiment, full_cell), table, all, points, data.bank);
-  inference::ObservableVector measured = measured_of(now, by_pressure(now, points));
+  data.terms = error_terms(experiment, table.spec, now, points);
+  for (const CoveredCondition &c : now)
+    data.specimens[c.condition.id] = {c.condition.specimen, c.specimens};
+  inference::ObservableVector measured = measured_of(now, data.terms);
   if (const FullCellChange t = full_cell_change(experiment, full_cell, all, data.not_said);
       t.change.size()) {
     for (inference::BankRun &run : data.bank.runs)
       run.values += t.change;
     const Eigen::Index n = measured.values.size();
-    measured.covariance += t.covariance.topLeftCorner(n, n);
+    const Matrix unknown = t.covariance.topLeftCorner(n, n);
+    measured.covariance += unknown;
+    data.terms.push_back({"numerics: shift to the sample's film", root_of(unknown)});
   }
   std::vector<int> kept; // of the values of `all`
   set_experiment(measured, now, data, kept);
   data.bank.observables = data.experiment.of;
-  set_next(further, points, int(measured.of.size()), data, kept);
+  set_next(experiment, table.spec, further, points, int(measured.of.size()), data, kept);
   for (inference::BankRun &run : data.bank.runs)
     run.values = Vector(run.values(kept));
   return data;

@@ -4,6 +4,7 @@
 #define CALENDEM_DIAGNOSE_EXPERIMENT_DATA_H
 
 #include "diagnose/bank/bank_table.h"
+#include "diagnose/error_terms.h"
 #include "diagnose/inference/model.h"
 
 namespace calendem {
@@ -18,13 +19,15 @@ struct ExperimentData {
   inference::Bank bank; ///< what each run of the table would show of the experiment, and of `next`
   inference::ObservableVector experiment;
   std::vector<ValueLabel> labels;         ///< of the experiment's numbers
+  std::vector<ErrorTerm> terms;           ///< of the experiment's covariance, beside its readings
+  inference::Specimens specimens;         ///< of its conditions
   std::vector<inference::Candidate> next; ///< measurements to come that the bank can predict
   std::vector<std::string> not_said;      ///< what is left out or assumed, and why
 };
 
-/// The observables of the conditions named in `conditions` (all if it is empty). A run to a
-/// pressure between two of the bank's is interpolated; the pressure's uncertainty is common to all
-/// conditions of one press. Where the bank has runs on the full cell, all are shifted by what a
+/// The observables of the conditions named in `conditions` (all if it is empty), specimens that
+/// were pressed alike as one. A run to a pressure between two of the bank's is interpolated; errors
+/// that observables share are terms. Where the bank has runs on the full cell, all are shifted by what a
 /// film as thick as the sample's differs from the bank's. What happens at the film's faces (effects
 /// of the layer "boundary", instruments that show micrometres) counts by the ratio of the films'
 /// solid columns. Throws Failure(2) if nothing is left to

@@ -57,6 +57,13 @@ std::vector<double> resampled(const HeldOut &held_out, int packings, const OfRes
 
 } // namespace
 
+void add_sample_scatter(const std::vector<Matrix> &models, double cells, HeldOut &held_out) {
+  Vector variance = Vector::Zero(held_out.sd.size());
+  for (const Matrix &packings : models)
+    variance += squared_error_of_mean(packings) * double(packings.cols()) / double(models.size());
+  held_out.sd = (held_out.sd.cwiseAbs2() + variance / cells).cwiseSqrt();
+}
+
 double gap_of(const HeldOut &held_out, const Vector &mean, const Vector &scatter, double noises) {
   const Vector variance = held_out.sd.cwiseAbs2();
   const Vector excess = ((mean - held_out.measured).cwiseAbs2() - noises * (variance + scatter))

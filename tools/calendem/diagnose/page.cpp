@@ -110,6 +110,8 @@ std::string diagnosis_page(const nlohmann::ordered_json &ordered) {
                  {"map", heat_map(gap["where"], gap["threshold"], conditions_of(gap))},
                  {"ranking", ranking_part(gap)},
                  {"predictions", predictions_part(gap)},
+                 {"effects", effects_part(gap)},
+                 {"budget", budget_part(gap)},
                  {"conflict", conflict_part(gap)},
                  {"drift", drift_part(gap)},
                  {"confounding", confounding_part(gap)},

@@ -17,6 +17,10 @@ nlohmann::json ranking_part(const nlohmann::json &gap);
 /// What was measured beside base model and best hypothesis: numbers as strips, curves as charts.
 nlohmann::json predictions_part(const nlohmann::json &gap);
 std::vector<report::Chart> prediction_charts(const nlohmann::json &gap);
+/// How probable each effect is and what limits it; what of a base parameter may be a hidden effect.
+nlohmann::json effects_part(const nlohmann::json &gap);
+/// What every observable's uncertainty is made of.
+nlohmann::json budget_part(const nlohmann::json &gap);
 nlohmann::json conflict_part(const nlohmann::json &gap);
 /// Base parameters from one stage at a time.
 nlohmann::json drift_part(const nlohmann::json &gap);

@@ -127,7 +127,7 @@ constexpr double kLeast = 0.005; // probability below which no bar is drawn, the
 std::string name_of(const json &evidence) {
   const std::string name = evidence["hypothesis"];
   if (name == "none")
-    return "none: the base model suffices";
+    return "none: no effect";
   if (name == "noise")
     return "noise: errors understated";
   if (name == "unknown" && evidence.value("place", "") != "")

@@ -196,16 +196,18 @@ nlohmann::ordered_json rerun(const Experiment &experiment, const BankTable &tabl
   const BankTable runs =
       table_of(table, models, options.packings, finished_runs(study, options.study), pressures);
   const ExperimentData data = data_of(experiment, runs, experiment.test, table);
-  const HeldOut held_out = held_out_of(data);
+  HeldOut held_out = held_out_of(data);
   std::vector<Matrix> simulated(models.size(), Matrix(held_out.measured.size(), options.packings));
   for (std::size_t k = 0; k < data.bank.runs.size(); ++k)
     simulated[k / std::size_t(options.packings)].col(Eigen::Index(k) % options.packings) =
         data.bank.runs[k].values.head(held_out.measured.size());
+  add_sample_scatter(simulated, options.cells, held_out);
   nlohmann::ordered_json out = {{"train", experiment.train}, {"held_out", experiment.test}};
   const auto reported = models_json(table.spec, held_out, models, simulated);
   out.update(in_short(reported, noise_floor(held_out, simulated[0])));
+  out["in_words"] = how_far_in_words(out);
   out.update(
-      {{"unit", "standard deviations of the measurement"},
+      {{"unit", "standard deviations of measurement and sample"},
        {"packings", options.packings},
        {"models", reported},
        {"observables", observables(held_out, data.experiment.of, models, simulated)},
@@ -234,6 +236,7 @@ Part part_of(const Experiment &e, const BankTable &table, const std::vector<std:
   part.data = data_of(e, table, ids);
   inference::ModelSettings settings;
   settings.packings_in_sample = cells;
+  settings.specimens = part.data.specimens;
   part.model = std::make_unique<inference::Model>(part.data.bank, part.data.experiment, settings);
   part.problem = part.model->problem(part.data.experiment.values);
   return part;
@@ -274,7 +277,8 @@ RerunModel calibrated(const std::string &role, const Hypothesis &h, const Part &
         find_effect(effect.name)
             .parameter.value(effect.parameters.front().prior.value(a.scores[0]));
   }
-  const HeldOut held_out = held_out_of(test.data);
+  HeldOut held_out = held_out_of(test.data);
+  held_out.sd = test.model->sd();
   const Vector none = Vector::Zero(held_out.sd.size());
   std::vector<double> gaps;
   for (Eigen::Index k = 0; k < e.draws.cols(); ++k)
@@ -294,14 +298,16 @@ std::vector<std::pair<std::string, Hypothesis>> chosen(const inference::Which &w
       effects.push_back(j.hypothesis);
   if (effects.empty())
     return out;
-  const Hypothesis &first = effects.front();
-  const bool claimed = which.claim == first.name;
+  const auto named = std::find_if(effects.begin(), effects.end(),
+                                  [&](const Hypothesis &h) { return h.name == which.claim; });
+  const bool claimed = named != effects.end();
+  const Hypothesis first = claimed ? *named : effects.front();
   out.emplace_back("after", first);
   const auto apart = [&](const Hypothesis &h) {
     return h.on.size() == 1 &&
            std::find(first.on.begin(), first.on.end(), h.on[0]) == first.on.end();
   };
-  const auto second = std::find_if(effects.begin() + 1, effects.end(), apart);
+  const auto second = std::find_if(effects.begin(), effects.end(), apart);
   if (second == effects.end())
     return out;
   out.emplace_back("runner-up", *second);

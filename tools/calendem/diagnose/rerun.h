@@ -22,12 +22,17 @@ struct Estimate {
 /// Held-out observables: what was measured, and a column for each simulated packing.
 struct HeldOut {
   std::vector<inference::Block> blocks; ///< each counts the same
-  inference::Vector measured, sd;       ///< sd > 0
+  inference::Vector measured, sd;       ///< sd > 0: of measurement and sample
 };
+
+/// Adds to the deviations what the measured sample scatters by itself: the variance of packings,
+/// pooled over the models (columns: packings), over the number of cells it is as large as.
+void add_sample_scatter(const std::vector<inference::Matrix> &models, double cells,
+                        HeldOut &held_out);
 
 /// Root mean square of (mean over packings - measured) / sd, freed of what measurement noise and
 /// the scatter of that mean add to it; 0 where they explain all. In standard deviations of the
-/// measurement. `scatter`: squares of the standard errors of `mean`.
+/// measurement and the sample. `scatter`: squares of the standard errors of `mean`.
 double gap_of(const HeldOut &held_out, const inference::Vector &mean,
               const inference::Vector &scatter, double noises = 1.0);
 
@@ -69,6 +74,7 @@ HeldOut held_out_of(const ExperimentData &data);
 struct RerunOptions {
   StudyOptions study; ///< folder, program, jobs
   int packings = 4;
+  double cells = 1.0; ///< of the bank's, that the measured sample is as large as
 };
 
 /// Runs them in the bank's cell and returns "shrink" of gap.json. Throws Failure as make_study.

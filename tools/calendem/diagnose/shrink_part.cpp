@@ -131,6 +131,8 @@ bool has_reruns(const json &gap) {
 /// What stays, and whether another effect or none would have done as well.
 json words_of(const json &shrink) {
   json words = json::array();
+  if (shrink.contains("in_words"))
+    words.push_back(shrink["in_words"]);
   const json *before = model_of(shrink, "before"), *after = model_of(shrink, "after");
   if (before && after && number((*before)["gap"], "value") > 0.0)
     words.push_back(
@@ -204,7 +206,9 @@ json shrink_part(const json &gap) {
   const auto percent = [&](const char *key) {
     return fmt::format("{:.0f}", 100.0 * number(s, key));
   };
-  if (s.contains("value"))
+  const double floor = number(shrink, "noise_floor");
+  const bool seen = !(number(shrink, "before") <= floor && number(shrink, "after") <= floor);
+  if (s.contains("value") && seen)
     part["shrinkage"] = {
         {"value", percent("value")},
         {"low", percent("low90")},

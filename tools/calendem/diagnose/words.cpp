@@ -11,19 +11,27 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kListed = 5; // of a list of explanations
+constexpr std::size_t kListed = 5;    // of a list of explanations
+constexpr double kWorthSaying = 0.01; // probability
 
 struct Words {
   std::string headline, meaning;
   std::vector<std::string> next;
 };
 
-/// "effects.x.y = 0.3 (0.2 to 0.4)"
-std::string setting_of(const Json &fitted) {
-  return fmt::format("{} = {} (90 %: {} to {})",
-                     fmt::join(fitted["keys"].get<std::vector<std::string>>(), ", "),
-                     shown(fitted["value"], "{:.3g}"), shown(fitted["value_low90"], "{:.3g}"),
-                     shown(fitted["value_high90"], "{:.3g}"));
+std::string keys_of(const Json &row) {
+  return fmt::format("{}", fmt::join(row["keys"].get<std::vector<std::string>>(), ", "));
+}
+
+/// "effects.x.y = 0.3 (95 %: 0.2 to 0.4)"
+std::string setting_of(const Json &row) {
+  return fmt::format("{} = {} (95 %: {} to {})", keys_of(row), shown(row["value"], "{:.3g}"),
+                     shown(row["value_low95"], "{:.3g}"), shown(row["value_high95"], "{:.3g}"));
+}
+
+std::string percent(double probability) {
+  return probability > 0.995 && probability < 1.0 ? "more than 99 %"
+                                                  : fmt::format("{:.0f} %", 100.0 * probability);
 }
 
 /// The measurement that is worth most, if it is worth anything.
@@ -55,16 +63,37 @@ std::string about_unknown(const Json &gap) {
                                    : fmt::format("The discrepancy is most likely in: {}.", place);
 }
 
-Words none() {
-  return {"No gap beyond noise: the base model suffices",
-          "With its parameters recalibrated the base model fits all that was measured.",
-          {"Use the recalibrated parameters below.",
-           "Effects below their detection limits, listed below, are not excluded."}};
+/// "friction; thickness_zero" of the effects whose limits are worth reading.
+std::vector<std::string> limits_of(const Json &which) {
+  std::vector<std::string> out;
+  for (const Json &row : which["effects"])
+    if (row["limited"] == true)
+      out.push_back(row["said"]);
+  return out;
+}
+
+std::string what_is_left(const Json &which) {
+  const std::vector<std::string> limits = limits_of(which);
+  return limits.empty() ? "These data limit no effect of the bank: all of them stay possible."
+                        : fmt::format("Of effects that may hide in it these data leave room for: "
+                                      "{}. Others are not limited.",
+                                      fmt::join(limits, "; "));
+}
+
+Words none(const Json &gap) {
+  return {"Nothing that these data could show",
+          fmt::format("With its parameters recalibrated the base model fits all that was measured. "
+                      "That no effect acts has {}; one too small to be seen, or hidden in the "
+                      "recalibrated parameters, is not excluded.",
+                      percent(gap["which"]["probability"]["none"])),
+          {"Use the recalibrated parameters with their 95 % ranges over all explanations, below: "
+           "part of each may be a hidden cause.",
+           what_is_left(gap["which"])}};
 }
 
 Words noise() {
   return {
-      "The errors of the measurement are understated",
+      "Explained by errors larger than stated",
       "The base model would fit if the measured values scattered more than is stated. No "
       "effect is needed, and none is excluded: with few things measured an effect that the bank "
       "lacks looks the same.",
@@ -73,7 +102,7 @@ Words noise() {
 }
 
 Words unknown(const Json &gap) {
-  return {"A gap that no known effect explains",
+  return {"Something that no model here has",
           "Neither the base model nor any effect of the bank fits. " + about_unknown(gap),
           {"Do not recalibrate it away: parameters fitted now would carry it.",
            "Check the readings there first, then look for physics that the table of "
@@ -87,35 +116,85 @@ std::string leading(const std::vector<std::string> &names) {
   return listed < names.size() ? text + fmt::format("; {} more", names.size() - listed) : text;
 }
 
+/// "friction or thickness_zero, or something that acts so (59 %)"
+std::string group_in_words(const Json &group) {
+  std::string text =
+      fmt::format("{}", fmt::join(group["effects"].get<std::vector<std::string>>(), " or "));
+  if (group["acts_like"].get<double>() >= kWorthSaying)
+    text += ", or something that acts so";
+  if (group["with_none"] == true)
+    text += ", or nothing";
+  return fmt::format("{} ({})", text, percent(group["probability"]));
+}
+
+/// What these data cannot tell apart is one explanation; what has no part in any stands by itself.
+std::vector<std::string> explanations(const Json &which) {
+  std::vector<std::string> out;
+  bool with_none = false;
+  double like = 0.0;
+  for (const Json &group : which["groups"]) {
+    out.push_back(group_in_words(group));
+    with_none |= group["with_none"] == true;
+    like += group["acts_like"].get<double>();
+  }
+  const auto add = [&](const char *name, const char *said, double less) {
+    const double p = which["probability"].value(name, 0.0) - less;
+    if (p >= kWorthSaying)
+      out.push_back(fmt::format("{} ({})", said, percent(p)));
+  };
+  if (!with_none)
+    add("none", "none of them", 0.0);
+  add("noise", "errors larger than stated", 0.0);
+  add("unknown", "something that no model here has", like);
+  return out;
+}
+
 Words undecided(const Json &gap) {
-  const Json &where = gap["where"];
+  const Json &where = gap["where"], &which = gap["which"];
   const bool any = std::any_of(where.begin(), where.end(),
                                [](const Json &row) { return row["significant"] == true; });
-  return {"Undecided: the data do not distinguish between the explanations",
-          fmt::format("{}With 95 % it is one of these, the most probable first: {}.",
-                      any ? ""
-                          : "No difference is significant, but weak effects could be hidden in "
-                            "the noise. ",
-                      leading(gap["which"]["set95"].get<std::vector<std::string>>())),
-          {measurement_of(gap["which"])}};
+  const std::vector<std::string> all = explanations(which);
+  Words w{"One of these: " + leading(all), "", {measurement_of(which)}};
+  if (!any)
+    w.meaning = "No difference is significant, but weak effects could be hidden in the noise. ";
+  w.meaning += fmt::format("Effects with \"or\" between them cannot be told apart on these data. "
+                           "Sets of them, the most probable first, up to 95 %: {}.",
+                           leading(which["set95"].get<std::vector<std::string>>()));
+  return w;
+}
+
+bool names(const std::string &claim, const std::string &effect) {
+  return (" + " + claim + " + ").find(" + " + effect + " + ") != std::string::npos;
+}
+
+/// How probable it is that something else acts too.
+std::string with_others(const Json &which) {
+  const std::string claim = which["claim"];
+  double acts = 0.0;
+  for (const auto &[name, inclusion] : which["inclusion"].items())
+    if (names(claim, name))
+      acts = acts == 0.0 ? inclusion.get<double>() : std::min(acts, inclusion.get<double>());
+  const double more = acts - which["probability"].value(claim, 0.0);
+  return more < kWorthSaying ? ""
+                             : fmt::format(" That something else acts too has {}.", percent(more));
 }
 
 Words named(const Json &gap) {
-  const std::string claim = gap["which"]["claim"];
-  Words w{claim + (claim.find(" + ") == std::string::npos ? " explains the gap"
-                                                          : " explain the gap together"),
-          "",
-          {}};
+  const Json &which = gap["which"];
+  const std::string claim = which["claim"];
+  Words w{"Explained by " + claim, "", {}};
   bool instrument = true;
   std::string settings;
-  for (const Json &fitted : gap["fitted_effects"]) {
-    const Effect &e = find_effect(fitted["effect"]);
+  for (const Json &row : which["effects"]) {
+    if (!names(claim, row["effect"]))
+      continue;
+    const Effect &e = find_effect(row["effect"]);
     w.meaning += (w.meaning.empty() ? "" : "; ") + e.name + ": " + e.what;
     settings +=
-        (settings.empty() ? "" : "; ") + setting_of(fitted) + (e.in_recipe ? " in the recipe" : "");
+        (settings.empty() ? "" : "; ") + setting_of(row) + (e.in_recipe ? " in the recipe" : "");
     instrument = instrument && e.layer == "measurement";
   }
-  w.meaning += ".";
+  w.meaning += "." + with_others(which);
   w.next = {instrument ? "Check the instrument: " + settings +
                              ". The model needs no change; correct the data and diagnose again."
                        : "Switch it on: " + settings + ".",
@@ -124,16 +203,44 @@ Words named(const Json &gap) {
   return w;
 }
 
+/// Of the four kinds of answer.
+const char *answer_of(const std::string &claim) {
+  return claim == "none"        ? "nothing to see"
+         : claim == "unknown"   ? "something else"
+         : claim == "undecided" ? "one of these"
+                                : "explained";
+}
+
 } // namespace
 
 Json claim_in_words(const Json &gap) {
   const std::string claim = gap["which"]["claim"];
-  const Words w = claim == "none"        ? none()
+  const Words w = claim == "none"        ? none(gap)
                   : claim == "noise"     ? noise()
                   : claim == "unknown"   ? unknown(gap)
                   : claim == "undecided" ? undecided(gap)
                                          : named(gap);
-  return {{"headline", w.headline}, {"meaning", w.meaning}, {"next", w.next}};
+  const bool change = gap.contains("change_from");
+  return {{"answer", answer_of(claim)},
+          {"headline", change ? "What changed. " + w.headline : w.headline},
+          {"meaning", w.meaning},
+          {"next", w.next}};
+}
+
+std::string how_far_in_words(const Json &shrink) {
+  const double before = shrink["before"], floor = shrink["noise_floor"];
+  const double after = shrink.value("after", before);
+  const bool both = shrink.contains("after");
+  const std::string gaps = both ? fmt::format("Gap {:.1f} before, {:.1f} after", before, after)
+                                : fmt::format("Gap {:.1f}", before);
+  const std::string noise =
+      fmt::format("errors of measurement and sample alone leave up to {:.1f} (95 %)", floor);
+  if (before <= floor && after <= floor)
+    return fmt::format("{}; {}: these data show no gap here, nor that it shrinks or grows.", gaps,
+                       noise);
+  if (both && after <= floor)
+    return fmt::format("{}; {}: what is left may be nothing.", gaps, noise);
+  return fmt::format("{}; {}.", gaps, noise);
 }
 
 namespace {
@@ -155,6 +262,54 @@ void add_units(const ExperimentData &data, Json &gap) {
 /// The key's value at an amplitude; null where there is no amplitude.
 Json value_at(const EffectParameter &p, const Json &amplitude) {
   return amplitude.is_number() ? Json(p.value(amplitude.get<double>())) : Json();
+}
+
+bool is_poor(const Json &gap, const std::string &effect, double &error, int &runs) {
+  for (const Json &row : gap["emulators"])
+    if (row["effect"] == effect && row["poor"] == true) {
+      error = row["error"];
+      runs = row["runs"];
+      return true;
+    }
+  return false;
+}
+
+/// What may be said of one effect on these data.
+std::string said_of(const Json &gap, const Json &row) {
+  const std::string name = row["effect"], keys = keys_of(row);
+  double error = 0.0;
+  int runs = 0;
+  if (is_poor(gap, name, error, runs))
+    return fmt::format(
+        "{}: cannot be named: after {} runs its emulators are off by {:.2g} standard "
+        "deviations of these data, 1 is allowed; about {:.0f} runs are needed, as "
+        "errors fall with the root of their number. Its range is as uncertain",
+        name, runs, error, std::ceil(error * error * runs));
+  if (row["inclusion"].get<double>() >= 0.5)
+    return fmt::format("{}: {}", name, setting_of(row));
+  if (row["limited"] != true)
+    return fmt::format("{}: not limited", name);
+  if (row["two_sided"] == true)
+    return fmt::format("{}: {} between {} and {} (95 %)", name, keys,
+                       shown(row["value_low95"], "{:.2g}"), shown(row["value_high95"], "{:.2g}"));
+  return fmt::format("{}: {} {} {} (95 %)", name, keys,
+                     row["weak_is_large"] == true ? "above" : "below",
+                     shown(row["value_limit95"], "{:.2g}"));
+}
+
+void add_ranges(Json &gap) {
+  for (Json &row : gap["which"]["effects"]) {
+    const EffectParameter &p = find_effect(row["effect"]).parameter;
+    row["keys"] = p.keys;
+    row["value"] = value_at(p, row["amplitude"]);
+    row["value_low95"] = value_at(p, row["low95"]);
+    row["value_high95"] = value_at(p, row["high95"]);
+    row["value_limit95"] = value_at(p, row["below95"]);
+    row["weak_is_large"] = row["value_low95"] > row["value_high95"];
+    if (row["weak_is_large"] == true)
+      std::swap(row["value_low95"], row["value_high95"]);
+    row["said"] = said_of(gap, row);
+  }
 }
 
 void add_amplitudes(Json &gap) {
@@ -190,6 +345,7 @@ void add_prices(const BankTable &bank, Json &gap) {
 void put_in_words(const ExperimentData &data, const BankTable &bank, Json &gap) {
   add_units(data, gap);
   add_amplitudes(gap);
+  add_ranges(gap);
   add_prices(bank, gap);
   gap["which"].update(claim_in_words(gap));
   for (const Json &place : gap["where"])

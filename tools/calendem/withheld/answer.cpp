@@ -118,6 +118,7 @@ public:
       return;
     RerunOptions options;
     options.packings = o_.rerun_packings;
+    options.cells = cells_of(experiment, table_.spec);
     options.study.folder = here + "/rerun";
     options.study.liggghts = o_.liggghts;
     options.study.jobs = o_.jobs;

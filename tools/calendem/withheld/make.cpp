@@ -204,8 +204,9 @@ std::string condition(const Round &round, const PressedSamples &samples, double 
   };
   const double cracked =
       press.with_noise(shown(&SimulatedRun::cracked_fraction), n.cracked_fraction);
-  std::string out =
-      fmt::format("\n[[condition]]\nid = \"p{:g}\"\ncontrol = \"pressure\"\n", target);
+  std::string out = fmt::format("\n[[condition]]\nid = \"p{:g}\"\nspecimen = \"one\"\ncontrol = "
+                                "\"pressure\"\n",
+                                target);
   out += fmt::format("max_pressure_MPa = {{ value = {:g}, sd_relative = {:g} }}\n", target,
                      0.01 * n.pressure_percent);
   const auto add = [&](const char *key, double value, double sd) {
@@ -246,7 +247,8 @@ void hand_out(const std::string &folder, const std::string &id, const Round &rou
   std::string text =
       fmt::format("# means of {} samples, each as large as a simulated cell; the "
                   "diameter is that of all together\n[experiment]\nname = \"case "
-                  "{}\"\nelectrode = \"electrode.toml\"\nsample_diameter_mm = {:.6g}\n",
+                  "{}\"\nelectrode = \"electrode.toml\"\nmeasured_on = \"simulation\"\n"
+                  "sample_diameter_mm = {:.6g}\n",
                   round.samples, id, 1e-3 * diameter);
   if (const auto &p = round.bank.pressures; p.size() > 1)
     text += fmt::format("split = {{ train = [\"p{:g}\"], test = [\"p{:g}\"] }}\n",

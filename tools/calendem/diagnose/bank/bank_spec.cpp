@@ -145,6 +145,17 @@ public:
       }
   }
 
+  Numerics read_numerics(const toml::node &node) {
+    const toml::table *t = node.as_table();
+    if (!t) {
+      mistakes_.add(line_of(node), "write an error of the runs as a table: [[numerics]].");
+      return {};
+    }
+    tell_unknown(*t, {"name", "porosity_points"});
+    return {text(*t, {"name", "", "", 0, 0, "", "of the error", "", true}),
+            number(*t, {"porosity_points", "", "", 0, 20, "%", "of the porosity under pressure"})};
+  }
+
 private:
   void read_effects(const toml::table &t, BankSpec &out) {
     out.effects = texts(t, "effects");
@@ -186,6 +197,9 @@ BankSpec read_bank_spec(const std::string &file) {
     else if (key.str() == "parameter" && node.is_array())
       for (const toml::node &parameter : *node.as_array())
         out.parameters.push_back(reader.read_parameter(parameter));
+    else if (key.str() == "numerics" && node.is_array())
+      for (const toml::node &numerics : *node.as_array())
+        out.numerics.push_back(reader.read_numerics(numerics));
     else if (key.str() == "measurement" && node.is_array())
       for (const toml::node &measurement : *node.as_array())
         reader.read_price(measurement, out.prices);
@@ -193,7 +207,7 @@ BankSpec read_bank_spec(const std::string &file) {
              (key.str() != "effect" || !node.is_array()))
       mistakes.add(line_of(node),
                    fmt::format("unknown '{}'; a bank has tables [bank], [full_cell], "
-                               "[[parameter]], [[effect]] and [[measurement]].",
+                               "[[parameter]], [[effect]], [[measurement]] and [[numerics]].",
                                key.str()));
   }
   if (const toml::array *ranges = parsed.root["effect"].as_array())

@@ -29,6 +29,9 @@
 //   name = "cracked_bodies"          # of usual_prices()
 //   hours = 8                        # of work for one sample
 //   sd = 0.05                        # of the result
+//   [[numerics]]                     # optional: an error of the bank's runs, of known size
+//   name = "speed"
+//   porosity_points = 1.0            # of the porosity under pressure (standard deviation)
 #ifndef CALENDEM_DIAGNOSE_BANK_BANK_SPEC_H
 #define CALENDEM_DIAGNOSE_BANK_BANK_SPEC_H
 
@@ -68,6 +71,12 @@ struct FullCell {
   int points = 0; ///< 0: none
 };
 
+/// An error that all of the bank's runs share: too fast, too small a cell, too coarse.
+struct Numerics {
+  std::string name;
+  double porosity_points = 0.0; ///< standard deviation [%]
+};
+
 struct BankSpec {
   std::string file, name, recipe_file, case_file;
   std::vector<double> pressures; ///< MPa, increasing
@@ -79,6 +88,7 @@ struct BankSpec {
   std::map<std::string, int> points;                       ///< of effects, where not effect_points
   FullCell full_cell;
   std::vector<MeasurementPrice> prices = usual_prices();
+  std::vector<Numerics> numerics;
 };
 
 /// Throws Failure(2) with every mistake of the file. Recipe and case are read when runs are made.

@@ -14,9 +14,12 @@ constexpr double kSameTarget = 0.02;
 // Of the maximum pressure; the release is compared at the same, less the first: there the film
 // parts from the platen, and how it does is the press's affair too.
 constexpr double kCurveShares[] = {0.1, 0.25, 0.5, 0.75};
+constexpr double kStandsOut = 6.0;    // of the usual distance from neighbours
+constexpr double kSmallJump = 0.01;   // of the largest value: never less than that
 constexpr double kRowsApart = 0.0199; // of the largest pressure: rows a fiftieth apart all count
 
 double none(const SimulatedRun &) { return 0.0; }
+double percent(const SimulatedRun &) { return 100.0; }
 
 /// h/h_solid: free of the samples' different loadings. `of`: the run's thickness.
 Observable thickness_ratio(const Experiment &e, const Measured &thickness, const Measured &loading,
@@ -30,7 +33,10 @@ Observable thickness_ratio(const Experiment &e, const Measured &thickness, const
   o.sd = ratio * thickness.sd / h;
   o.by_loading = -ratio * loading.sd / loading.value;
   o.simulated = [of](const SimulatedRun &r) { return r.*of / r.solid_column; };
-  o.slope = [of](const SimulatedRun &r) { // of 1/(1 - porosity)
+  o.per_porosity = [of](const SimulatedRun &r) { // of 1/(1 - porosity)
+    return std::pow(r.*of / r.solid_column, 2);
+  };
+  o.slope = [of](const SimulatedRun &r) {
     return r.porosity_slope * std::pow(r.*of / r.solid_column, 2);
   };
   return o;
@@ -55,15 +61,20 @@ void add_thickness(const Experiment &e, const Condition &c, const Measured &thic
   o.slope = [](const SimulatedRun &r) {
     return r.porosity_slope * r.thickness_after / (1.0 - r.porosity_after);
   };
+  o.per_porosity = [](const SimulatedRun &r) {
+    return r.thickness_after / (1.0 - r.porosity_after);
+  };
   out.push_back(o);
   not_said.push_back(without_loading(c, "thickness is"));
 }
 
 void porosity_before(const Condition &c, std::vector<Observable> &out) {
-  if (c.porosity_before_percent)
-    out.push_back({"total porosity before", kBefore, "%", c.porosity_before_percent->value,
-                   c.porosity_before_percent->sd,
-                   [](const SimulatedRun &r) { return 100.0 * r.porosity_initial; }, none});
+  if (!c.porosity_before_percent)
+    return;
+  out.push_back({"total porosity before", kBefore, "%", c.porosity_before_percent->value,
+                 c.porosity_before_percent->sd,
+                 [](const SimulatedRun &r) { return 100.0 * r.porosity_initial; }, none});
+  out.back().per_initial_porosity = percent;
 }
 
 void porosity_after(const Experiment &e, const Condition &c, std::vector<Observable> &out,
@@ -87,6 +98,7 @@ void porosity_after(const Experiment &e, const Condition &c, std::vector<Observa
                   c.porosity_after_percent->sd,
                   [](const SimulatedRun &r) { return 100.0 * r.porosity_after; },
                   [](const SimulatedRun &r) { return 100.0 * r.porosity_slope; }};
+  o.per_porosity = percent;
   out.push_back(o);
   if (ratio)
     not_said.push_back(fmt::format(
@@ -114,6 +126,9 @@ void under_load(const Experiment &e, const Condition &c, std::vector<Observable>
                    [](const SimulatedRun &r) {
                      return r.porosity_slope * r.thickness_at_max / (1.0 - r.porosity_at_max);
                    }});
+    out.back().per_porosity = [](const SimulatedRun &r) {
+      return r.thickness_at_max / (1.0 - r.porosity_at_max);
+    };
     not_said.push_back(without_loading(c, "thickness is"));
   }
   if (c.cracked_bodies_fraction)
@@ -129,7 +144,33 @@ struct MeasuredBranch {
 
 struct MeasuredCurve {
   MeasuredBranch loading, release; ///< up to the highest, down to the lowest pressure so far
+  int left_out = 0;                ///< rows that stand out
 };
+
+double median(std::vector<double> v) {
+  std::nth_element(v.begin(), v.begin() + long(v.size() / 2), v.end());
+  return v[v.size() / 2];
+}
+
+/// True for values far off the median of themselves and their two neighbours on either side
+/// (Hampel): the rows of a press rise and fall, however steeply; single ones do not jump.
+std::vector<bool> standing_out(const std::vector<double> &v) {
+  std::vector<bool> out(v.size(), false);
+  std::vector<double> off(v.size(), 0.0), size;
+  double largest = 0.0;
+  for (const double x : v)
+    largest = std::max(largest, std::fabs(x));
+  for (std::size_t k = 2; k + 2 < v.size(); ++k) {
+    off[k] = std::fabs(v[k] - median({v[k - 2], v[k - 1], v[k], v[k + 1], v[k + 2]}));
+    size.push_back(off[k]);
+  }
+  if (size.empty())
+    return out;
+  const double usual = std::max(1.4826 * median(size), kSmallJump * largest);
+  for (std::size_t k = 0; k < v.size(); ++k)
+    out[k] = off[k] > kStandsOut * usual;
+  return out;
+}
 
 MeasuredCurve read_curve(const std::string &file) {
   std::ifstream in(file);
@@ -137,14 +178,23 @@ MeasuredCurve read_curve(const std::string &file) {
       CsvTable::parse({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
   const auto d = table.numbers("displacement_um"), p = table.numbers("pressure_MPa");
   const auto stage = table.texts("stage");
+  const std::vector<bool> of_d = standing_out(d), of_p = standing_out(p);
   MeasuredCurve out;
   for (std::size_t k = 0; k < p.size(); ++k)
-    if (stage.empty() || stage[k] == "loading" || stage[k] == "compression")
+    out.left_out += of_d[k] || of_p[k];
+  for (std::size_t k = 0; k < p.size(); ++k)
+    if (!of_d[k] && !of_p[k] &&
+        (stage.empty() || stage[k] == "loading" || stage[k] == "compression"))
       out.loading.add(p[k], d[k]);
   for (std::size_t k = stage.size(); k-- > 0;)
-    if (stage[k] == "unloading" || stage[k] == "relaxation")
+    if (!of_d[k] && !of_p[k] && (stage[k] == "unloading" || stage[k] == "relaxation"))
       out.release.add(p[k], d[k]);
   return out;
+}
+
+/// How far along the curve: half of it is loading.
+double along(double share, Branch branch) {
+  return 0.5 * (branch == Branch::Release ? 2.0 - share : share);
 }
 
 /// Displacement at shares of the curve's largest pressure, over the solid thickness where the
@@ -154,6 +204,10 @@ void along_curve(const Experiment &e, const Condition &c, std::vector<Observable
   if (c.curve.empty())
     return;
   const MeasuredCurve curve = read_curve(c.curve);
+  if (curve.left_out > 0)
+    not_said.push_back(fmt::format("{}: {} rows of its curve jump away from their neighbours and "
+                                   "are left out.",
+                                   c.id, curve.left_out));
   const std::optional<Measured> loading = loading_of(e, c);
   const double solid = loading ? solid_thickness_um(e, loading->value) : 1.0;
   if (!loading)
@@ -164,6 +218,7 @@ void along_curve(const Experiment &e, const Condition &c, std::vector<Observable
       o.measured = displacement_at(measured.pressure, measured.displacement, o.pressure) / solid;
       o.sd = c.curve_sd_um / solid;
       o.by_loading = loading ? -o.measured * loading->sd / loading->value : 0.0;
+      o.by_drift = c.curve_drift_um / solid * along(o.coordinate, branch);
       if (branch == Branch::Loading || std::isfinite(o.measured))
         out.push_back(o);
     }
@@ -207,6 +262,16 @@ std::vector<Observable> points_of_curve(const Experiment &e, const Condition &c,
     return -r.porosity_slope * r.thickness_at_max / (1.0 - r.porosity_at_max) /
            (over_solid ? r.solid_column : 1.0);
   };
+  // what is more porous under a pressure moves less, by its thickness there; before it, more
+  const auto per_porosity = [of_run, over_solid](const SimulatedRun &r, double p) {
+    const double solid = over_solid ? 1.0 : r.solid_column;
+    const double over = over_solid ? r.solid_column : 1.0;
+    const double h = (r.thickness_at_max + r.displacement.back()) / over - of_run(r, p);
+    return -h * h / solid;
+  };
+  const auto per_initial = [over_solid](const SimulatedRun &r) {
+    return std::pow(1.0 - r.porosity_initial, -2) * (over_solid ? 1.0 : r.solid_column);
+  };
   // a calibration error is a share of each pressure, not of the largest
   const double sd = c.max_pressure_MPa ? c.max_pressure_MPa->sd : 0.0;
   const double relative = sd > 0.0 ? sd / c.max_pressure_MPa->value : 0.0;
@@ -223,6 +288,8 @@ std::vector<Observable> points_of_curve(const Experiment &e, const Condition &c,
     o.stage = released ? "relaxation" : "compression";
     o.unit = over_solid ? "" : "um";
     o.simulated = [of_run, at](const SimulatedRun &r) { return of_run(r, at); };
+    o.per_porosity = [per_porosity, at](const SimulatedRun &r) { return per_porosity(r, at); };
+    o.per_initial_porosity = per_initial;
     o.slope = [of_run, of_release, released, at, relative, sd](const SimulatedRun &r) {
       if (released)
         return of_release(r);

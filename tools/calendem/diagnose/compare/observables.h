@@ -9,6 +9,9 @@
 
 namespace calendem {
 
+/// Change of a simulated value.
+using Derivative = std::function<double(const SimulatedRun &)>;
+
 /// What both have, before statistics.
 struct Observable {
   std::string name, stage, unit;
@@ -24,6 +27,11 @@ struct Observable {
   double by_loading = 0.0;
   /// Why a run has no value; empty function: it needs no reason.
   std::function<std::string(const SimulatedRun &)> why_none = {};
+  /// Change of the simulated value per unit of porosity under pressure, and of that before it: the
+  /// solid stays. Empty: none.
+  Derivative per_porosity = {}, per_initial_porosity = {};
+  /// Change by one standard deviation of the instrument's drift: the same in all of a curve.
+  double by_drift = 0.0;
 };
 
 /// Stage of what is seen of a sample that is not pressed yet: of its recipe, not of the model.

@@ -11,6 +11,9 @@ namespace {
 constexpr double kCredible = 0.95;
 constexpr double kCounts = 0.01; // probability of a hypothesis that bears on the claim
 constexpr double kFewest = 30.0; // effective samples of its evidence
+// Of the unknown's prior, what is known by nothing but that no prediction fits: the p of the best is
+// then distributed as p^kMisfit.
+constexpr double kByMisfit = 0.25, kMisfit = 0.1;
 
 double weight_of(const Priors &priors, const std::string &name) {
   const auto at = priors.weight.find(name);
@@ -43,18 +46,6 @@ void sort_by_probability(std::vector<Judged> &judged) {
                    [](const Judged &a, const Judged &b) { return a.probability > b.probability; });
 }
 
-void set_probabilities(std::vector<Judged> &judged) {
-  double top = -INFINITY, sum = 0.0;
-  for (const Judged &j : judged)
-    if (j.hypothesis.prior > 0.0)
-      top = std::max(top, j.evidence.log_evidence);
-  for (Judged &j : judged)
-    sum += j.probability = j.hypothesis.prior * std::exp(j.evidence.log_evidence - top);
-  for (Judged &j : judged)
-    j.probability /= sum;
-  sort_by_probability(judged);
-}
-
 bool predicts(const Hypothesis &h) {
   return h.kind == Hypothesis::none || h.kind == Hypothesis::effects;
 }
@@ -67,17 +58,40 @@ double most_adequate(const std::vector<Judged> &judged) {
   return most;
 }
 
-/// What no prediction fits is unknown: its probability is that of all predictions too.
-void give_to_unknown(std::vector<Judged> &judged) {
-  double given = 0.0;
-  for (Judged &j : judged)
+/// Density of the best p where nothing known acts, over 1, that where something does.
+double density_of_p(double p) { return kMisfit * std::pow(std::max(p, 1e-300), kMisfit - 1.0); }
+
+/// What no prediction fits speaks for the unknown as much as its p is unlikely otherwise.
+void add_misfit(std::vector<Judged> &judged) {
+  double prior = 0.0, known = 0.0;
+  for (const Judged &j : judged)
     if (predicts(j.hypothesis)) {
-      given += j.probability;
-      j.probability = 0.0;
+      prior += j.hypothesis.prior;
+      known += j.probability;
     }
+  if (!(prior > 0.0))
+    return;
+  const double odds = density_of_p(most_adequate(judged)) * known / prior;
   for (Judged &j : judged)
-    if (j.hypothesis.kind == Hypothesis::unknown)
-      j.probability += given;
+    if (j.hypothesis.kind == Hypothesis::unknown) {
+      const double by_misfit = kByMisfit * j.hypothesis.prior * odds;
+      j.probability = (1.0 - kByMisfit) * j.probability + by_misfit;
+      j.by_misfit = j.probability > 0.0 ? by_misfit / j.probability : 0.0;
+    }
+}
+
+void set_probabilities(std::vector<Judged> &judged) {
+  double top = -INFINITY, sum = 0.0;
+  for (const Judged &j : judged)
+    if (j.hypothesis.prior > 0.0)
+      top = std::max(top, j.evidence.log_evidence);
+  for (Judged &j : judged)
+    j.probability = j.hypothesis.prior * std::exp(j.evidence.log_evidence - top);
+  add_misfit(judged);
+  for (const Judged &j : judged)
+    sum += j.probability;
+  for (Judged &j : judged)
+    j.probability /= sum;
   sort_by_probability(judged);
 }
 
@@ -107,89 +121,146 @@ std::string told_alike(const Which &w, const std::string &name) {
   return "";
 }
 
+bool includes(const Hypothesis &h, const std::vector<int> &effects) {
+  return h.kind == Hypothesis::effects && std::all_of(effects.begin(), effects.end(), [&](int e) {
+           return std::find(h.on.begin(), h.on.end(), e) != h.on.end();
+         });
+}
+
+/// What could be claimed.
+struct Lead {
+  std::string name;
+  double probability = 0.0;     ///< that it acts, alone or with something else
+  const Judged *best = nullptr; ///< the most probable hypothesis in which it does
+};
+
+Lead lead_of(const Which &w, const std::vector<int> &effects) {
+  Lead lead;
+  for (const Judged &j : w.judged)
+    if (includes(j.hypothesis, effects)) {
+      lead.probability += j.probability;
+      if (!lead.best)
+        lead.best = &j;
+    }
+  for (const Judged &j : w.judged)
+    if (j.hypothesis.on == effects && includes(j.hypothesis, effects))
+      lead.name = j.hypothesis.name;
+  return lead;
+}
+
+/// The effects that act whatever acts with them, or the most probable hypothesis.
+Lead leading(const Which &w, double enough) {
+  std::vector<int> sure;
+  Lead most;
+  for (const Judged &j : w.judged)
+    if (j.hypothesis.single()) {
+      const Lead one = lead_of(w, j.hypothesis.on);
+      if (one.probability >= enough)
+        sure.push_back(j.hypothesis.on[0]);
+      if (one.probability > most.probability)
+        most = one;
+    }
+  std::sort(sure.begin(), sure.end());
+  const Lead all = sure.empty() ? Lead{} : lead_of(w, sure);
+  if (all.best && all.probability >= enough)
+    return all;
+  if (!sure.empty())
+    return most;
+  const Judged &best = w.judged.front();
+  return {best.hypothesis.name, best.probability, &best};
+}
+
+/// Why what leads may not be claimed; empty: it may.
+std::string objection(const Which &w, const Lead &lead, const WhichSettings &settings) {
+  if (lead.probability < settings.claim_probability)
+    return fmt::format("The most probable, {}, has {:.3g}; a claim needs {:g}.{}", lead.name,
+                       lead.probability, settings.claim_probability, told_alike(w, lead.name));
+  if (const Judged *few = unsettled(w.judged))
+    return fmt::format("The evidence of {} rests on {:.0f} samples that count; at least {:g} are "
+                       "asked for.",
+                       few->hypothesis.name, few->evidence.effective_samples, kFewest);
+  if (lead.best->hypothesis.kind == Hypothesis::noise && !settings.noise_seen)
+    return fmt::format("Understated errors are the most probable ({:.3g}), but single measurements "
+                       "cannot distinguish them from an unknown effect: give a curve with its "
+                       "release.",
+                       lead.probability);
+  if (!predicts(lead.best->hypothesis))
+    return "";
+  if (lead.best->adequacy_p < settings.adequacy)
+    return fmt::format("{} is the most probable, but does not fit (p = {:.2g}).", lead.name,
+                       lead.best->adequacy_p);
+  if (rests_on_poor(lead.name, settings.poor))
+    return fmt::format("{} is the most probable, but its emulators are too poor: more runs.",
+                       lead.name);
+  return "";
+}
+
+std::string reason(const Which &w, const Lead &lead) {
+  const Hypothesis &h = lead.best->hypothesis;
+  if (h.kind == Hypothesis::noise)
+    return fmt::format("The errors of the measurement are understated, with probability {:.3g}.",
+                       lead.probability);
+  if (h.kind == Hypothesis::unknown)
+    return fmt::format("Probability {:.3g}; the best of what is known fits with p = {:.2g}.",
+                       lead.probability, most_adequate(w.judged));
+  const double alone = w.of(lead.name).probability;
+  if (lead.probability - alone < kCounts)
+    return fmt::format("Probability {:.3g}, adequacy p = {:.2g}.", lead.probability,
+                       lead.best->adequacy_p);
+  return fmt::format("Probability {:.3g}: {:.3g} alone, the rest together with something else. "
+                     "Adequacy p = {:.2g}.",
+                     lead.probability, alone, lead.best->adequacy_p);
+}
+
+/// Nothing leads but none, and it has what it lacks with effects that are too small to be seen.
+bool nothing_to_be_seen(const Which &w, const WhichSettings &settings) {
+  const Judged &best = w.judged.front();
+  return best.hypothesis.kind == Hypothesis::none && best.adequacy_p >= settings.adequacy &&
+         w.none_to_be_seen >= settings.claim_probability && !unsettled(w.judged) &&
+         !rests_on_poor("none", settings.poor);
+}
+
 /// Claim and its reason; hypotheses are sorted.
 void claim(Which &w, const WhichSettings &settings) {
-  const Judged &best = w.judged.front();
-  const double adequate = most_adequate(w.judged);
   w.adequacy_p = 0.0;
   for (auto j = w.judged.rbegin(); j != w.judged.rend(); ++j)
     if (predicts(j->hypothesis))
       w.adequacy_p = j->adequacy_p; // of the first
   w.none_to_be_seen = 0.0;
   for (const Judged &j : w.judged)
-    w.none_to_be_seen += j.probability * j.below_limits;
-  const std::string &name = best.hypothesis.name;
-  const Judged *few = unsettled(w.judged);
-  w.claim = "undecided";
-  if (best.hypothesis.kind == Hypothesis::noise && !few && !settings.noise_seen &&
-      best.probability >= settings.claim_probability) {
-    w.why = fmt::format(
-        "Understated errors are the most probable ({:.3g}), but single "
-        "measurements cannot distinguish them from an unknown effect: give a curve with "
-        "its release.",
-        best.probability);
-  } else if (best.hypothesis.kind == Hypothesis::noise && !few &&
-             best.probability >= settings.claim_probability) {
-    w.claim = name;
-    w.why = fmt::format("The errors of the measurement are understated, with probability {:.3g}.",
-                        best.probability);
-  } else if (adequate < settings.nothing_fits && best.hypothesis.kind == Hypothesis::unknown &&
-             best.probability >= settings.claim_probability) {
-    w.claim = name;
-    w.why = fmt::format("No hypothesis fits: the best has p = {:.2g}, at least {:g} is asked for.",
-                        adequate, settings.nothing_fits);
-  } else if (best.probability < settings.claim_probability &&
-             best.hypothesis.kind == Hypothesis::none && !few &&
-             best.adequacy_p >= settings.adequacy &&
-             w.none_to_be_seen >= settings.claim_probability &&
-             !rests_on_poor(name, settings.poor)) {
-    w.claim = name;
+    w.none_to_be_seen += j.probability * (1.0 - j.by_misfit) * j.below_limits;
+  const Lead lead = leading(w, settings.claim_probability);
+  const std::string against = objection(w, lead, settings);
+  w.claim = against.empty() ? lead.name : "undecided";
+  w.why = against.empty() ? reason(w, lead) : against;
+  if (!against.empty() && nothing_to_be_seen(w, settings)) {
+    w.claim = "none";
     w.why = fmt::format("None has probability {:.3g}; together with effects too small to be seen "
                         "on these data it is {:.3g}.",
-                        best.probability, w.none_to_be_seen);
-  } else if (best.probability < settings.claim_probability) {
-    w.why = fmt::format("The most probable, {}, has {:.3g}; a claim needs {:g}.{}", name,
-                        best.probability, settings.claim_probability, told_alike(w, name));
-  } else if (few) {
-    w.why = fmt::format("The evidence of {} rests on {:.0f} samples that count; at least {:g} are "
-                        "asked for.",
-                        few->hypothesis.name, few->evidence.effective_samples, kFewest);
-  } else if (best.adequacy_p < settings.adequacy) {
-    w.why = fmt::format("{} is the most probable, but does not fit (p = {:.2g}).", name,
-                        best.adequacy_p);
-  } else if (rests_on_poor(name, settings.poor)) {
-    w.why =
-        fmt::format("{} is the most probable, but its emulators are too poor: more runs.", name);
-  } else {
-    w.claim = name;
-    w.why =
-        fmt::format("Probability {:.3g}, adequacy p = {:.2g}.", best.probability, best.adequacy_p);
+                        w.judged.front().probability, w.none_to_be_seen);
   }
 }
 
-void set_lists(Which &w) {
+void set_inclusion(Which &w) {
+  w.inclusion.clear();
+  for (const Judged &j : w.judged)
+    if (j.hypothesis.single())
+      w.inclusion[j.hypothesis.name] = lead_of(w, j.hypothesis.on).probability;
+}
+
+void set_credible(Which &w) {
   double sum = 0.0;
   w.set95.clear();
-  w.inclusion.clear();
   for (const Judged &j : w.judged) {
     if (sum < kCredible)
       w.set95.push_back(j.hypothesis.name);
     sum += j.probability;
-    if (j.hypothesis.kind != Hypothesis::effects)
-      continue;
-    for (const Judged &single : w.judged)
-      if (single.hypothesis.single())
-        for (const int e : j.hypothesis.on)
-          if (e == single.hypothesis.on[0])
-            w.inclusion[single.hypothesis.name] += j.probability;
   }
 }
 
 void once(Which &w, const WhichSettings &settings, int effects) {
   set_priors(w.judged, settings.priors, effects);
   set_probabilities(w.judged);
-  if (most_adequate(w.judged) < settings.nothing_fits)
-    give_to_unknown(w.judged);
   claim(w, settings);
 }
 
@@ -217,7 +288,8 @@ void decide(Which &w, const WhichSettings &settings, int effects) {
     w.sensitivity.push_back({c.what, w.claim, w.judged.front().probability});
   }
   once(w, settings, effects);
-  set_lists(w);
+  set_inclusion(w);
+  set_credible(w);
 }
 
 namespace {

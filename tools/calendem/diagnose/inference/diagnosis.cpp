@@ -2,6 +2,7 @@
 #include "diagnose/inference/diagnosis.h"
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace calendem::inference {
 
@@ -50,6 +51,19 @@ std::vector<FittedEffect> effects_of(const Bank &bank, const Judged &best) {
   return list;
 }
 
+/// What can be seen at some place is not nothing, though every explanation of it may be.
+void heed_where(const Where &where, double claim_probability, Which &which) {
+  const bool seen = std::any_of(where.rows.begin(), where.rows.end(),
+                                [](const WhereRow &row) { return row.significant; });
+  const double none = which.of("none").probability;
+  if (which.claim != "none" || !seen || none >= claim_probability)
+    return;
+  which.claim = "undecided";
+  which.why = fmt::format("A difference is significant, but each effect that would explain it is "
+                          "too small to be told from none, which has {:.3g}; a claim needs {:g}.",
+                          none, claim_probability);
+}
+
 } // namespace
 
 Discrimination discriminate(const Model &model, const Problem &problem,
@@ -71,20 +85,30 @@ Discrimination discriminate(const Model &model, const Problem &problem,
 
 Diagnosis diagnose(const Model &model, const Bank &bank, const Vector &values,
                    const DiagnosisSettings &settings, const std::vector<PointNoise> &point_noise) {
-  Diagnosis d;
   Problem problem = model.problem(values);
   problem.point_noise = point_noise;
+  Diagnosis d = diagnose(model, problem, bank, values, settings);
+  d.next = next_measurements(d.which, model.extensions(values), settings.next);
+  return d;
+}
+
+Diagnosis diagnose(const Model &model, const Problem &problem, const Bank &bank,
+                   const Vector &values, const DiagnosisSettings &settings) {
+  Diagnosis d;
   d.blocks = problem.blocks;
   Discrimination t = discriminate(model, problem, settings);
   d.which = std::move(t.which);
   d.confounding = std::move(t.confounding);
   d.where = where(problem, d.which.base, settings.where);
+  heed_where(d.where, settings.which.claim_probability, d.which);
   d.residual = residuals_of(model, values, d.which.base.mean.head(model.map().emulated()));
   for (WhereRow &row : d.where.rows)
     row.z = std::copysign(row.z, d.residual[row.block].residual);
-  d.next = next_measurements(d.which, model.extensions(values), settings.next);
   d.parameters = parameters_of(bank.base, d.which.judged.front());
   d.effects = effects_of(bank, best_predicting(d.which));
+  d.ranges = effect_ranges(problem, d.which);
+  d.parameters_of_all = parameter_ranges(bank.base, d.which);
+  d.groups = effect_groups(d.which, d.confounding);
   d.predictions = predictions(model, problem, d.which, values);
   d.emulators = model.quality();
   d.degrees_of_freedom = model.scatter().degrees_of_freedom;

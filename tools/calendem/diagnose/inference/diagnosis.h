@@ -3,6 +3,7 @@
 #ifndef CALENDEM_DIAGNOSE_INFERENCE_DIAGNOSIS_H
 #define CALENDEM_DIAGNOSE_INFERENCE_DIAGNOSIS_H
 
+#include "diagnose/inference/averaged.h"
 #include "diagnose/inference/confounding.h"
 #include "diagnose/inference/model.h"
 #include "diagnose/inference/where.h"
@@ -66,6 +67,9 @@ struct Diagnosis {
   std::vector<NextMeasurement> next;
   std::vector<Recalibrated> parameters; ///< of the base model, under the most probable hypothesis
   std::vector<FittedEffect> effects;
+  std::vector<EffectRange> ranges;               ///< of all effects, over all hypotheses
+  std::vector<ParameterRange> parameters_of_all; ///< the same of the base model's parameters
+  std::vector<EffectGroup> groups;
   Predictions predictions;
   std::vector<EmulatorQuality> emulators;
   double degrees_of_freedom = 0.0, shrinkage = 0.0; ///< of the scatter between packings
@@ -85,6 +89,10 @@ Discrimination discriminate(const Model &model, const Problem &problem,
 Diagnosis diagnose(const Model &model, const Bank &bank, const Vector &values,
                    const DiagnosisSettings &settings,
                    const std::vector<PointNoise> &point_noise = {});
+
+/// Of a problem that the model's predictions are part of only; no next measurements.
+Diagnosis diagnose(const Model &model, const Problem &problem, const Bank &bank,
+                   const Vector &values, const DiagnosisSettings &settings);
 
 /// gap.json but for units, words and "shrink".
 nlohmann::ordered_json to_json(const Diagnosis &diagnosis, const std::string &experiment);

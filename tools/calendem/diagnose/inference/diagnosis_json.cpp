@@ -30,9 +30,55 @@ Json evidence_of(const Judged &j) {
               {"effective_samples", j.evidence.effective_samples},
               {"adequacy_p", j.adequacy_p},
               {"place", j.place}};
-  if (!j.of_place.empty())
+  if (!j.of_place.empty()) {
     out["places"] = j.of_place;
+    out["by_misfit"] = j.by_misfit;
+  }
   return out;
+}
+
+Json effects_of(const Diagnosis &d) {
+  Json rows = Json::array();
+  for (const EffectRange &r : d.ranges)
+    rows.push_back({{"effect", r.effect},
+                    {"inclusion", r.inclusion},
+                    {"amplitude", r.amplitude.median},
+                    {"low95", r.amplitude.low},
+                    {"high95", r.amplitude.high},
+                    {"below95", r.below95},
+                    {"two_sided", r.two_sided},
+                    {"limited", r.limited}});
+  return rows;
+}
+
+Json groups_of(const Diagnosis &d) {
+  Json rows = Json::array();
+  for (const EffectGroup &g : d.groups)
+    rows.push_back({{"effects", g.effects},
+                    {"with_none", g.with_none},
+                    {"probability", g.probability},
+                    {"acts_like", g.acts_like}});
+  return rows;
+}
+
+Json parameters_of(const Diagnosis &d) {
+  Json rows = Json::array();
+  for (std::size_t k = 0; k < d.parameters.size(); ++k) {
+    const Recalibrated &p = d.parameters[k];
+    const ParameterRange &r = d.parameters_of_all[k];
+    rows.push_back({{"parameter", p.parameter},
+                    {"mode", p.mode},
+                    {"low90", p.low90},
+                    {"high90", p.high90},
+                    {"low95", r.all.low},
+                    {"high95", r.all.high}});
+    if (!r.moved_by.empty())
+      rows.back()["moved_by"] = {{"effect", r.moved_by},
+                                 {"median", r.moved.median},
+                                 {"low95", r.moved.low},
+                                 {"high95", r.moved.high}};
+  }
+  return rows;
 }
 
 Json which_of(const Diagnosis &d) {
@@ -43,6 +89,8 @@ Json which_of(const Diagnosis &d) {
     out["evidence"].push_back(evidence_of(j));
   }
   out["inclusion"] = w.inclusion;
+  out["effects"] = effects_of(d);
+  out["groups"] = groups_of(d);
   out["set95"] = w.set95;
   out["indistinguishable"] = d.confounding.indistinguishable;
   out["next_measurement"] = {{"what", ""}, {"expected_probability", 0.0}};
@@ -146,9 +194,7 @@ Json to_json(const Diagnosis &d, const std::string &experiment) {
                              {"scores", std::vector<double>(s.scores.begin(), s.scores.end())},
                              {"sd", std::vector<double>(s.sd.begin(), s.sd.end())}});
   out["confounding"] = confounding_of(d);
-  for (const Recalibrated &p : d.parameters)
-    out["parameters"].push_back(
-        {{"parameter", p.parameter}, {"mode", p.mode}, {"low90", p.low90}, {"high90", p.high90}});
+  out["parameters"] = parameters_of(d);
   out["fitted_effects"] = Json::array();
   for (const FittedEffect &e : d.effects)
     out["fitted_effects"].push_back({{"effect", e.effect},

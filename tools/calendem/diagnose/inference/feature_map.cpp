@@ -95,6 +95,10 @@ Matrix FeatureMap::emulated_of(const Matrix &simulated) const {
 
 Vector FeatureMap::observables_of(const Vector &emulated) const { return mean_ + back_ * emulated; }
 
+Vector FeatureMap::variances_of(const Matrix &emulated) const {
+  return (back_ * emulated * back_.transpose()).diagonal();
+}
+
 Vector FeatureMap::features_of(const Vector &measured) const {
   Vector all(size());
   all.head(emulated()) = emulated_of(measured);

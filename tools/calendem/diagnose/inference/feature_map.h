@@ -61,6 +61,8 @@ public:
   const std::vector<Roughness> &roughness() const { return roughness_; }
   /// Observables that have these emulated features.
   Vector observables_of(const Vector &emulated) const;
+  /// Variances of the observables where emulated features have this covariance.
+  Vector variances_of(const Matrix &emulated) const;
 
 private:
   struct Truncation {

@@ -134,6 +134,12 @@ double Likelihood::square(const Vector &scores, Vector &gradient) const {
   return m.square;
 }
 
+double Likelihood::deviance(const Vector &scores, Vector &gradient) const {
+  const Misfit m = misfit(scores, bare(scores));
+  gradient = m.square_slopes + m.determinant_slopes;
+  return m.square + m.log_determinant;
+}
+
 Evidence evidence(const Likelihood &likelihood, const EvidenceSettings &settings) {
   return evidence(
       likelihood.dimension(), [&](const Vector &s) { return likelihood.log(s); }, settings,

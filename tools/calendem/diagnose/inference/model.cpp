@@ -31,6 +31,22 @@ Vector left_by_line(const Bank &bank, const Matrix &values) {
   return left.colwise().squaredNorm() / degrees;
 }
 
+/// Packings' scatter between features of different specimens is none, of a mean less.
+Matrix of_specimens(const Matrix &scatter, const FeatureMap &map, const Specimens &specimens) {
+  const auto of = [&](Eigen::Index feature) {
+    const int block = map.features()[std::size_t(feature)].block;
+    const auto at = specimens.find(map.blocks()[std::size_t(block)].condition);
+    return at == specimens.end() ? Specimen{} : at->second;
+  };
+  Matrix out = scatter;
+  for (Eigen::Index i = 0; i < out.rows(); ++i)
+    for (Eigen::Index j = 0; j < out.cols(); ++j) {
+      const Specimen a = of(i), b = of(j);
+      out(i, j) *= a.name == b.name ? 1.0 / std::sqrt(double(a.count) * b.count) : 0.0;
+    }
+  return out;
+}
+
 /// Emulators err between features as the runs lie off them.
 Matrix correlation_of_errors(const Matrix &residuals) {
   double weight = 0.0;
@@ -139,7 +155,8 @@ Problem Model::problem(const Vector &values) const {
   p.roughness = map_->roughness();
   p.measurement = map_->covariance(measurement_);
   p.scatter = Matrix::Zero(all, all);
-  p.scatter.topLeftCorner(n, n) = share * scatter_.covariance;
+  p.scatter.topLeftCorner(n, n) =
+      share * of_specimens(scatter_.covariance, *map_, settings_.specimens);
   p.correlation = Matrix::Identity(all, all);
   p.correlation.topLeftCorner(n, n) = correlation_;
   p.degrees_of_freedom = mixed_degrees(p.measurement, p.scatter, scatter_.degrees_of_freedom);

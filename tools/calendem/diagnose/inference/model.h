@@ -5,6 +5,7 @@
 
 #include "diagnose/inference/next_measurement.h"
 #include "diagnose/inference/scatter.h"
+#include <map>
 #include <memory>
 
 namespace calendem::inference {
@@ -19,6 +20,14 @@ struct Candidate {
   Matrix covariance; ///< of that measurement
 };
 
+/// The specimen of a condition, by its id, and of how many such it is the mean; none of its own
+/// name: the experiment's one. What packings scatter by is common to a specimen's conditions only.
+struct Specimen {
+  std::string name;
+  int count = 1;
+};
+using Specimens = std::map<std::string, Specimen>;
+
 struct ModelSettings {
   /// Simulated cells that the measured sample is as large as, or that the measured values are the
   /// mean of: the scatter between packings counts with its inverse. 1: one cell of the bank's size.
@@ -27,6 +36,7 @@ struct ModelSettings {
   double least_q2 = 0.5;
   /// ...and what it misses is more than this many standard deviations of the data.
   double largest_error = 1.0;
+  Specimens specimens;
 };
 
 /// How well emulators predict runs of packings they have not seen.

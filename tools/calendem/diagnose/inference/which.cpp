@@ -17,14 +17,15 @@ Judged judge(const Problem &problem, const Hypothesis &hypothesis, const Matrix 
   const Likelihood likelihood(problem, hypothesis, unknown);
   j.evidence = evidence(likelihood, settings.evidence);
   if (hypothesis.kind == Hypothesis::none || hypothesis.kind == Hypothesis::effects) {
-    const auto square = [&](const Vector &s, Vector &gradient) {
-      const double of_data = likelihood.square(s, gradient);
+    const auto deviance = [&](const Vector &s, Vector &gradient) {
+      const double of_data = likelihood.deviance(s, gradient);
       gradient += 2.0 * s;
       return of_data + s.squaredNorm();
     };
-    const Minimum least = minimise(square, j.evidence.mode);
-    j.adequacy_p =
-        chance_beyond(least.value, int(problem.observed.size()), problem.degrees_of_freedom);
+    const Vector best = minimise(deviance, j.evidence.mode).at;
+    Vector unused(best.size());
+    j.adequacy_p = chance_beyond(likelihood.square(best, unused) + best.squaredNorm(),
+                                 int(problem.observed.size()), problem.degrees_of_freedom);
   }
   return j;
 }

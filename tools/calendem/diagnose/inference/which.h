@@ -23,7 +23,6 @@ struct WhichSettings {
   int pair_seeds = 2; ///< best single effects that are joined with all others and unknown
   double claim_probability = 0.8; ///< a name is claimed from here on
   double adequacy = 0.05;         ///< and only with at least this p
-  double nothing_fits = 0.01;     ///< all predictions below: what explains the data is unknown
   /// Points of a curve show how large errors are; without them noise is not claimed: a single
   /// measurement cannot distinguish a large error from an unknown effect.
   bool noise_seen = true;
@@ -40,6 +39,8 @@ struct Judged {
   std::map<std::string, double> of_place; ///< of unknown: share of its posterior by place
   /// Share of its posterior in which all its effects are too small to be seen; 0: not known.
   double below_limits = 0.0;
+  /// Of unknown: share of its probability that rests on nothing known fitting the data.
+  double by_misfit = 0.0;
 };
 
 /// The claim, had the priors been others.
@@ -64,16 +65,18 @@ struct Which {
   const Judged &of(const std::string &name) const;
 };
 
-/// Adequacy: the least of (observed - predicted)^2 / covariance + scores^2 over all scores is
-/// chi-squared with as many degrees of freedom as features in the linear-Gaussian case, n F(n, nu)
-/// with an estimated covariance; p is the chance of more. Nothing is lost to recalibration because
-/// the priors count as data. Claim: see `why`; if no prediction is adequate all their
-/// probability is the unknown's.
+/// Adequacy: (observed - predicted)^2 / covariance + scores^2 at the scores where that and ln of the
+/// covariance's determinant are least is chi-squared with as many degrees of freedom as features in
+/// the linear-Gaussian case, n F(n, nu) with an estimated covariance; p is the chance of more.
+/// Without the determinant an amplitude whose emulators are uncertain would grow until anything
+/// fits. Nothing is lost to recalibration because the priors count as data. Claim: see `why`; effects by how probable it is that they act,
+/// alone or in pairs.
 /// The unknown acts like a known effect or pair, but for half of the signature's length (0.6 of its
 /// prior, shared as among the known); or sits everywhere (0.16), in one stage, one observable of
 /// it, one block or one truncation residual (0.16 in equal parts), or beside a known effect (0.08
 /// in equal parts for all effects, the best of which are computed). Its evidence is the mean over
-/// these.
+/// these (3/4), and (1/4) that of the known ones times 0.1 p^-0.9, p of the best that predicts:
+/// where something unknown acts that is how p is distributed, where not it is uniform.
 Which which(const Problem &problem, const WhichSettings &settings);
 
 /// The rule alone, on hypotheses that have evidence and adequacy: sets probabilities and sorts.
