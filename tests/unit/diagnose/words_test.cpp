@@ -66,9 +66,9 @@ TEST(ClaimInWords, EveryClaimSaysWhatItMeansAndWhatToDo) {
   expect_parts(alike, {"It acts most like friction, but friction does not fit."});
   expect_parts(claimed("undecided"),
                {"one of these",
-                "One of these: friction or thickness_zero, or something that acts so (53 %); none "
-                "of them (29 %); something that no model here has (2 %)",
-                "friction; none", "Measure: cracks of p30", "83 %", "50 %"});
+                "One of these: friction or thickness_zero, or something that acts so (53 %); ",
+                "; none of them (29 %); something that no model here has (2 %)", "friction; none",
+                "Measure: cracks of p30", "83 %", "50 %"});
 }
 
 // The base model never suffices: it only fits.

@@ -177,7 +177,7 @@ TEST(Decide, ClaimRuleAndPriors) {
     j.adequacy_p = p;
     return j;
   };
-  const auto decided = [&](double log_a, double p_a, double p_none, WhichSettings settings,
+  const auto decided = [&](double log_a, double p_a, double p_none, const WhichSettings &settings,
                            double samples = 200.0) {
     Which w;
     w.judged = {judged(Hypothesis::none, {}, "none", 0.0, p_none),
