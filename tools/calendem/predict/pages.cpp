@@ -21,30 +21,59 @@ using report::Mark;
 using report::Series;
 
 constexpr double kPercent = 100.0;
+constexpr std::size_t kMostFilms = 6; // in a chart
 
-/// The bands of one number as areas and a line, in percent.
-void add_bands(const std::string &name, const std::vector<double> &pressures,
-               const std::vector<Band> &bands, const std::string &colour, bool half, Chart &chart) {
-  Series wide, narrow, middle;
-  for (std::size_t k = 0; k < bands.size(); ++k) {
-    for (Series *s : {&wide, &narrow, &middle})
-      s->x.push_back(pressures[k]);
-    wide.base.push_back(kPercent * bands[k].low90);
-    wide.y.push_back(kPercent * bands[k].high90);
-    narrow.base.push_back(kPercent * bands[k].low50);
-    narrow.y.push_back(kPercent * bands[k].high50);
-    middle.y.push_back(kPercent * bands[k].median);
-  }
-  wide.name = name + ": 90 %";
-  narrow.name = name + ": 50 %";
-  middle.name = name;
-  wide.mark = narrow.mark = Mark::area;
-  wide.colour = narrow.colour = middle.colour = colour;
-  wide.hatch = report::Hatch::dots;
+/// The colour, mixed with white: `share` of it is left.
+std::string tint(const std::string &colour, double share) {
+  std::string out = "#";
+  for (std::size_t k = 1; k < 7; k += 2)
+    out += fmt::format("{:02x}",
+                       int(255.0 - share * (255 - std::stoi(colour.substr(k, 2), nullptr, 16))));
+  return out;
+}
+
+std::vector<double> in_percent(const std::vector<Band> &bands, double Band::*part) {
+  std::vector<double> out;
+  for (const Band &b : bands)
+    out.push_back(kPercent * b.*part);
+  return out;
+}
+
+Series line_of(const std::string &name, const std::vector<double> &x, const std::vector<double> &y,
+               const std::string &colour) {
+  Series s;
+  s.name = name;
+  s.x = x;
+  s.y = y;
+  s.colour = colour;
+  return s;
+}
+
+/// The bands of one number as areas and a line.
+void add_bands(const std::vector<double> &x, const std::vector<Band> &bands,
+               const std::string &colour, Chart &chart) {
+  Series wide = line_of("90 %", x, in_percent(bands, &Band::high90), tint(colour, 0.2)),
+         half = line_of("50 %", x, in_percent(bands, &Band::high50), tint(colour, 0.4));
+  wide.mark = half.mark = Mark::area;
+  wide.base = in_percent(bands, &Band::low90);
+  half.base = in_percent(bands, &Band::low50);
   chart.series.push_back(wide);
-  if (half)
-    chart.series.push_back(narrow);
+  chart.series.push_back(half);
+  chart.series.push_back(line_of("median", x, in_percent(bands, &Band::median), colour));
+}
+
+/// One of several: its median, and the ends of its 90 % dashed.
+void add_edges(const std::string &name, const std::vector<double> &x,
+               const std::vector<Band> &bands, std::size_t number, Chart &chart) {
+  const std::string colour = kSeriesColours[number % kSeriesColours.size()];
+  Series middle = line_of(name, x, in_percent(bands, &Band::median), colour);
+  middle.symbol = kSeriesSymbols[number % kSeriesSymbols.size()];
   chart.series.push_back(middle);
+  for (double Band::*edge : {&Band::low90, &Band::high90}) {
+    Series s = line_of("", x, in_percent(bands, edge), colour);
+    s.dash = "4 3";
+    chart.series.push_back(s);
+  }
 }
 
 Chart chart_of(const std::string &id, const std::string &title, const std::string &y) {
@@ -152,7 +181,7 @@ std::string model_page(const FilmBank &bank, const Calibration &c, const Json &m
     const PredictedFilm p = predicted(bank, c, c.films[k], pressures, 0.0);
     Chart chart =
         chart_of(fmt::format("film{}", k), c.films[k].name, "Total porosity after release (%)");
-    add_bands("calibrated", pressures, p.after, kSeriesColours[0], true, chart);
+    add_bands(pressures, p.after, kSeriesColours[0], chart);
     chart.series.push_back(points_of(c, int(k), kSeriesColours[5]));
     page.charts.push_back(chart);
   }
@@ -242,16 +271,18 @@ std::string prediction_page(const Calibration &c, const std::vector<PredictedFil
   report::Page page{kPredictionHtml, json_of};
   for (const Number &n : numbers()) {
     Chart chart = chart_of(n.name, n.title, n.title);
-    for (std::size_t k = 0; k < films.size() && k < kSeriesColours.size(); ++k) {
-      add_bands(films[k].film.name, films[k].pressures, films[k].*n.bands, kSeriesColours[k],
-                films.size() == 1, chart);
-      for (std::size_t f = 0; f < c.films.size() && n.bands == &PredictedFilm::after; ++f)
-        if (c.films[f].recipe == films[k].film.recipe && c.films[f].name == films[k].film.name)
-          chart.series.push_back(points_of(c, int(f), kSeriesColours[k]));
-    }
-    if (films.size() > kSeriesColours.size())
-      chart.note = fmt::format("The first {} of {} films; the table has all.",
-                               kSeriesColours.size(), films.size());
+    if (films.size() == 1)
+      add_bands(films[0].pressures, films[0].*n.bands, kSeriesColours[0], chart);
+    for (std::size_t k = 0; k < films.size() && films.size() > 1 && k < kMostFilms; ++k)
+      add_edges(films[k].film.name, films[k].pressures, films[k].*n.bands, k, chart);
+    for (std::size_t f = 0; f < c.films.size() && n.bands == &PredictedFilm::after; ++f)
+      if (films.size() == 1 && c.films[f].name == films[0].film.name)
+        chart.series.push_back(points_of(c, int(f), kSeriesColours[5]));
+    if (films.size() > 1)
+      chart.note = "Dashed: the ends of the 90 % intervals.";
+    if (films.size() > kMostFilms)
+      chart.note +=
+          fmt::format(" The first {} of {} films; the table has all.", kMostFilms, films.size());
     page.charts.push_back(chart);
   }
   json rows = json::array();
@@ -269,7 +300,11 @@ std::string prediction_page(const Calibration &c, const std::vector<PredictedFil
   for (const PredictedFilm &f : films)
     for (const std::string &text : f.beyond)
       beyond.push_back(f.film.name + ": " + text);
-  page.values = {{"rows", rows}, {"beyond_rows", beyond}};
+  const bool cracks = std::any_of(c.data.begin(), c.data.end(),
+                                  [](const Datum &d) { return d.number == FilmNumber::Cracked; });
+  page.values = {{"rows", rows},
+                 {"beyond_rows", beyond},
+                 {"not_measured", cracks ? "Springback was" : "Springback and cracks were"}};
   return report::to_html(page);
 }
 
@@ -303,25 +338,24 @@ std::string design_page(const Target &t, const std::vector<Design> &designs, con
   Chart chance = chart_of("chance", "Probability of meeting the target", "Probability (%)"),
         pareto = chart_of("pareto", "What porosity costs", "Cracked particles (%)");
   pareto.x_label = "Total porosity after release (%)";
-  pareto.note = "Medians, along the pressure; error bars: half of the 90 % interval.";
+  pareto.note = "Along the pressure, from right to left: median of the porosity, and bands of the "
+                "cracked particles.";
   json rows = json::array();
   for (std::size_t k = 0; k < designs.size(); ++k) {
     const Design &d = designs[k];
-    Series p, c;
-    p.name = c.name = d.film.name;
-    p.colour = c.colour = kSeriesColours[k % kSeriesColours.size()];
-    p.symbol = c.symbol = kSeriesSymbols[k % kSeriesSymbols.size()];
-    for (std::size_t j = 0; j < d.chances.size(); ++j) {
-      p.x.push_back(d.chances[j].pressure);
-      p.y.push_back(kPercent * d.chances[j].both);
-      c.x.push_back(kPercent * d.predicted.after[j].median);
-      c.y.push_back(kPercent * d.predicted.cracked[j].median);
-      c.y_error.push_back(0.5 * kPercent *
-                          (d.predicted.cracked[j].high90 - d.predicted.cracked[j].low90));
+    std::vector<double> pressures, both;
+    for (const Chance &c : d.chances) {
+      pressures.push_back(c.pressure);
+      both.push_back(kPercent * c.both);
     }
-    chance.series.push_back(p);
-    c.mark = Mark::points;
-    pareto.series.push_back(c);
+    chance.series.push_back(
+        line_of(d.film.name, pressures, both, kSeriesColours[k % kSeriesColours.size()]));
+    chance.series.back().symbol = kSeriesSymbols[k % kSeriesSymbols.size()];
+    const std::vector<double> porosity = in_percent(d.predicted.after, &Band::median);
+    if (designs.size() == 1)
+      add_bands(porosity, d.predicted.cracked, kSeriesColours[0], pareto);
+    else
+      add_edges(d.film.name, porosity, d.predicted.cracked, k, pareto);
     const Band &after = d.predicted.after[d.best], &cracked = d.predicted.cracked[d.best];
     rows.push_back({{"film", d.film.name},
                     {"pressure", fmt::format("{:.0f}", d.chances[d.best].pressure)},
