@@ -27,6 +27,9 @@ inline double made_cracked(const std::vector<double> &p, double pressure) {
   return 1.0 - std::exp(-pressure / p[2]);
 }
 
+/// GPa.
+inline double made_modulus(const std::vector<double> &p) { return 0.01 * p[0]; }
+
 inline SimulatedRun made_coating(const BankPoint &point, double target) {
   Random packing(std::uint64_t(point.packing), 11);
   SimulatedRun r;
@@ -38,6 +41,12 @@ inline SimulatedRun made_coating(const BankPoint &point, double target) {
   r.porosity_at_max = 1.0 - (1.0 - r.porosity_after) * (1.0 + made_springback(point.base, target));
   r.cracked_fraction = made_cracked(point.base, target);
   r.solid_column = 12.0;
+  r.thickness_at_max = 12.0 / (1.0 - r.porosity_at_max);
+  for (const double share : {0.25, 0.5, 0.75, 0.95}) { // linear: a modulus of made_modulus
+    r.release_pressure.push_back(share * target);
+    r.release_displacement.push_back(10.0 - (1.0 - share) * target * 1e-3 /
+                                                made_modulus(point.base) * r.thickness_at_max);
+  }
   return r;
 }
 

@@ -31,6 +31,7 @@ TEST(Predicted, PorosityUnderLoadIsThatBeforeTheSpringback) {
     EXPECT_NEAR(p.after[k].median, after, 0.005);
     EXPECT_NEAR(p.under_load[k].median,
                 1.0 - (1.0 - after) * (1.0 + made_springback(all, p.pressures[k])), 0.008);
+    EXPECT_NEAR(p.modulus[k].median, made_modulus(all), 0.02);
     EXPECT_LT(p.after[k].low90, p.after[k].low50);
     EXPECT_LT(p.after[k].high50, p.after[k].high90);
   }

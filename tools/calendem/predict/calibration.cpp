@@ -83,6 +83,7 @@ double error_covariance(const ModelError &e, double discrepancy, const Spot &a, 
   case FilmNumber::Cracked:
     return e.cracked * e.cracked * alike;
   case FilmNumber::Springback:
+  case FilmNumber::LogModulus:
     return 0.0;
   }
   return 0.0;

@@ -45,6 +45,13 @@ double value_of(FilmNumber number, const SimulatedRun &run) {
     return (1.0 - run.porosity_at_max) / (1.0 - run.porosity_after) - 1.0;
   case FilmNumber::Cracked:
     return run.cracked_fraction;
+  case FilmNumber::LogModulus: {
+    const auto released_to = [&](double share) {
+      return displacement_at(run.release_pressure, run.release_displacement, share * run.target);
+    };
+    const double strain = (released_to(0.95) - released_to(0.5)) / run.thickness_at_max;
+    return std::log(1e-3 * 0.45 * run.target / strain);
+  }
   }
   return NAN;
 }

@@ -11,13 +11,16 @@
 
 namespace calendem {
 
-/// Numbers of a pressed film, 0-1.
+/// Numbers of a pressed film, 0-1 but for the modulus.
 enum class FilmNumber {
   PorosityAfter, ///< total porosity after release
   Springback,    ///< (thickness after - at the maximum) / thickness at the maximum
-  Cracked        ///< share of NMC particles in pieces
+  Cracked,       ///< share of NMC particles in pieces
+  /// ln of the unloading modulus in GPa: secant of stress over strain of the thickness at the
+  /// maximum, from 95 to 50 % of the largest pressure.
+  LogModulus
 };
-constexpr int kFilmNumbers = 3;
+constexpr int kFilmNumbers = 4;
 
 /// The uncalendered film, as the bank's parameters describe it.
 struct Film {

@@ -12,7 +12,8 @@ namespace calendem {
 using Json = nlohmann::ordered_json;
 namespace {
 
-constexpr const char *kNumberNames[kFilmNumbers] = {"porosity_after", "springback", "cracked"};
+constexpr const char *kNumberNames[kFilmNumbers] = {"porosity_after", "springback", "cracked",
+                                                    "log_modulus"};
 
 FilmNumber number_of(const std::string &name) {
   for (int k = 0; k < kFilmNumbers; ++k)

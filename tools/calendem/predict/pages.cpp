@@ -32,10 +32,11 @@ std::string tint(const std::string &colour, double share) {
   return out;
 }
 
-std::vector<double> in_percent(const std::vector<Band> &bands, double Band::*part) {
+/// One part of the bands, times a scale.
+std::vector<double> part_of(const std::vector<Band> &bands, double Band::*part, double scale) {
   std::vector<double> out;
   for (const Band &b : bands)
-    out.push_back(kPercent * b.*part);
+    out.push_back(scale * b.*part);
   return out;
 }
 
@@ -50,27 +51,27 @@ Series line_of(const std::string &name, const std::vector<double> &x, const std:
 }
 
 /// The bands of one number as areas and a line.
-void add_bands(const std::vector<double> &x, const std::vector<Band> &bands,
+void add_bands(const std::vector<double> &x, const std::vector<Band> &bands, double scale,
                const std::string &colour, Chart &chart) {
-  Series wide = line_of("90 %", x, in_percent(bands, &Band::high90), tint(colour, 0.2)),
-         half = line_of("50 %", x, in_percent(bands, &Band::high50), tint(colour, 0.4));
+  Series wide = line_of("90 %", x, part_of(bands, &Band::high90, scale), tint(colour, 0.2)),
+         half = line_of("50 %", x, part_of(bands, &Band::high50, scale), tint(colour, 0.4));
   wide.mark = half.mark = Mark::area;
-  wide.base = in_percent(bands, &Band::low90);
-  half.base = in_percent(bands, &Band::low50);
+  wide.base = part_of(bands, &Band::low90, scale);
+  half.base = part_of(bands, &Band::low50, scale);
   chart.series.push_back(wide);
   chart.series.push_back(half);
-  chart.series.push_back(line_of("median", x, in_percent(bands, &Band::median), colour));
+  chart.series.push_back(line_of("median", x, part_of(bands, &Band::median, scale), colour));
 }
 
 /// One of several: its median, and the ends of its 90 % dashed.
 void add_edges(const std::string &name, const std::vector<double> &x,
-               const std::vector<Band> &bands, std::size_t number, Chart &chart) {
+               const std::vector<Band> &bands, double scale, std::size_t number, Chart &chart) {
   const std::string colour = kSeriesColours[number % kSeriesColours.size()];
-  Series middle = line_of(name, x, in_percent(bands, &Band::median), colour);
+  Series middle = line_of(name, x, part_of(bands, &Band::median, scale), colour);
   middle.symbol = kSeriesSymbols[number % kSeriesSymbols.size()];
   chart.series.push_back(middle);
   for (double Band::*edge : {&Band::low90, &Band::high90}) {
-    Series s = line_of("", x, in_percent(bands, edge), colour);
+    Series s = line_of("", x, part_of(bands, edge, scale), colour);
     s.dash = "4 3";
     chart.series.push_back(s);
   }
@@ -181,7 +182,7 @@ std::string model_page(const FilmBank &bank, const Calibration &c, const Json &m
     const PredictedFilm p = predicted(bank, c, c.films[k], pressures, 0.0);
     Chart chart =
         chart_of(fmt::format("film{}", k), c.films[k].name, "Total porosity after release (%)");
-    add_bands(pressures, p.after, kSeriesColours[0], chart);
+    add_bands(pressures, p.after, kPercent, kSeriesColours[0], chart);
     chart.series.push_back(points_of(c, int(k), kSeriesColours[5]));
     page.charts.push_back(chart);
   }
@@ -197,22 +198,27 @@ namespace {
 struct Number {
   const char *name, *title;
   const std::vector<Band> PredictedFilm::*bands;
+  double scale;
 };
 const std::vector<Number> &numbers() {
   static const std::vector<Number> all = {
-      {"porosity_after_percent", "Total porosity after release (%)", &PredictedFilm::after},
-      {"porosity_under_load_percent", "Total porosity under load (%)", &PredictedFilm::under_load},
-      {"springback_percent", "Springback of the thickness (%)", &PredictedFilm::springback},
-      {"cracked_percent", "Cracked particles (%)", &PredictedFilm::cracked}};
+      {"porosity_after_percent", "Total porosity after release (%)", &PredictedFilm::after,
+       kPercent},
+      {"porosity_under_load_percent", "Total porosity under load (%)", &PredictedFilm::under_load,
+       kPercent},
+      {"springback_percent", "Springback of the thickness (%)", &PredictedFilm::springback,
+       kPercent},
+      {"cracked_percent", "Cracked particles (%)", &PredictedFilm::cracked, kPercent},
+      {"unloading_modulus_GPa", "Unloading modulus (GPa)", &PredictedFilm::modulus, 1.0}};
   return all;
 }
 
-Json band_json(const Band &b) {
-  return {{"median", kPercent * b.median},
-          {"low50", kPercent * b.low50},
-          {"high50", kPercent * b.high50},
-          {"low90", kPercent * b.low90},
-          {"high90", kPercent * b.high90}};
+Json band_json(const Band &b, double scale) {
+  return {{"median", scale * b.median},
+          {"low50", scale * b.low50},
+          {"high50", scale * b.high50},
+          {"low90", scale * b.low90},
+          {"high90", scale * b.high90}};
 }
 
 Json film_json(const FilmBank &bank, const Film &f) {
@@ -242,7 +248,7 @@ std::string prediction_table(const FilmBank &bank, const std::vector<PredictedFi
       for (const Number &n : numbers()) {
         const Band &b = (f.*n.bands)[k];
         for (const double x : {b.median, b.low50, b.high50, b.low90, b.high90})
-          out += fmt::format(",{:.2f}", kPercent * x);
+          out += fmt::format(",{:.4g}", n.scale * x);
       }
       out += "\n";
     }
@@ -258,7 +264,7 @@ Json to_json(const FilmBank &bank, const std::vector<PredictedFilm> &films) {
     for (std::size_t k = 0; k < f.pressures.size(); ++k) {
       Json at = {{"pressure_MPa", f.pressures[k]}};
       for (const Number &n : numbers())
-        at[n.name] = band_json((f.*n.bands)[k]);
+        at[n.name] = band_json((f.*n.bands)[k], n.scale);
       row["predicted"].push_back(at);
     }
     out.push_back(row);
@@ -272,9 +278,9 @@ std::string prediction_page(const Calibration &c, const std::vector<PredictedFil
   for (const Number &n : numbers()) {
     Chart chart = chart_of(n.name, n.title, n.title);
     if (films.size() == 1)
-      add_bands(films[0].pressures, films[0].*n.bands, kSeriesColours[0], chart);
+      add_bands(films[0].pressures, films[0].*n.bands, n.scale, kSeriesColours[0], chart);
     for (std::size_t k = 0; k < films.size() && films.size() > 1 && k < kMostFilms; ++k)
-      add_edges(films[k].film.name, films[k].pressures, films[k].*n.bands, k, chart);
+      add_edges(films[k].film.name, films[k].pressures, films[k].*n.bands, n.scale, k, chart);
     for (std::size_t f = 0; f < c.films.size() && n.bands == &PredictedFilm::after; ++f)
       if (films.size() == 1 && c.films[f].name == films[0].film.name)
         chart.series.push_back(points_of(c, int(f), kSeriesColours[5]));
@@ -291,8 +297,8 @@ std::string prediction_page(const Calibration &c, const std::vector<PredictedFil
       json row = {{"film", f.film.name}, {"pressure", fmt::format("{:.3g}", f.pressures[k])}};
       for (const Number &n : numbers()) {
         const Band &b = (f.*n.bands)[k];
-        row["cells"].push_back(fmt::format("{:.1f} ({:.1f}–{:.1f})", kPercent * b.median,
-                                           kPercent * b.low90, kPercent * b.high90));
+        row["cells"].push_back(fmt::format("{:.3g} ({:.3g}–{:.3g})", n.scale * b.median,
+                                           n.scale * b.low90, n.scale * b.high90));
       }
       rows.push_back(row);
     }
@@ -304,7 +310,8 @@ std::string prediction_page(const Calibration &c, const std::vector<PredictedFil
                                   [](const Datum &d) { return d.number == FilmNumber::Cracked; });
   page.values = {{"rows", rows},
                  {"beyond_rows", beyond},
-                 {"not_measured", cracks ? "Springback was" : "Springback and cracks were"}};
+                 {"not_measured",
+                  cracks ? "Springback and modulus were" : "Springback, cracks and modulus were"}};
   return report::to_html(page);
 }
 
@@ -315,9 +322,9 @@ Json to_json(const FilmBank &bank, const Target &t, const std::vector<Design> &d
     row["beyond"] = d.predicted.beyond;
     row["best"] = {{"pressure_MPa", d.chances[d.best].pressure},
                    {"probability", d.chances[d.best].both},
-                   {"porosity_after_percent", band_json(d.predicted.after[d.best])},
-                   {"cracked_percent", band_json(d.predicted.cracked[d.best])},
-                   {"springback_percent", band_json(d.predicted.springback[d.best])}};
+                   {"porosity_after_percent", band_json(d.predicted.after[d.best], kPercent)},
+                   {"cracked_percent", band_json(d.predicted.cracked[d.best], kPercent)},
+                   {"springback_percent", band_json(d.predicted.springback[d.best], kPercent)}};
     row["chances"] = Json::array();
     for (const Chance &c : d.chances)
       row["chances"].push_back({{"pressure_MPa", c.pressure},
@@ -351,11 +358,11 @@ std::string design_page(const Target &t, const std::vector<Design> &designs, con
     chance.series.push_back(
         line_of(d.film.name, pressures, both, kSeriesColours[k % kSeriesColours.size()]));
     chance.series.back().symbol = kSeriesSymbols[k % kSeriesSymbols.size()];
-    const std::vector<double> porosity = in_percent(d.predicted.after, &Band::median);
+    const std::vector<double> porosity = part_of(d.predicted.after, &Band::median, kPercent);
     if (designs.size() == 1)
-      add_bands(porosity, d.predicted.cracked, kSeriesColours[0], pareto);
+      add_bands(porosity, d.predicted.cracked, kPercent, kSeriesColours[0], pareto);
     else
-      add_edges(d.film.name, porosity, d.predicted.cracked, k, pareto);
+      add_edges(d.film.name, porosity, d.predicted.cracked, kPercent, k, pareto);
     const Band &after = d.predicted.after[d.best], &cracked = d.predicted.cracked[d.best];
     rows.push_back({{"film", d.film.name},
                     {"pressure", fmt::format("{:.0f}", d.chances[d.best].pressure)},

@@ -100,6 +100,11 @@ PredictedFilm predicted(const FilmBank &bank, const Calibration &c, const Film &
   out.springback = bands_of(springback, 0.0, 1.0);
   out.under_load = bands_of(under_load_of(after, springback), 0.0, 1.0);
   out.cracked = bands_of(of(FilmNumber::Cracked), 0.0, 1.0);
+  out.modulus = bands_of(of(FilmNumber::LogModulus), -INFINITY, INFINITY);
+  for (Band &b : out.modulus)
+    for (double Band::*part :
+         {&Band::median, &Band::low50, &Band::high50, &Band::low90, &Band::high90})
+      b.*part = std::exp(b.*part);
   out.beyond = bank.beyond(film);
   return out;
 }

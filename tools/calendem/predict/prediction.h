@@ -26,6 +26,7 @@ struct PredictedFilm {
   Film film;
   std::vector<double> pressures;
   std::vector<Band> under_load, after, springback, cracked;
+  std::vector<Band> modulus;       ///< of unloading [GPa]
   std::vector<std::string> beyond; ///< in what it lies outside the bank
 };
 
