@@ -71,11 +71,11 @@ TEST(Calibrate, IsDeterministic) {
 }
 
 // A datum pulls the prediction of its own film more than that of another, and none far away in pressure as much.
-TEST(GivenData, TheModelsErrorIsHalfSharedBetweenFilms) {
+TEST(GivenData, APartOfTheModelsErrorIsSharedBetweenFilms) {
   Calibration c;
   c.error = {0.0, 0.02, 0.0201, 0.1};
   c.films = {made_film("a", 48.0, 2.0)};
-  const Draw draw = {{{190.0, 2.4, 480.0}, -1, 0.0}, 0.02};
+  const Draw draw = {{{190.0, 2.4, 480.0}, -1, 0.0}, {0.02, 0.5}};
   const double expected = made_porosity({190.0, 2.4, 480.0, 48.0, 2.0}, 0.0, 80.0);
   c.data = {{0, "p", FilmNumber::PorosityAfter, 80.0, 0.0, expected + 0.02, 1e-4}};
   const FilmBank &bank = made_film_bank();

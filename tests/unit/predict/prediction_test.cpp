@@ -9,7 +9,7 @@ using namespace calendem_test;
 Calibration exact() {
   Calibration c;
   c.error = {0.0, 0.001, 0.002, 0.1};
-  c.draws = {{{{190.0, 2.4, 480.0}, -1, 0.0}, 0.001}};
+  c.draws = {{{{190.0, 2.4, 480.0}, -1, 0.0}, {0.001, 0.5}}};
   return c;
 }
 

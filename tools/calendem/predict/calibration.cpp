@@ -70,16 +70,16 @@ struct Spot {
   double log_pressure;
 };
 
-/// What the model misses has one half in common on all films; it changes over a factor e of
-/// pressure. One shift of the bank's numerics is common to all porosities.
-double error_covariance(const ModelError &e, double discrepancy, const Spot &a, const Spot &b) {
+/// A part of what the model misses is common to all films; it changes over a factor e of pressure.
+/// One shift of the bank's numerics is common to all porosities.
+double error_covariance(const ModelError &e, const Missed &missed, const Spot &a, const Spot &b) {
   if (a.number != b.number)
     return 0.0;
   const double off = a.log_pressure - b.log_pressure;
-  const double alike = std::exp(-0.5 * off * off) * (a.film == b.film ? 1.0 : 0.5);
+  const double alike = std::exp(-0.5 * off * off) * (a.film == b.film ? 1.0 : missed.shared);
   switch (a.number) {
   case FilmNumber::PorosityAfter:
-    return e.numerics * e.numerics + discrepancy * discrepancy * alike;
+    return e.numerics * e.numerics + missed.sd * missed.sd * alike;
   case FilmNumber::Cracked:
     return e.cracked * e.cracked * alike;
   case FilmNumber::Springback:
@@ -118,13 +118,13 @@ Predicted predicted_data(const FilmBank &bank, const Calibration &c, const Mater
 }
 
 /// Of measured - predicted.
-Matrix covariance_of(const Calibration &c, const Predicted &p, double discrepancy) {
+Matrix covariance_of(const Calibration &c, const Predicted &p, const Missed &missed) {
   const auto n = Eigen::Index(c.data.size());
   Matrix out(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) {
       const Datum &a = c.data[std::size_t(i)], &b = c.data[std::size_t(j)];
-      out(i, j) = error_covariance(c.error, discrepancy, spot_of(a), spot_of(b));
+      out(i, j) = error_covariance(c.error, missed, spot_of(a), spot_of(b));
       if (a.film == b.film)
         out(i, j) += p.by_pressure[i] * p.by_pressure[j];
       if (i == j)
@@ -142,7 +142,7 @@ Vector measured_of(const Calibration &c) {
 
 double log_likelihood(const FilmBank &bank, const Calibration &c, const Draw &draw) {
   const Predicted p = predicted_data(bank, c, draw.material);
-  const Cholesky chol(covariance_of(c, p, draw.discrepancy));
+  const Cholesky chol(covariance_of(c, p, draw.missed));
   const Vector off = chol.matrixL().solve(measured_of(c) - p.mean);
   return -0.5 * off.squaredNorm() - Matrix(chol.matrixL()).diagonal().array().log().sum();
 }
@@ -151,14 +151,16 @@ double log_likelihood(const FilmBank &bank, const Calibration &c, const Draw &dr
 std::vector<Draw> prior_draws(const FilmBank &bank, const ModelError &error, int effect,
                               int count) {
   const auto d = int(bank.material().size());
-  const Matrix scores = inference::sobol_normals(d + 2, count, std::uint64_t(effect + 2));
-  const inference::Prior discrepancy = {inference::Prior::log_uniform, error.low, error.high};
+  const Matrix scores = inference::sobol_normals(d + 3, count, std::uint64_t(effect + 2));
+  const inference::Prior discrepancy = {inference::Prior::log_uniform, error.low, error.high},
+                         shared = {inference::Prior::uniform, 0.0, 1.0};
   std::vector<Draw> out{std::size_t(count)};
   for (int k = 0; k < count; ++k) {
     Draw &draw = out[std::size_t(k)];
     for (int j = 0; j < d; ++j)
       draw.material.parameters.push_back(bank.material()[std::size_t(j)].prior.value(scores(j, k)));
-    draw.discrepancy = discrepancy.value(scores(d, k));
+    draw.missed.sd = discrepancy.value(scores(d, k));
+    draw.missed.shared = shared.value(scores(d + 2, k));
     draw.material.effect = effect;
     if (effect >= 0)
       draw.material.amplitude = bank.effects()[std::size_t(effect)].prior.value(scores(d + 1, k));
@@ -210,16 +212,16 @@ std::vector<Guess> given_data(const FilmBank &bank, const Calibration &c, const 
   const int film = known == c.films.end() ? -1 : int(known - c.films.begin());
   const auto n = Eigen::Index(c.data.size());
   const Predicted p = predicted_data(bank, c, draw.material);
-  const Cholesky chol(covariance_of(c, p, draw.discrepancy));
+  const Cholesky chol(covariance_of(c, p, draw.missed));
   const Vector weights = chol.solve(measured_of(c) - p.mean);
   std::vector<Guess> out;
   for (const double pressure : wanted.pressures) {
     const Spot here = {film, wanted.number, std::log(pressure)};
     Guess g = bank.at(curve, pressure);
-    g.variance += error_covariance(c.error, draw.discrepancy, here, here);
+    g.variance += error_covariance(c.error, draw.missed, here, here);
     Vector with(n);
     for (Eigen::Index k = 0; k < n; ++k)
-      with[k] = error_covariance(c.error, draw.discrepancy, spot_of(c.data[std::size_t(k)]), here);
+      with[k] = error_covariance(c.error, draw.missed, spot_of(c.data[std::size_t(k)]), here);
     g.mean += with.dot(weights);
     g.variance -= with.dot(Vector(chol.solve(with)));
     g.variance = std::max(g.variance, 0.0);

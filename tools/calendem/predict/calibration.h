@@ -26,9 +26,15 @@ struct ModelError {
   double cracked = 0.1;            ///< of the share of cracked particles
 };
 
+/// The model's own error.
+struct Missed {
+  double sd = 0.0;     ///< of porosity 0-1
+  double shared = 0.5; ///< of its variance, that all films have in common, 0-1
+};
+
 struct Draw {
   Material material;
-  double discrepancy = 0.0; ///< standard deviation of the model's own error [porosity 0-1]
+  Missed missed;
 };
 
 /// An effect that may act, or none.

@@ -55,7 +55,8 @@ Json draws_of(const FilmBank &bank, const Calibration &c) {
   for (const Draw &d : c.draws) {
     Json row = {{"effect", effect_name(bank, d.material.effect)},
                 {"amplitude", d.material.amplitude},
-                {"discrepancy", d.discrepancy}};
+                {"missed_sd", d.missed.sd},
+                {"missed_shared", d.missed.shared}};
     for (std::size_t k = 0; k < bank.material().size(); ++k)
       row[bank.material()[k].name] = d.material.parameters[k];
     out.push_back(row);
@@ -104,14 +105,17 @@ Json parameters_of(const FilmBank &bank, const Calibration &c) {
     row.update(spread_of(values));
     out.push_back(row);
   }
-  std::vector<double> missed;
-  for (const Draw &d : c.draws)
-    missed.push_back(100.0 * d.discrepancy);
-  Json row = {{"parameter", "model_error_points"},
-              {"prior_low", 100.0 * c.error.low},
-              {"prior_high", 100.0 * c.error.high}};
-  row.update(spread_of(missed));
-  out.push_back(row);
+  const auto add = [&](const char *name, double low, double high, const auto &value) {
+    std::vector<double> values;
+    for (const Draw &d : c.draws)
+      values.push_back(value(d.missed));
+    Json row = {{"parameter", name}, {"prior_low", low}, {"prior_high", high}};
+    row.update(spread_of(values));
+    out.push_back(row);
+  };
+  add("missed_points", 100.0 * c.error.low, 100.0 * c.error.high,
+      [](const Missed &m) { return 100.0 * m.sd; });
+  add("missed_shared", 0.0, 1.0, [](const Missed &m) { return m.shared; });
   return out;
 }
 
@@ -254,7 +258,7 @@ Calibration calibration_of(const FilmBank &bank, const Json &json) {
   for (const Json &row : json.at("hypotheses"))
     out.hypotheses.push_back({row.at("name"), row.at("probability"), row.at("effective_samples")});
   for (const Json &row : json.at("draws"))
-    out.draws.push_back({material_of(bank, row), row.at("discrepancy")});
+    out.draws.push_back({material_of(bank, row), {row.at("missed_sd"), row.at("missed_shared")}});
   if (out.draws.empty())
     throw Failure(kBadInput, "it holds no draws.");
   return out;
