@@ -119,6 +119,21 @@ Json parameters_of(const FilmBank &bank, const Calibration &c) {
   return out;
 }
 
+/// How well packings that were left out are predicted.
+Json emulators_of(const FilmBank &bank) {
+  Json out = Json::array();
+  for (int n = 0; n < kFilmNumbers; ++n) {
+    const auto quality = bank.quality(FilmNumber(n));
+    for (std::size_t k = 0; k < quality.size(); ++k)
+      out.push_back({{"number", kNumberNames[n]},
+                     {"pressure_MPa", bank.spec().pressures[k]},
+                     {"q2", quality[k].q2},
+                     {"error", quality[k].error},
+                     {"own_error", quality[k].own}});
+  }
+  return out;
+}
+
 /// An effect's value in its key's unit.
 double key_value(const FilmBank &bank, const Draw &d) {
   return find_effect(effect_name(bank, d.material.effect)).parameter.value(d.material.amplitude);
@@ -165,6 +180,7 @@ Json to_json(const FilmBank &bank, const Calibration &c, const std::vector<LeftO
             {"cracked", c.error.cracked}}},
           {"hypotheses", hypotheses_of(bank, c)},
           {"parameters", parameters_of(bank, c)},
+          {"emulators", emulators_of(bank)},
           {"left_out", left_out_json(rows)},
           {"draws", draws_of(bank, c)},
           {"provenance", {{"calendem", version()}, {"hashes", "64-bit FNV-1a"}}}};

@@ -172,6 +172,17 @@ json parameters_part(const Json &model) {
   return rows;
 }
 
+json emulators_part(const Json &model) {
+  json rows = json::array();
+  for (const Json &e : model.at("emulators"))
+    if (e["number"] == "porosity_after")
+      rows.push_back({{"pressure", shown(e["pressure_MPa"], "{:g}")},
+                      {"q2", shown(e["q2"], "{:.2f}")},
+                      {"error", fmt::format("{:.2f}", kPercent * e["error"].get<double>())},
+                      {"own", fmt::format("{:.2f}", kPercent * e["own_error"].get<double>())}});
+  return rows;
+}
+
 } // namespace
 
 std::string model_page(const FilmBank &bank, const Calibration &c, const Json &model) {
@@ -189,6 +200,7 @@ std::string model_page(const FilmBank &bank, const Calibration &c, const Json &m
   page.values = {{"left_out_part", left_out_part(model)},
                  {"hypotheses_rows", hypotheses_part(model)},
                  {"parameters_rows", parameters_part(model)},
+                 {"emulators_rows", emulators_part(model)},
                  {"bank_name", bank.spec().name}};
   return report::to_html(page);
 }
