@@ -72,6 +72,6 @@ case = "case.toml"
 points = 2
 T
 status=0
-"$bin/calendem" bank "$work/bank.toml" -o "$work/bank" --liggghts "$(command -v false)" >"$work/bank.log" 2>&1 || status=$?
+"$bin/calendem" bank "$work/bank.toml" -o "$work/bank" --liggghts "$(type -P false)" >"$work/bank.log" 2>&1 || status=$?
 [ $status = 3 ] || { cat "$work/bank.log"; fail "exit status $status of a bank whose runs fail"; }
 grep -q "^study: 2 runs, 0 of them there -> .*full_cell" "$work/bank.log" || { cat "$work/bank.log"; fail "the full cell was not tried"; }
