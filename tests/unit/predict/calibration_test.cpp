@@ -64,6 +64,14 @@ TEST(Calibrate, NamesAnEffectThatActs) {
   EXPECT_GT(probability(c, "nmc_plasticity"), 0.9);
 }
 
+// No binder of the bank is as soft as this film asks for.
+TEST(Calibrate, SaysThatAParameterIsAtTheEndOfItsRange) {
+  EXPECT_TRUE(at_the_end(made_film_bank(), of({})).empty());
+  const auto soft = at_the_end(made_film_bank(), of({{190.0, 1.2, 180.0}, 0.0}, 2));
+  ASSERT_FALSE(soft.empty());
+  EXPECT_NE((soft[0] + soft.back()).find("lower end of the bank's range"), std::string::npos);
+}
+
 TEST(Calibrate, IsDeterministic) {
   const Calibration a = of({}), b = of({});
   for (std::size_t k = 0; k < a.draws.size(); ++k)

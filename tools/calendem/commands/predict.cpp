@@ -32,6 +32,8 @@ void run_calibrate(const CalibrateOptions &o) {
   make_output_folder(o.folder);
   fmt::print("calibrate: {} films, {} numbers\n", c.films.size(), c.data.size());
   calibrate(bank, o.settings, c);
+  for (const std::string &text : at_the_end(bank, c))
+    not_said.push_back(text);
   const std::vector<LeftOut> rows = left_out(bank, c, o.settings);
   nlohmann::ordered_json model = to_json(bank, c, rows);
   for (const std::string &file : o.experiments)

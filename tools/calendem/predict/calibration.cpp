@@ -203,6 +203,25 @@ void calibrate(const FilmBank &bank, const CalibrationSettings &settings, Calibr
   }
 }
 
+std::vector<std::string> at_the_end(const FilmBank &bank, const Calibration &c) {
+  std::vector<std::string> out;
+  for (std::size_t k = 0; k < bank.material().size(); ++k) {
+    const inference::Parameter &p = bank.material()[k];
+    int low = 0, high = 0;
+    for (const Draw &d : c.draws) {
+      const double at = p.prior.scaled(d.material.parameters[k]);
+      low += at < -0.8;
+      high += at > 0.8;
+    }
+    if (2 * std::max(low, high) >= int(c.draws.size()))
+      out.push_back(
+          fmt::format("{} lies at the {} end of the bank's range, {:g} to {:g}: a material "
+                      "outside it may fit better, or the model lacks something.",
+                      p.name, low > high ? "lower" : "upper", p.prior.a, p.prior.b));
+  }
+  return out;
+}
+
 std::vector<Guess> given_data(const FilmBank &bank, const Calibration &c, const Draw &draw,
                               const Wanted &wanted) {
   const std::vector<Guess> curve = bank.at_pressures(wanted.number, wanted.film, draw.material);

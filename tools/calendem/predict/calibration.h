@@ -67,6 +67,10 @@ struct CalibrationSettings {
 /// together (importance sampling): deterministic.
 void calibrate(const FilmBank &bank, const CalibrationSettings &settings, Calibration &calibration);
 
+/// Parameters that the data drive to an end of the bank's range: half of the draws lie in its outer
+/// tenth.
+std::vector<std::string> at_the_end(const FilmBank &bank, const Calibration &calibration);
+
 /// What a film's numbers are at one pressure under one draw: normal.
 struct Wanted {
   Film film;
