@@ -22,6 +22,9 @@ int main(int argc, char **argv) {
   calendem::add_study_verb(app);
   calendem::add_bank_verb(app);
   calendem::add_diagnose_verb(app);
+  calendem::add_calibrate_verb(app);
+  calendem::add_predict_verb(app);
+  calendem::add_design_verb(app);
   calendem::add_withheld_verb(app);
   calendem::add_effects_verb(app);
   calendem::add_registry_verb(app);

@@ -49,3 +49,29 @@ first=$work/out/runs/$(column run | head -n 1)
 [ -z "$(find "$first" -name '*.restart')" ] || fail "restart files were kept"
 awk -F, -v p="$(column thickness_um_at_10_MPa | head -n 1)" 'NR == 1 { for (k = 1; k <= NF; k++) { if ($k == "thickness_um") h = k; if ($k == "pressure_MPa") q = k } next }
   $q >= 10 { exit !(p >= $h && p <= before) } { before = $h }' "$first/curve.csv" || fail "thickness at 10 MPa is not between its rows"
+
+# A bank's runs that fail do not keep those on the full cell from being made.
+cat >"$work/bank.toml" <<'T'
+[bank]
+name = "fails"
+recipe = "electrode.toml"
+case = "case.toml"
+pressures_MPa = [4]
+packings = 2
+effect_points = 2
+base_points = 4
+effects = []
+[[parameter]]
+name = "E"
+keys = ["case.material.am.youngs_modulus_GPa"]
+low = 100
+high = 300
+[full_cell]
+recipe = "electrode.toml"
+case = "case.toml"
+points = 2
+T
+status=0
+"$bin/calendem" bank "$work/bank.toml" -o "$work/bank" --liggghts "$(type -P false)" >"$work/bank.log" 2>&1 || status=$?
+[ $status = 3 ] || { cat "$work/bank.log"; fail "exit status $status of a bank whose runs fail"; }
+grep -q "^study: 2 runs, 0 of them there -> .*full_cell" "$work/bank.log" || { cat "$work/bank.log"; fail "the full cell was not tried"; }

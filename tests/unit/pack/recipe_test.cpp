@@ -44,6 +44,18 @@ TEST(Recipe, WeightsAddUpToHundred) {
   expect_all(message_for("[composition]\nam_weight_percent = 90\n"), {"94", "100"});
 }
 
+TEST(Recipe, ActiveMaterialIsWhatCarbonAndBinderLeave) {
+  const Recipe r = recipe_of("name = \"x\"\n[composition]\ncarbon_weight_percent = 2.5\n"
+                             "binder_weight_percent = 2.5\n");
+  EXPECT_NEAR(r.am_weight, 0.95, 1e-12);
+  expect_all(message_for("[composition]\ncarbon_weight_percent = 30\nbinder_weight_percent = "
+                         "30\n"),
+             {":4:", "leave 40 %", "50 to 100 %"});
+  expect_all(message_for("[composition]\ncarbon_weight_percent = 0.02\nbinder_weight_percent = "
+                         "0.02\n"),
+             {"look like fractions"});
+}
+
 TEST(Recipe, AGradientIsRefusedBesideAStructure) {
   expect_all(
       message_for("[structure]\nfile = \"recipe.toml\"\nunits = \"micro\"\nam_types = \"1\"\n"

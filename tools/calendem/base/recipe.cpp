@@ -11,15 +11,19 @@ namespace calendem {
 namespace {
 
 const char *const kGradient = "effects.cbd_gradient.slope";
+constexpr double kLeastAm = 50.0; // %
+const char *const kAmWeight = "composition.am_weight_percent";
+const char *const kCarbonWeight = "composition.carbon_weight_percent";
+const char *const kBinderWeight = "composition.binder_weight_percent";
 
 std::vector<Key> own_keys() {
   return {
       {"name", "", "electrode", 0, 0, "", "a name for reports", "", true},
       {"seed", "", "1", 0, 4e9, "", "of all random numbers", "", false, true},
-      {"composition.am_weight_percent", "", "96", 50, 100, "%",
-       "active material in the dry coating"},
-      {"composition.carbon_weight_percent", "", "2", 0, 50, "%", "carbon black"},
-      {"composition.binder_weight_percent", "", "2", 0, 50, "%", "binder"},
+      {kAmWeight, "", "96", kLeastAm, 100, "%",
+       "active material in the dry coating; unless given what carbon and binder leave"},
+      {kCarbonWeight, "", "2", 0, 50, "%", "carbon black"},
+      {kBinderWeight, "", "2", 0, 50, "%", "binder"},
       {"density.am_g_cm3", "", "4.65", 0.5, 20, "g/cm3", "true density of the active material"},
       {"density.cbd_solid_g_cm3", "", "1.83", 0.5, 5, "g/cm3", "dense carbon and binder"},
       {"coating.loading_mg_cm2", "", "17.46", 0.5, 100, "mg/cm2", "dry coating without foil"},
@@ -75,19 +79,22 @@ double Recipe::largest_body() const {
 namespace {
 
 void check_composition(const Settings &s, Mistakes &mistakes) {
-  const std::string at = "composition.", per = "_weight_percent";
-  if (!s.sound({at + "am" + per, at + "carbon" + per, at + "binder" + per}))
+  if (!s.sound({kAmWeight, kCarbonWeight, kBinderWeight}))
     return;
-  const double am = s.number(at + "am" + per), carbon = s.number(at + "carbon" + per),
-               binder = s.number(at + "binder" + per), sum = am + carbon + binder;
-  if (std::fabs(sum - 100.0) <= 0.01)
-    return;
-  const bool fractions = std::fabs(am + 100.0 * (carbon + binder) - 100.0) <= 0.01;
-  mistakes.add(s.line(at + "am" + per),
-               fmt::format("[composition] adds up to {:.6g} % (active material {:.6g}, carbon "
-                           "{:.6g}, binder {:.6g}); it must be 100 %.{}",
-                           sum, am, carbon, binder,
-                           fractions ? " Carbon and binder look like fractions." : ""));
+  const double am = s.number(kAmWeight), carbon = s.number(kCarbonWeight),
+               binder = s.number(kBinderWeight), sum = am + carbon + binder;
+  const bool fractions = carbon + binder > 0.0 && carbon + binder <= 0.5;
+  const char *const hint = fractions ? " Carbon and binder look like fractions." : "";
+  if (std::fabs(sum - 100.0) > 0.01)
+    mistakes.add(s.line(kAmWeight),
+                 fmt::format("[composition] adds up to {:.6g} % (active material {:.6g}, carbon "
+                             "{:.6g}, binder {:.6g}); it must be 100 %.{}",
+                             sum, am, carbon, binder, hint));
+  else if (s.line(kAmWeight) == 0 && (am < kLeastAm || fractions))
+    mistakes.add(std::max(s.line(kCarbonWeight), s.line(kBinderWeight)),
+                 fmt::format("carbon ({:.6g} %) and binder ({:.6g} %) leave {:.6g} % of active "
+                             "material; allowed is {:g} to 100 %.{}",
+                             carbon, binder, am, kLeastAm, hint));
 }
 
 void check_spheres(const Settings &s, const Recipe &r, Mistakes &mistakes) {
@@ -157,7 +164,7 @@ ShapeSource read_shapes(const Settings &s, const std::string &file, Mistakes &mi
 Recipe recipe_of(const Settings &s) {
   Recipe r;
   r.settings = s;
-  r.am_weight = s.number("composition.am_weight_percent") / 100.0;
+  r.am_weight = s.number(kAmWeight) / 100.0;
   r.am_density = s.number("density.am_g_cm3");
   r.cbd_solid_density = s.number("density.cbd_solid_g_cm3");
   r.loading = s.number("coating.loading_mg_cm2");
@@ -199,7 +206,9 @@ int most_ranks(double lx, double ly, double diameter) {
 
 Recipe read_recipe(const std::string &file) {
   Mistakes mistakes(file);
-  const Settings s = read_toml(file, FileKind::Recipe, recipe_keys(), mistakes);
+  Settings s = read_toml(file, FileKind::Recipe, recipe_keys(), mistakes);
+  if (s.line(kAmWeight) == 0)
+    s.leave(kAmWeight, {kCarbonWeight, kBinderWeight});
   Recipe r = recipe_of(s);
   r.file = file;
   r.shapes = read_shapes(s, file, mistakes);
@@ -217,8 +226,7 @@ std::vector<std::string> other_electrode(const std::map<std::string, std::string
     if (const auto file = one->find("structure.file"); file != one->end() && file->second != "none")
       return out;
   for (const char *key :
-       {"composition.am_weight_percent", "composition.carbon_weight_percent",
-        "composition.binder_weight_percent", "density.am_g_cm3", "density.cbd_solid_g_cm3",
+       {kAmWeight, kCarbonWeight, kBinderWeight, "density.am_g_cm3", "density.cbd_solid_g_cm3",
         "coating.porosity_total_percent", "particles.median_um", "particles.sigma_ln",
         "cbd.nanoporosity_percent", "cbd.diameter_um"}) {
     const auto a = wanted.find(key), b = recipe.find(key);

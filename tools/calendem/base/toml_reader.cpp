@@ -89,10 +89,26 @@ double Settings::number(const std::string &name) const { return std::stod(values
 
 void Settings::set(const std::string &name, const std::string &value) {
   follows_.erase(name);
+  left_by_.erase(name);
   values_[name] = value;
   for (const auto &[follower, other] : follows_)
     if (other == name)
       values_[follower] = value;
+  update_rests();
+}
+
+void Settings::update_rests() {
+  for (const auto &[name, others] : left_by_) {
+    double left = 100.0;
+    for (const std::string &other : others)
+      left -= number(other);
+    values_[name] = fmt::format("{:.10g}", left);
+  }
+}
+
+void Settings::leave(const std::string &name, const std::vector<std::string> &others) {
+  left_by_[name] = others;
+  update_rests();
 }
 
 void Settings::follow(const std::string &name, const std::string &other) {

@@ -19,10 +19,12 @@ class Settings {
 public:
   double number(const std::string &name) const;
   const std::string &text(const std::string &name) const { return values_.at(name); }
-  /// Keys that follow this one get its value; a key that is set follows no other.
+  /// Keys that follow this one keep up with it; a key that is set follows no other.
   void set(const std::string &name, const std::string &value);
   /// The key has the value of another, and keeps up with it.
   void follow(const std::string &name, const std::string &other);
+  /// The key is what others, which have values, leave of a hundred, and keeps up with them.
+  void leave(const std::string &name, const std::vector<std::string> &others);
   const std::map<std::string, std::string> &all() const { return values_; }
 
   /// Line of the file that gives the key, 0 if it has its default.
@@ -34,8 +36,11 @@ public:
 private:
   std::map<std::string, std::string> values_;
   std::map<std::string, std::string> follows_; ///< key, the one it follows
+  std::map<std::string, std::vector<std::string>> left_by_; ///< key, those that leave it
   std::map<std::string, int> lines_;
   std::set<std::string> wrong_;
+
+  void update_rests();
 };
 
 /// All mistakes go to `mistakes`; what could be read is returned, defaults filled in.

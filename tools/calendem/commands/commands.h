@@ -23,6 +23,9 @@ void add_report_verb(CLI::App &app);   ///< report DIR... [-o FILE.html]
 void add_compare_verb(CLI::App &app);  ///< compare EXPERIMENT.toml DIR... -o DIR
 void add_diagnose_verb(CLI::App &app); ///< diagnose EXPERIMENT.toml -o DIR [--bank BANK.toml]
 void add_withheld_verb(CLI::App &app); ///< withheld make | answer | score | rehearse
+void add_calibrate_verb(CLI::App &app); ///< calibrate EXPERIMENT.toml... -o DIR [--bank BANK.toml]
+void add_predict_verb(CLI::App &app);   ///< predict MODEL.json RECIPE.toml... --pressure 20:300 -o DIR
+void add_design_verb(CLI::App &app);    ///< design MODEL.json RECIPE.toml --porosity 30 -o DIR
 void add_effects_verb(CLI::App &app);  ///< effects [NAME] [--json]
 void add_registry_verb(CLI::App &app); ///< registry DIR [--check]
 void add_validate_verb(CLI::App &app); ///< validate FILE...

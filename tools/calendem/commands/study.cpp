@@ -7,6 +7,7 @@
 #include "report/study_page.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <optional>
 
 namespace calendem {
 
@@ -69,17 +70,21 @@ void make_bank(const Options &o) {
   }
   if (o.study.step != StudyStep::All || o.study.only > 0) // a task among many: the table is not its
     return make_study(parts[0].study, o.study);
-  try {
-    for (const Part &part : parts)
+  std::optional<Failure> failed; // of some runs: the other part is made all the same
+  for (const Part &part : parts)
+    try {
       make_study(part.study, part.options);
-    if (o.study.slurm.dry_run)
-      return;
-  } catch (const Failure &f) {
-    if (f.exit_status() != kBadInput) // else there is nothing yet
-      write_table(spec, parts, o.study.folder);
-    throw;
-  }
+    } catch (const Failure &f) {
+      if (f.exit_status() == kBadInput) // there is nothing yet
+        throw;
+      if (!failed)
+        failed = f;
+    }
+  if (o.study.slurm.dry_run)
+    return;
   write_table(spec, parts, o.study.folder);
+  if (failed)
+    throw *failed;
 }
 
 } // namespace

@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# asks.sh BIN CASES WORK [ASKS]: design asked about materials that it cannot see. For each ask a material and three films
+# are drawn; two films are pressed in the simulation, three pressures each, and serve as measurements; `design` chooses a
+# pressure for a porosity of the third; that film is pressed to it on three other packings. The share of hits is beside
+# the probability that was stated. Runs with CALENDEM_HEAVY=1: some 9 runs of 10 s for each of 20 asks.
+set -euo pipefail
+bin=$1 cases=$2 work=$3 asks=${4:-20}
+[ "${CALENDEM_HEAVY:-0}" = 1 ] || { echo "skipped: predict.asks runs with tools/test --all"; exit 77; }
+fail() { echo "FAILED: $*" >&2; exit 1; }
+rm -rf "$work"
+mkdir -p "$work"
+cd "$work"
+cp "$cases/coatings/electrode.toml" "$cases/coatings/case.toml" .
+within=1.5 # points of porosity, about two standard deviations of one packing of so small a cell
+
+# number E_am E_cbd strength porosity_A carbon_A porosity_B carbon_B porosity_C carbon_C target
+awk -v n="$asks" 'BEGIN { srand(20)
+  for (k = 1; k <= n; ++k)
+    printf "%d %.4g %.4g %.4g %.4g %.4g %.4g %.4g %.4g %.4g %.4g\n", k, 120 * 2.5 ^ rand(), 1.6 * 2.5 ^ rand(),
+      250 * 4 ^ rand(), 42 + 9 * rand(), 1.5 + 2 * rand(), 42 + 9 * rand(), 1.5 + 2 * rand(), 42 + 9 * rand(),
+      1.5 + 2 * rand(), 0.72 + 0.16 * rand() }' >asks.txt # the target is a share of the porosity before
+
+study() { # NAME ROWS: a study of rows "E_am E_cbd strength porosity carbon pressure seed"
+  {
+    printf '[study]\nname = "%s"\nrecipe = "electrode.toml"\ncase = "case.toml"\nkeep = "tables"\n' "$1"
+    printf '[[vary]]\nkeys = ["case.material.am.youngs_modulus_GPa", "case.material.cbd.youngs_modulus_GPa", '
+    printf '"case.bond.tensile_strength_MPa", "case.bond.shear_strength_MPa", "recipe.coating.porosity_total_percent", '
+    printf '"recipe.composition.carbon_weight_percent", "recipe.composition.binder_weight_percent", '
+    printf '"case.platen.max_pressure_MPa", "recipe.seed"]\nvalues = [\n'
+    awk '{ print "[" $1 ", " $2 ", " $3 ", " $3 ", " $4 ", " $5 ", " $5 ", " $6 ", " $7 "]," }' "$2"
+    echo ']'
+  } >"$1.toml"
+  "$bin/calendem" study "$1.toml" -o "$1" --jobs "$(nproc)" >"$1.log" 2>&1 || { tail "$1.log"; fail "study $1"; }
+}
+# Of study.csv: the porosity after relaxation of each run, percent.
+porosities() {
+  awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) if ($k == "porosity_after_relaxation") at = k; next }
+    { print 100 * $at }' "$1/study.csv"
+}
+
+while read -r k am cbd strength pa ca pb cb _; do
+  for p in 30 80 200; do
+    echo "$am $cbd $strength $pa $ca $p $((1000 + k))"
+    echo "$am $cbd $strength $pb $cb $p $((2000 + k))"
+  done
+done <asks.txt >measured.txt
+study measured measured.txt
+porosities measured | paste -d' ' measured.txt - >readings.txt
+
+film() { # NAME POROSITY CARBON
+  sed "s/^porosity_total_percent.*/porosity_total_percent = $2/; s/^name.*/name = \"$1\"/" electrode.toml
+  printf '\n[composition]\ncarbon_weight_percent = %s\nbinder_weight_percent = %s\n' "$3" "$3"
+}
+while read -r k _ _ _ pa ca pb cb pc cc target; do
+  mkdir -p "ask$k"
+  film "film a" "$pa" "$ca" >"ask$k/a.toml"
+  film "film b" "$pb" "$cb" >"ask$k/b.toml"
+  film "film c" "$pc" "$cc" >"ask$k/c.toml"
+  for f in a b; do
+    printf '[experiment]\nname = "film %s"\nelectrode = "%s.toml"\n' $f $f
+    awk -v from=$((6 * (k - 1))) -v second="$([ $f = a ] && echo 1 || echo 0)" 'NR > from && NR <= from + 6 && NR % 2 == second {
+      printf "[[condition]]\nid = \"p%d\"\ncontrol = \"pressure\"\nmax_pressure_MPa = { value = %g, sd_relative = 0.01 }\nporosity_after_percent = { value = %.3f, sd = 0.6 }\n", $6, $6, $8 }' readings.txt
+  done >"ask$k/both.txt"
+  csplit -s -f "ask$k/part" "ask$k/both.txt" '/name = "film b"/-1'
+  mv "ask$k/part00" "ask$k/a_measured.toml"
+  mv "ask$k/part01" "ask$k/b_measured.toml"
+  "$bin/calendem" calibrate "ask$k/a_measured.toml" "ask$k/b_measured.toml" -o "ask$k/model" \
+    --bank "$cases/coatings/bank.toml" >"ask$k/log" || fail "calibrate, ask $k"
+  "$bin/calendem" design "ask$k/model/model.json" "ask$k/c.toml" -o "ask$k/design" --within $within \
+    --porosity "$(awk -v a="$pc" -v b="$target" 'BEGIN { print a * b }')" >>"ask$k/log" || fail "design, ask $k"
+done <asks.txt
+
+while read -r k am cbd strength _ _ _ _ pc cc target; do
+  chosen=$(sed -n 's/^film c: \([0-9]*\) MPa meets the target with \([0-9]*\) %.*/\1 \2/p' "ask$k/log")
+  for seed in 1 2 3; do
+    echo "$am $cbd $strength $pc $cc ${chosen% *} $((3000 + 10 * k + seed)) ${chosen#* } $(awk -v a="$pc" -v b="$target" 'BEGIN { print a * b }')"
+  done
+done <asks.txt >chosen.txt
+study confirmed chosen.txt
+porosities confirmed | paste -d' ' chosen.txt - >outcome.txt
+# Hits are binomial with the stated probabilities, the three packings of one ask alike at the worst.
+awk -v within=$within '{ hit = ($10 - $9 <= within && $9 - $10 <= within); hits += hit; stated += $8 / 100; variance += 3 * $8 / 100 * (1 - $8 / 100); ++n
+    of[int((NR - 1) / 3)] += hit; p[int((NR - 1) / 3)] = $8 / 100 }
+  END { for (k in of) met += of[k] / 3 >= p[k] - 1e-9
+    printf "%d asks, %d films pressed: %.0f %% met the target, %.0f %% were promised (standard deviation at most %.0f); %d asks met what was promised of them\n",
+      n / 3, n, 100 * hits / n, 100 * stated / n, 100 * sqrt(variance) / n, met
+    exit (hits < stated - 2.6 * sqrt(variance)) }' outcome.txt || fail "fewer hits than promised"

@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# predict_test.sh BIN CASES WORK: measured films calibrate the bank that ships, others are predicted and a pressure is
+# chosen; the same bytes twice; mistakes are reported; the calibrated case is one that `validate` takes.
+set -euo pipefail
+bin=$1 cases=$2 work=$3
+fail() { echo "FAILED: $*" >&2; exit 1; }
+rm -rf "$work"
+mkdir -p "$work"
+cd "$work"
+films=("$cases/paper/experiment.toml" "$cases/real/artistic_96/experiment.toml")
+calendem() { "$bin/calendem" "$@"; }
+
+calendem calibrate "${films[@]}" -o model --bank "$cases/coatings/bank.toml" | tee calibrate.log
+calendem calibrate "${films[@]}" -o again --bank "$cases/coatings/bank.toml" >/dev/null
+for file in model.json model.html case.toml; do
+  cmp "model/$file" "again/$file" || fail "the same input gave another $file"
+done
+grep -q "p006: its pressure is not known, or outside" calibrate.log || fail "what is left out is not reported"
+calendem validate model/case.toml || fail "the calibrated case is none"
+
+cat >film.toml <<'END'
+name = "film"
+[composition]
+carbon_weight_percent = 2.5
+binder_weight_percent = 2.5
+[coating]
+porosity_total_percent = 44
+END
+calendem predict model/model.json film.toml --pressure 20,80,300 -o prediction \
+  --vary porosity_before_percent=43,46 >predict.log || { cat predict.log; fail "predict"; }
+[ "$(wc -l <prediction/prediction.csv)" = 7 ] || fail "two films at three pressures are six rows"
+# The more porous film stays more porous; more pressure leaves less; the median lies within its bands.
+awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
+  { if (FNR > 2 && FNR != 5 && $at["porosity_after_percent_median"] >= last) exit 1
+    last = $at["porosity_after_percent_median"] + 0
+    if (last <= $at["porosity_after_percent_low90"] + 0 || last >= $at["porosity_after_percent_high90"] + 0) exit 2 }' \
+  <(sed 's/^"[^"]*"/film/' prediction/prediction.csv) || fail "prediction.csv: order $?"
+calendem design model/model.json film.toml --porosity 30 --cracked-below 60 -o design | tee design.log
+grep -q "MPa meets the target with" design.log || fail "no pressure is proposed"
+for page in model/model.html prediction/prediction.html design/design.html; do
+  sed '/<script type="application.json" id="data">/,$d' $page | grep -q '{{\|https\?:\| src=' && fail "$page is not whole"
+done
+
+refuses() { # WORDS ARGUMENTS...
+  local words=$1 status=0
+  shift
+  calendem "$@" -o bad >bad.log 2>&1 || status=$?
+  [ $status = 2 ] || fail "exit status $status for: $*"
+  grep -qF -- "$words" bad.log || { cat bad.log; fail "'$words' is not said for: $*"; }
+  [ ! -e bad ] || fail "something was written for: $*"
+}
+refuses "the bank has 20 to 300" predict model/model.json film.toml --pressure 5
+refuses "a range is LOW:HIGH" predict model/model.json film.toml --pressure 80:20
+refuses "give MPa as 20,50,80" predict model/model.json film.toml --pressure twenty
+refuses "give NAME=VALUE,VALUE" predict model/model.json film.toml --vary porosity=40
+refuses "not there. Make it with calendem calibrate" predict none.json film.toml
+printf 'name = "other"\n[particles]\nmedian_um = 9\n' >other.toml
+refuses "particles.median_um: 9 instead of 4.35" predict model/model.json other.toml
+refuses "the film is not of the bank's kind" calibrate "$cases/real/blb_nmc111_90/experiment.toml" --bank "$cases/coatings/bank.toml"
+sed 's/"hash": "[0-9a-f]*"/"hash": "0"/' model/model.json >changed.json
+refuses "has changed since the model was calibrated" design changed.json film.toml --porosity 30

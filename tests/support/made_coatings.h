@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The bank of coatings with runs from formulas. Nothing in it is physics: porosity falls as a power of
+// pressure, the slower the stiffer the binder, and yielding particles let it fall further.
+#ifndef CALENDEM_TESTS_MADE_COATINGS_H
+#define CALENDEM_TESTS_MADE_COATINGS_H
+
+#include "base/random.h"
+#include "diagnose/bank/bank_table.h"
+#include "predict/calibration.h"
+#include <cmath>
+
+namespace calendem_test {
+
+using namespace calendem;
+
+/// Parameters in the bank's order: E_am, E_cbd, strength, porosity before, carbon and binder each.
+/// `yield`: yield pressure [GPa], 0: off.
+inline double made_porosity(const std::vector<double> &p, double yield, double pressure) {
+  const double soft = yield > 0.0 ? 0.4 / yield : 0.0;
+  const double scale = 4000.0 * (p[1] / 2.5) * std::sqrt(p[2] / 500.0) * (2.0 / p[4]);
+  return 0.01 * p[3] * std::exp(-std::pow(pressure / scale, 0.4) * (1.0 + soft));
+}
+inline double made_springback(const std::vector<double> &p, double pressure) {
+  return 0.04 * std::sqrt(pressure / 150.0) * 200.0 / p[0];
+}
+inline double made_cracked(const std::vector<double> &p, double pressure) {
+  return 1.0 - std::exp(-pressure / p[2]);
+}
+
+/// GPa.
+inline double made_modulus(const std::vector<double> &p) { return 0.01 * p[0]; }
+
+inline SimulatedRun made_coating(const BankPoint &point, double target) {
+  Random packing(std::uint64_t(point.packing), 11);
+  SimulatedRun r;
+  r.control = "pressure";
+  r.target = r.max_pressure = target;
+  r.porosity_initial = 0.01 * point.base[3];
+  r.porosity_after = made_porosity(point.base, point.effect.empty() ? 0.0 : point.value, target) +
+                     0.002 * packing.normal();
+  r.porosity_at_max = 1.0 - (1.0 - r.porosity_after) * (1.0 + made_springback(point.base, target));
+  r.cracked_fraction = made_cracked(point.base, target);
+  r.solid_column = 12.0;
+  r.thickness_at_max = 12.0 / (1.0 - r.porosity_at_max);
+  for (const double share : {0.25, 0.5, 0.75, 0.95}) { // linear: a modulus of made_modulus
+    r.release_pressure.push_back(share * target);
+    r.release_displacement.push_back(10.0 - (1.0 - share) * target * 1e-3 /
+                                                made_modulus(point.base) * r.thickness_at_max);
+  }
+  return r;
+}
+
+inline BankTable made_coatings() {
+  BankTable table;
+  table.spec = read_bank_spec(CALENDEM_SOURCE_DIR "/input_scripts/cases/coatings/bank.toml");
+  table.spec.packings = 8;
+  table.spec.base_points = 40;
+  table.spec.effect_points = 16;
+  table.spec.effects = {"nmc_plasticity"};
+  table.spec.full_cell.points = 0;
+  for (const BankPoint &point : bank_points(table.spec))
+    for (const double target : table.spec.pressures)
+      table.rows.push_back({point, made_coating(point, target)});
+  return table;
+}
+
+inline const FilmBank &made_film_bank() {
+  static const FilmBank bank(made_coatings());
+  return bank;
+}
+
+/// A film of the bank's loading.
+inline Film made_film(const std::string &name, double porosity, double carbon) {
+  return {name, {porosity, carbon}, 6.0};
+}
+
+struct Truth {
+  std::vector<double> material = {190.0, 2.4, 480.0};
+  double yield = 0.0;
+};
+
+inline std::vector<double> all_parameters(const Truth &t, const Film &f) {
+  return {t.material[0], t.material[1], t.material[2], f.recipe[0], f.recipe[1]};
+}
+
+/// Adds a film pressed to these pressures, measured within `sd`.
+inline void measure(const Truth &truth, const Film &film, const std::vector<double> &pressures,
+                    double sd, Random &random, Calibration &to) {
+  to.films.push_back(film);
+  for (const double p : pressures)
+    to.data.push_back(
+        {int(to.films.size()) - 1, "p", FilmNumber::PorosityAfter, p, 0.01,
+         made_porosity(all_parameters(truth, film), truth.yield, p) + sd * random.normal(), sd});
+}
+
+} // namespace calendem_test
+
+#endif

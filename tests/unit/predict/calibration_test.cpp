@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "predict/left_out.h"
+#include "support/made_coatings.h"
+#include <gtest/gtest.h>
+
+namespace {
+using namespace calendem_test;
+
+const std::vector<double> kPressures = {25.0, 50.0, 90.0, 150.0, 250.0};
+
+CalibrationSettings few() {
+  CalibrationSettings s;
+  s.samples = 1024;
+  s.draws = 200;
+  return s;
+}
+
+Calibration of(const Truth &truth, std::uint64_t seed = 1) {
+  Random random(seed, 21);
+  Calibration c;
+  c.error = {0.0, 0.001, 0.02, 0.1};
+  measure(truth, made_film("a", 48.0, 2.0), kPressures, 0.002, random, c);
+  measure(truth, made_film("b", 43.0, 2.5), kPressures, 0.002, random, c);
+  calibrate(made_film_bank(), few(), c);
+  return c;
+}
+
+double probability(const Calibration &c, const std::string &name) {
+  for (const Weighed &w : c.hypotheses)
+    if (w.name == name)
+      return w.probability;
+  return NAN;
+}
+
+TEST(Calibrate, WithoutDataNothingIsLearnt) {
+  Calibration c;
+  c.films = {made_film("a", 48.0, 2.0)};
+  calibrate(made_film_bank(), few(), c);
+  EXPECT_NEAR(probability(c, "none"), 0.5, 1e-9);
+  EXPECT_EQ(c.draws.size(), 200u);
+  EXPECT_NEAR(c.hypotheses[0].effective_samples, 1024.0, 1e-6);
+}
+
+// The product of the binder's stiffness and the root of the strength is what porosity shows: its logarithm has a
+// standard deviation of 0.33 before the data.
+TEST(Calibrate, FindsWhatTheDataShow) {
+  const Calibration c = of({});
+  double sum = 0.0, squares = 0.0;
+  for (const Draw &d : c.draws) {
+    const double x =
+        std::log(d.material.parameters[1] / 2.4) + 0.5 * std::log(d.material.parameters[2] / 480.0);
+    sum += x;
+    squares += x * x;
+  }
+  const double n = double(c.draws.size()), mean = sum / n,
+               sd = std::sqrt(squares / n - mean * mean);
+  EXPECT_LT(sd, 0.5 * 0.33);
+  EXPECT_LT(std::fabs(mean), 2.0 * sd);
+  EXPECT_GT(probability(c, "none"), 0.5);
+}
+
+TEST(Calibrate, NamesAnEffectThatActs) {
+  const Calibration c = of({{190.0, 1.7, 260.0}, 1.0}); // no other material falls as far
+  EXPECT_GT(probability(c, "nmc_plasticity"), 0.9);
+}
+
+// No binder of the bank is as soft as this film asks for.
+TEST(Calibrate, SaysThatAParameterIsAtTheEndOfItsRange) {
+  EXPECT_TRUE(at_the_end(made_film_bank(), of({})).empty());
+  const auto soft = at_the_end(made_film_bank(), of({{190.0, 1.2, 180.0}, 0.0}, 2));
+  ASSERT_FALSE(soft.empty());
+  EXPECT_NE((soft[0] + soft.back()).find("lower end of the bank's range"), std::string::npos);
+}
+
+TEST(Calibrate, IsDeterministic) {
+  const Calibration a = of({}), b = of({});
+  for (std::size_t k = 0; k < a.draws.size(); ++k)
+    EXPECT_EQ(a.draws[k].material.parameters, b.draws[k].material.parameters);
+}
+
+// A datum pulls the prediction of its own film more than that of another, and none far away in pressure as much.
+TEST(GivenData, APartOfTheModelsErrorIsSharedBetweenFilms) {
+  Calibration c;
+  c.error = {0.0, 0.02, 0.0201, 0.1};
+  c.films = {made_film("a", 48.0, 2.0)};
+  const Draw draw = {{{190.0, 2.4, 480.0}, -1, 0.0}, {0.02, 0.5}};
+  const double expected = made_porosity({190.0, 2.4, 480.0, 48.0, 2.0}, 0.0, 80.0);
+  c.data = {{0, "p", FilmNumber::PorosityAfter, 80.0, 0.0, expected + 0.02, 1e-4}};
+  const FilmBank &bank = made_film_bank();
+  const auto pulled = [&](const Film &film, double pressure) {
+    Calibration without = c;
+    without.data.clear();
+    const Wanted wanted = {film, FilmNumber::PorosityAfter, {pressure}};
+    return given_data(bank, c, draw, wanted)[0].mean -
+           given_data(bank, without, draw, wanted)[0].mean;
+  };
+  EXPECT_NEAR(pulled(c.films[0], 80.0), 0.02, 0.004);
+  EXPECT_NEAR(pulled(made_film("b", 48.0, 2.0), 80.0), 0.01, 0.002);
+  EXPECT_NEAR(pulled(c.films[0], 80.0 * std::exp(1.0)), 0.02 * std::exp(-0.5), 0.004);
+}
+
+TEST(RulesOfThumb, FindTheirOwnConstants) {
+  std::vector<Pressed> heckel, meyer;
+  for (const double before : {0.42, 0.48})
+    for (const double p : {20.0, 60.0, 150.0}) {
+      heckel.push_back({before, p, before * std::exp(-p / 350.0 - 0.25)});
+      meyer.push_back({before, p, 0.18 + (before - 0.18) * std::exp(-p / 70.0)});
+    }
+  const auto of_heckel = rules_of_thumb(heckel)[0].constants;
+  EXPECT_NEAR(of_heckel[0], 350.0, 1.0);
+  EXPECT_NEAR(of_heckel[1], 0.25, 0.001);
+  const auto of_meyer = rules_of_thumb(meyer)[1].constants;
+  EXPECT_NEAR(of_meyer[0], 0.18, 0.001);
+  EXPECT_NEAR(of_meyer[1], 70.0, 0.5);
+}
+
+// Forty measured numbers of twenty truths, drawn from the priors: each film predicted from the other.
+// With p = 0.9 36 +- 1.9 are expected inside if they were independent; two films of one truth miss
+// together: half as many, 18 +- 1.3, counted twice. 31 is three of those below.
+TEST(LeftOut, IntervalsHoldWhatTheyPromise) {
+  Random random(5, 3);
+  int inside = 0, all = 0;
+  CalibrationSettings settings;
+  settings.samples = 512;
+  settings.draws = 100;
+  for (int k = 0; k < 20; ++k) {
+    Truth truth;
+    truth.material = {120.0 * std::pow(2.5, random.uniform()),
+                      1.6 * std::pow(2.5, random.uniform()),
+                      250.0 * std::pow(4.0, random.uniform())};
+    Calibration c;
+    c.error = {0.0, 0.001, 0.02, 0.1};
+    measure(truth, made_film("a", 42.0 + 9.0 * random.uniform(), 2.0), {60.0}, 0.003, random, c);
+    measure(truth, made_film("b", 42.0 + 9.0 * random.uniform(), 2.5), {120.0}, 0.003, random, c);
+    for (const LeftOut &row : left_out(made_film_bank(), c, settings)) {
+      ++all;
+      inside += row.measured >= row.predicted.low90 && row.measured <= row.predicted.high90;
+    }
+  }
+  EXPECT_EQ(all, 40);
+  EXPECT_GE(inside, 31);
+}
+
+} // namespace

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/messages.h"
+#include "support/made_coatings.h"
+#include <gtest/gtest.h>
+
+namespace {
+using namespace calendem_test;
+
+const Material kMiddle = {{190.0, 2.4, 480.0}, -1, 0.0};
+
+// Emulators see packings that scatter by 0.2 points; their mean is known to a fraction of that, and the power
+// law between five pressures is met to 0.2 points by the cubic.
+TEST(FilmBank, MeetsTheFormulaAtAndBetweenPressures) {
+  const FilmBank &bank = made_film_bank();
+  const Film film = made_film("x", 46.0, 2.2);
+  const auto curve = bank.at_pressures(FilmNumber::PorosityAfter, film, kMiddle);
+  for (const double p : {20.0, 35.0, 80.0, 110.0, 220.0, 300.0}) {
+    const double expected = made_porosity({190.0, 2.4, 480.0, 46.0, 2.2}, 0.0, p);
+    EXPECT_NEAR(bank.at(curve, p).mean, expected, 0.005) << p;
+    EXPECT_LT(std::sqrt(bank.at(curve, p).variance), 0.005) << p;
+  }
+}
+
+TEST(FilmBank, AnEffectIsAddedToTheBaseModel) {
+  const FilmBank &bank = made_film_bank();
+  const Film film = made_film("x", 46.0, 2.2);
+  const EffectParameter &key = find_effect("nmc_plasticity").parameter;
+  const Material yields = {{190.0, 2.4, 480.0}, 0, key.amplitude(2.5)};
+  const auto curve = bank.at_pressures(FilmNumber::PorosityAfter, film, yields);
+  EXPECT_NEAR(bank.at(curve, 150.0).mean, made_porosity({190.0, 2.4, 480.0, 46.0, 2.2}, 2.5, 150.0),
+              0.01);
+}
+
+TEST(FilmBank, BeyondTheBankItWidensAndSaysSo) {
+  const FilmBank &bank = made_film_bank();
+  const Film inside = made_film("x", 46.0, 2.2), outside = made_film("x", 60.0, 2.2);
+  EXPECT_TRUE(bank.beyond(inside).empty());
+  ASSERT_EQ(bank.beyond(outside).size(), 1u);
+  EXPECT_EQ(bank.beyond(outside)[0], "porosity_before_percent is 60, the bank has 41 to 52");
+  const auto width = [&](const Film &f) {
+    return bank.at_pressures(FilmNumber::PorosityAfter, f, kMiddle)[2].variance;
+  };
+  EXPECT_GT(width(outside), 4.0 * width(inside));
+  EXPECT_TRUE(bank.covers(300.0));
+  EXPECT_FALSE(bank.covers(10.0));
+}
+
+TEST(FilmBank, TooFewPressuresAreRefused) {
+  BankTable table = made_coatings();
+  table.spec.pressures = {80.0, 150.0};
+  EXPECT_THROW(FilmBank{table}, Failure);
+}
+
+// Runs on the full cell that are 3 points denser shift every film of its loading by that, and none of the
+// bank's own.
+TEST(FilmBank, TheFullCellShiftsFilmsOfItsLoading) {
+  BankTable table = made_coatings();
+  table.spec.full_cell.points = 3;
+  for (BankPoint point : full_cell_points(table.spec))
+    for (const double target : table.spec.pressures) {
+      BankPoint of_full = point;
+      of_full.base[3] = 47.97; // the full cell's own recipe
+      of_full.base[4] = 2.0;
+      of_full.effect.clear();
+      SimulatedRun run = made_coating(of_full, target);
+      run.porosity_after -= 0.03;
+      table.rows.push_back({point, run});
+    }
+  const FilmBank shifted(table);
+  Film film = made_film("x", 47.97, 2.0);
+  const auto after = [&](const FilmBank &bank) {
+    return bank.at_pressures(FilmNumber::PorosityAfter, film, kMiddle)[3];
+  };
+  EXPECT_NEAR(after(shifted).mean, after(made_film_bank()).mean, 1e-12);
+  film.loading = 17.46;
+  EXPECT_NEAR(after(shifted).mean - after(made_film_bank()).mean, -0.03, 0.006);
+  EXPECT_GT(after(shifted).variance, after(made_film_bank()).variance);
+}
+
+} // namespace

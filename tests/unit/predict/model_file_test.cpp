@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/messages.h"
+#include "base/provenance.h"
+#include "predict/pages.h"
+#include "support/made_coatings.h"
+#include "support/page.h"
+#include "support/test_folder.h"
+#include <filesystem>
+#include <gtest/gtest.h>
+
+namespace {
+using namespace calendem_test;
+
+/// A bank on disk whose spec is the shipped one with fewer points.
+std::string bank_on_disk(const std::filesystem::path &folder) {
+  namespace fs = std::filesystem;
+  const fs::path cases = CALENDEM_SOURCE_DIR "/input_scripts/cases";
+  fs::create_directories(folder / "coatings");
+  fs::copy(cases / "demo", folder / "demo", fs::copy_options::recursive);
+  fs::copy(cases / "studies/case.toml", folder / "case.toml");
+  for (const char *file : {"electrode.toml", "case.toml"})
+    fs::copy(cases / "coatings" / file, folder / "coatings" / file);
+  std::string text = text_of_file((cases / "coatings/bank.toml").string());
+  const auto replace = [&](const std::string &what, const std::string &with) {
+    text.replace(text.find(what), what.size(), with);
+  };
+  replace("base_points = 48", "base_points = 40");
+  replace("packings = 12", "packings = 8");
+  replace("effects = [\"nmc_plasticity\", \"cbd_collapse\"]", "effects = [\"nmc_plasticity\"]");
+  text.erase(text.find("[full_cell]"),
+             text.find("# What the bank's runs") - text.find("[full_cell]"));
+  const std::string file = (folder / "coatings/bank.toml").string();
+  write_file(file, text);
+  write_file(table_file(file), write_bank_table(made_coatings()));
+  return file;
+}
+
+struct OnDisk {
+  std::filesystem::path folder = test_folder();
+  std::string bank_file = bank_on_disk(folder);
+  FilmBank bank{read_bank_table(read_bank_spec(bank_file), table_file(bank_file))};
+  Calibration calibration;
+  std::string file = (folder / "model.json").string();
+
+  OnDisk() {
+    Random random(1, 2);
+    calibration.error = {0.01, 0.001, 0.02, 0.1};
+    measure({}, made_film("a", 48.0, 2.0), {80.0, 150.0}, 0.002, random, calibration);
+    measure({}, made_film("b", 43.0, 2.5), {50.0}, 0.002, random, calibration);
+    CalibrationSettings settings;
+    settings.samples = 256;
+    settings.draws = 50;
+    calibrate(bank, settings, calibration);
+    write_file(file, to_json(bank, calibration, left_out(bank, calibration, settings)).dump(1));
+  }
+};
+
+std::string refusal(const std::string &file) {
+  try {
+    read_model(file);
+  } catch (const Failure &f) {
+    return f.exit_status() == kBadInput ? f.what() : "another exit status";
+  }
+  return "";
+}
+
+TEST(ModelFile, ReadsBackWhatWasWritten) {
+  const OnDisk d;
+  const Model m = read_model(d.file);
+  const Film film = made_film("new", 45.0, 2.2);
+  const Band before = predicted(d.bank, d.calibration, film, {100.0}, 0.0).after[0],
+             after = predicted(m.bank, m.calibration, film, {100.0}, 0.0).after[0];
+  EXPECT_NEAR(before.median, after.median, 1e-9);
+  EXPECT_NEAR(before.low90, after.low90, 1e-9);
+  EXPECT_EQ(m.json["left_out"].size(), 3u);
+}
+
+TEST(ModelFile, WhatIsNoModelOrHasAnotherBankIsRefused) {
+  const OnDisk d;
+  const std::string whole = text_of_file(d.file);
+  EXPECT_NE(refusal((d.folder / "none.json").string()).find("not there"), std::string::npos);
+  write_file(d.file, whole.substr(0, whole.size() / 2));
+  EXPECT_NE(refusal(d.file).find("cut or damaged"), std::string::npos);
+  write_file(d.file, "{}");
+  EXPECT_NE(refusal(d.file).find("no model of calendem calibrate"), std::string::npos);
+  write_file(d.file, whole);
+  EXPECT_EQ(refusal(d.file), "");
+  write_file(table_file(d.bank_file), text_of_file(table_file(d.bank_file)) + "\n");
+  EXPECT_NE(refusal(d.file).find("has changed since"), std::string::npos);
+}
+
+TEST(ModelFile, TheCaseIsOneThatRunTakes) {
+  const OnDisk d;
+  const std::string text = case_of(d.bank, d.calibration);
+  for (const char *part : {"[material.am]", "youngs_modulus_GPa = ", "[bond]",
+                           "tensile_strength_MPa = ", "shear_strength_MPa = "})
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+}
+
+TEST(Pages, AreWholeAndHoldTheirNumbers) {
+  const OnDisk d;
+  const Model m = read_model(d.file);
+  const std::string model = model_page(m.bank, m.calibration, m.json);
+  const Film film = made_film("new", 45.0, 2.2);
+  std::vector<PredictedFilm> films = {predicted(m.bank, m.calibration, film, {50.0, 100.0}, 0.0)};
+  nlohmann::ordered_json json = to_json(m.bank, films);
+  const std::string page = prediction_page(m.calibration, films, json);
+  const Target target = {0.3, 0.01, 0.2};
+  Design design;
+  design.film = film;
+  design.chances = chances(m.bank, m.calibration, film, {50.0, 100.0}, 0.0, target);
+  design.predicted = films[0];
+  const std::string designed = design_page(target, {design}, to_json(m.bank, target, {design}));
+  for (const std::string *text : {&model, &page, &designed}) {
+    const std::string bare = without_scripts(*text);
+    EXPECT_EQ(bare.find("{{"), std::string::npos);
+    EXPECT_EQ(bare.find("http"), std::string::npos);
+  }
+  EXPECT_NE(model.find("Every film left out in turn"), std::string::npos);
+  EXPECT_NE(designed.find("30 ± 1 % porosity with fewer than 20 % cracked"), std::string::npos);
+  const std::string table = prediction_table(m.bank, films);
+  EXPECT_EQ(table.substr(0, 60).find("film,porosity_before_percent,"), 0u);
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
+}
+
+} // namespace

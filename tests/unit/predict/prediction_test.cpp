@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "predict/prediction.h"
+#include "support/made_coatings.h"
+#include <gtest/gtest.h>
+
+namespace {
+using namespace calendem_test;
+
+Calibration exact() {
+  Calibration c;
+  c.error = {0.0, 0.001, 0.002, 0.1};
+  c.draws = {{{{190.0, 2.4, 480.0}, -1, 0.0}, {0.001, 0.5}}};
+  return c;
+}
+
+TEST(Mixture, QuantilesOfANormalAndOfTwo) {
+  const Mixture one = {{{0.3, 0.0004}}};
+  EXPECT_NEAR(one.quantile(0.95), 0.3 + 1.644854 * 0.02, 1e-6);
+  const Mixture two = {{{0.0, 1e-6}, {1.0, 1e-6}}};
+  EXPECT_NEAR(two.probability_below(0.5), 0.5, 1e-12);
+  EXPECT_NEAR(two.quantile(0.25), 0.0, 1e-3);
+  EXPECT_NEAR(two.quantile(0.75), 1.0, 1e-3);
+}
+
+TEST(Predicted, PorosityUnderLoadIsThatBeforeTheSpringback) {
+  const Film film = made_film("x", 46.0, 2.0);
+  const PredictedFilm p = predicted(made_film_bank(), exact(), film, {80.0, 150.0}, 0.0);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::vector<double> all = {190.0, 2.4, 480.0, 46.0, 2.0};
+    const double after = made_porosity(all, 0.0, p.pressures[k]);
+    EXPECT_NEAR(p.after[k].median, after, 0.005);
+    EXPECT_NEAR(p.under_load[k].median,
+                1.0 - (1.0 - after) * (1.0 + made_springback(all, p.pressures[k])), 0.008);
+    EXPECT_NEAR(p.modulus[k].median, made_modulus(all), 0.02);
+    EXPECT_LT(p.after[k].low90, p.after[k].low50);
+    EXPECT_LT(p.after[k].high50, p.after[k].high90);
+  }
+}
+
+TEST(Predicted, APressOfUncertainPressureWidens) {
+  const Film film = made_film("x", 46.0, 2.0);
+  const auto width = [&](double pressure_sd) {
+    const Band b = predicted(made_film_bank(), exact(), film, {80.0}, pressure_sd).after[0];
+    return b.high90 - b.low90;
+  };
+  EXPECT_GT(width(0.2), 1.5 * width(0.0));
+}
+
+// The pressure that gives the middle of the target is the best, and a bound on cracks takes the high ones away.
+TEST(Chances, ThePressureThatMeetsTheTargetIsTheBest) {
+  const Film film = made_film("x", 46.0, 2.0);
+  const std::vector<double> all = {190.0, 2.4, 480.0, 46.0, 2.0};
+  const auto pressures = spread_pressures(20.0, 300.0, 25);
+  EXPECT_EQ(pressures.front(), 20.0);
+  EXPECT_NEAR(pressures.back(), 300.0, 1e-9);
+  const Target target = {made_porosity(all, 0.0, 100.0), 0.01, 1.0};
+  const auto c = chances(made_film_bank(), exact(), film, pressures, 0.0, target);
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < c.size(); ++k)
+    if (c[k].both > c[best].both)
+      best = k;
+  EXPECT_NEAR(std::log(c[best].pressure / 100.0), 0.0, 0.25);
+  EXPECT_GT(c[best].both, 0.9);
+  Target few_cracks = target;
+  few_cracks.cracked_below = made_cracked(all, 30.0);
+  const auto bounded = chances(made_film_bank(), exact(), film, pressures, 0.0, few_cracks);
+  EXPECT_LT(bounded[best].both, 0.5 * c[best].both + 0.3);
+  EXPECT_LT(bounded.back().cracked, 0.05);
+}
+
+} // namespace

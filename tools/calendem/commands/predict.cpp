@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// From why to what to do: calibrate, predict, design.
+#include "base/provenance.h"
+#include "commands/commands.h"
+#include "predict/pages.h"
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace calendem {
+namespace {
+
+constexpr double kPercent = 100.0;
+
+struct CalibrateOptions {
+  std::vector<std::string> experiments;
+  std::string bank, folder;
+  CalibrationSettings settings;
+};
+
+void run_calibrate(const CalibrateOptions &o) {
+  const FilmBank bank(read_bank_table(read_bank_spec(o.bank), table_file(o.bank)));
+  Calibration c;
+  double numerics = 0.0;
+  for (const Numerics &n : bank.spec().numerics)
+    numerics += n.porosity_points * n.porosity_points;
+  c.error.numerics = std::sqrt(numerics) / kPercent;
+  std::vector<std::string> not_said;
+  for (const std::string &file : o.experiments)
+    add_experiment(read_experiment(file), bank, c, not_said);
+  make_output_folder(o.folder);
+  fmt::print("calibrate: {} films, {} numbers\n", c.films.size(), c.data.size());
+  calibrate(bank, o.settings, c);
+  for (const std::string &text : at_the_end(bank, c))
+    not_said.push_back(text);
+  const std::vector<LeftOut> rows = left_out(bank, c, o.settings);
+  nlohmann::ordered_json model = to_json(bank, c, rows);
+  for (const std::string &file : o.experiments)
+    model["provenance"]["experiments"].push_back({{"file", file}, {"hash", hash_of_file(file)}});
+  model["not_said"] = not_said;
+  write_file(o.folder + "/model.json", model.dump(1) + "\n");
+  write_file(o.folder + "/case.toml", case_of(bank, c));
+  write_file(o.folder + "/model.html", model_page(bank, c, model));
+  for (const Weighed &w : c.hypotheses)
+    fmt::print("  {:<24} {:5.1f} %   ({:.0f} effective samples)\n", w.name,
+               kPercent * w.probability, w.effective_samples);
+  if (!rows.empty())
+    fmt::print("each film left out in turn: porosity after release, %\n");
+  for (const LeftOut &r : rows)
+    fmt::print("  {:<36} {:4.0f} MPa  measured {:.1f}, predicted {:.1f} (90 %: {:.1f} to {:.1f}), "
+               "Heckel {:.1f}, Meyer {:.1f}\n",
+               r.film, r.pressure, kPercent * r.measured, kPercent * r.predicted.median,
+               kPercent * r.predicted.low90, kPercent * r.predicted.high90, kPercent * r.rules[0],
+               kPercent * r.rules[1]);
+  for (const std::string &text : not_said)
+    fmt::print("- {}\n", text);
+  fmt::print("page: {0}/model.html\nmodel: {0}/model.json\ncase: {0}/case.toml\n", o.folder);
+}
+
+struct PredictOptions {
+  std::string model, folder;
+  std::vector<std::string> recipes, vary;
+  std::string pressures;
+  double press_percent = 0.0;
+  double porosity = 0.0, within = 1.0, cracked_below = 100.0;
+};
+
+/// "20,50,80" or "20:300", which is 25 pressures at equal ratios.
+std::vector<double> pressures_of(const std::string &text, const FilmBank &bank) {
+  std::vector<double> out;
+  const bool range = text.find(':') != std::string::npos;
+  std::string part;
+  for (std::size_t k = 0; k <= text.size(); ++k) {
+    if (k < text.size() && text[k] != ',' && text[k] != ':') {
+      part += text[k];
+      continue;
+    }
+    std::size_t used = 0;
+    double value = NAN;
+    try {
+      value = std::stod(part, &used);
+    } catch (const std::exception &) {
+    }
+    if (used != part.size() || !(value > 0.0) || !std::isfinite(value))
+      throw Failure(kBadInput, fmt::format("--pressure is '{}'; give MPa as 20,50,80 or as a range "
+                                           "20:300.",
+                                           text));
+    out.push_back(value);
+    part.clear();
+  }
+  if (range && (out.size() != 2 || out[0] >= out[1]))
+    throw Failure(kBadInput, fmt::format("--pressure is '{}'; a range is LOW:HIGH in MPa.", text));
+  if (range)
+    out = spread_pressures(out[0], out[1], 25);
+  for (const double p : out)
+    if (!bank.covers(p))
+      throw Failure(kBadInput,
+                    fmt::format("--pressure asks for {:g} MPa; the bank has {:g} to {:g}. Nothing "
+                                "is known outside; make a bank with more pressures_MPa.",
+                                p, bank.spec().pressures.front(), bank.spec().pressures.back()));
+  return out;
+}
+
+/// Every combination of "NAME=v,v,v" for the films.
+std::vector<Film> varied(std::vector<Film> films, const std::vector<std::string> &vary,
+                         const FilmBank &bank) {
+  for (const std::string &text : vary) {
+    const std::size_t equals = text.find('=');
+    const std::string name = text.substr(0, equals);
+    std::size_t place = 0;
+    std::vector<std::string> names;
+    for (const BankParameter &p : bank.film())
+      names.push_back(p.name);
+    while (place < names.size() && names[place] != name)
+      ++place;
+    if (equals == std::string::npos || place == names.size())
+      throw Failure(kBadInput, fmt::format("--vary is '{}'; give NAME=VALUE,VALUE with a name of "
+                                           "the bank's films: {}.",
+                                           text, fmt::join(names, ", ")));
+    std::vector<Film> next;
+    for (const Film &f : films)
+      for (const std::string &value : CLI::detail::split(text.substr(equals + 1), ',')) {
+        Film changed = f;
+        double number = 0.0;
+        if (!CLI::detail::lexical_cast(value, number))
+          throw Failure(kBadInput, fmt::format("--vary is '{}'; '{}' is no number.", text, value));
+        changed.recipe[place] = number;
+        changed.name += fmt::format("{}{} {:g}", f.name.empty() ? "" : ", ", name, number);
+        next.push_back(changed);
+      }
+    films = next;
+  }
+  return films;
+}
+
+struct Asked {
+  Model model;
+  std::vector<Film> films;
+  std::vector<double> pressures;
+};
+
+Asked asked(const PredictOptions &o) {
+  Asked out = {read_model(o.model), {}, {}};
+  for (const std::string &file : o.recipes)
+    out.films.push_back(out.model.bank.film_of(read_recipe(file)));
+  out.films = varied(out.films, o.vary, out.model.bank);
+  out.pressures = pressures_of(o.pressures, out.model.bank);
+  return out;
+}
+
+nlohmann::ordered_json provenance(const PredictOptions &o) {
+  nlohmann::ordered_json out = {{"calendem", version()},
+                                {"hashes", "64-bit FNV-1a"},
+                                {"model", o.model},
+                                {"model_hash", hash_of_file(o.model)}};
+  for (const std::string &file : o.recipes)
+    out["recipes"].push_back({{"file", file}, {"hash", hash_of_file(file)}});
+  return out;
+}
+
+void run_predict(const PredictOptions &o) {
+  const Asked a = asked(o);
+  std::vector<PredictedFilm> films;
+  for (const Film &f : a.films)
+    films.push_back(
+        predicted(a.model.bank, a.model.calibration, f, a.pressures, o.press_percent / kPercent));
+  nlohmann::ordered_json json = to_json(a.model.bank, films);
+  json["provenance"] = provenance(o);
+  make_output_folder(o.folder);
+  write_file(o.folder + "/prediction.csv", prediction_table(a.model.bank, films));
+  write_file(o.folder + "/prediction.json", json.dump(1) + "\n");
+  write_file(o.folder + "/prediction.html", prediction_page(a.model.calibration, films, json));
+  for (const PredictedFilm &f : films) {
+    fmt::print("{}: porosity after release, % (90 %), cracked particles, %\n", f.film.name);
+    for (std::size_t k = 0; k < f.pressures.size(); ++k)
+      fmt::print("  {:6.1f} MPa  {:5.1f} ({:.1f} to {:.1f})  {:5.1f} ({:.1f} to {:.1f})\n",
+                 f.pressures[k], kPercent * f.after[k].median, kPercent * f.after[k].low90,
+                 kPercent * f.after[k].high90, kPercent * f.cracked[k].median,
+                 kPercent * f.cracked[k].low90, kPercent * f.cracked[k].high90);
+    for (const std::string &text : f.beyond)
+      fmt::print("  note: {}: extrapolated\n", text);
+  }
+  fmt::print("page: {0}/prediction.html\ntable: {0}/prediction.csv\n", o.folder);
+}
+
+void run_design(const PredictOptions &o) {
+  const Asked a = asked(o);
+  const Target target = {o.porosity / kPercent, o.within / kPercent, o.cracked_below / kPercent};
+  std::vector<Design> designs;
+  for (const Film &f : a.films) {
+    Design d;
+    d.film = f;
+    d.chances = chances(a.model.bank, a.model.calibration, f, a.pressures,
+                        o.press_percent / kPercent, target);
+    d.predicted =
+        predicted(a.model.bank, a.model.calibration, f, a.pressures, o.press_percent / kPercent);
+    for (std::size_t k = 1; k < d.chances.size(); ++k)
+      if (d.chances[k].both > d.chances[d.best].both)
+        d.best = k;
+    designs.push_back(d);
+  }
+  nlohmann::ordered_json json = to_json(a.model.bank, target, designs);
+  json["provenance"] = provenance(o);
+  make_output_folder(o.folder);
+  write_file(o.folder + "/design.json", json.dump(1) + "\n");
+  write_file(o.folder + "/design.html", design_page(target, designs, json));
+  for (const Design &d : designs) {
+    const Chance &best = d.chances[d.best];
+    fmt::print("{}: {:.0f} MPa meets the target with {:.0f} % (porosity {:.0f} %, cracked {:.0f} "
+               "%): porosity {:.1f} %, cracked {:.0f} %\n",
+               d.film.name, best.pressure, kPercent * best.both, kPercent * best.porosity,
+               kPercent * best.cracked, kPercent * d.predicted.after[d.best].median,
+               kPercent * d.predicted.cracked[d.best].median);
+    for (const std::string &text : d.predicted.beyond)
+      fmt::print("  note: {}: extrapolated\n", text);
+  }
+  fmt::print("page: {0}/design.html\ndata: {0}/design.json\n", o.folder);
+}
+
+void add_common_options(CLI::App &verb, PredictOptions &o) {
+  verb.add_option("MODEL", o.model, "model.json of calendem calibrate")->required();
+  verb.add_option("RECIPE", o.recipes, "electrode recipes (TOML), uncalendered")->required();
+  verb.add_option("-o,--output", o.folder, "folder for the page and the data")->required();
+  verb.add_option("--vary", o.vary,
+                  "NAME=VALUE,VALUE: the recipes with these values of one of the bank's parameters "
+                  "of films; several: every combination");
+  verb.add_option("--press-percent", o.press_percent,
+                  "standard deviation of the press's pressure [%]; default 0: as asked for")
+      ->check(CLI::Range(0.0, 50.0));
+}
+
+} // namespace
+
+void add_calibrate_verb(CLI::App &app) {
+  auto o = std::make_shared<CalibrateOptions>();
+  o->bank = input_scripts() + "/cases/coatings/bank.toml";
+  CLI::App *verb = app.add_subcommand(
+      "calibrate", "What measured films say of the material: parameters and effects with their "
+                   "uncertainty, each film predicted from the others");
+  verb->add_option("EXPERIMENT", o->experiments, "experiment files (TOML)")->required();
+  verb->add_option("-o,--output", o->folder, "folder for model.json, case.toml and model.html")
+      ->required();
+  verb->add_option("--bank", o->bank, "bank (TOML) with its table (CSV) beside it");
+  verb->add_option("--samples", o->settings.samples, "of each hypothesis, from its prior")
+      ->check(CLI::Range(64, 1 << 20));
+  verb->callback([o] { run_calibrate(*o); });
+}
+
+void add_predict_verb(CLI::App &app) {
+  auto o = std::make_shared<PredictOptions>();
+  o->pressures = "20:300";
+  CLI::App *verb = app.add_subcommand(
+      "predict", "Porosity, springback and cracked particles of films that were not measured, "
+                 "against pressure, with intervals");
+  add_common_options(*verb, *o);
+  verb->add_option("--pressure", o->pressures, "MPa: 20,50,80 or a range 20:300 (default)");
+  verb->callback([o] { run_predict(*o); });
+}
+
+void add_design_verb(CLI::App &app) {
+  auto o = std::make_shared<PredictOptions>();
+  o->pressures = "20:300";
+  CLI::App *verb = app.add_subcommand(
+      "design", "Which pressure gives a porosity with few cracked particles, and how sure that is");
+  add_common_options(*verb, *o);
+  verb->add_option("--porosity", o->porosity, "wanted total porosity after release [%]")
+      ->required()
+      ->check(CLI::Range(1.0, 79.0));
+  verb->add_option("--within", o->within, "points of porosity that it may be off (default 1)")
+      ->check(CLI::Range(0.01, 20.0));
+  verb->add_option("--cracked-below", o->cracked_below, "cracked particles [%]; default: any")
+      ->check(CLI::Range(0.1, 100.0));
+  verb->add_option("--pressure", o->pressures, "MPa to choose from: a list or a range");
+  verb->callback([o] { run_design(*o); });
+}
+
+} // namespace calendem

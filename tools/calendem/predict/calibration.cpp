@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "predict/calibration.h"
+#include "base/messages.h"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+#include <numeric>
+
+namespace calendem {
+
+using inference::Cholesky;
+using inference::Matrix;
+using inference::Vector;
+namespace {
+
+constexpr double kUsualPressureSd = 0.1; // where an experiment gives none
+constexpr double kUsualPorositySd = 0.01, kUsualCrackedSd = 0.1;
+
+void add_datum(const Condition &c, FilmNumber number, const Measured &value, double per_cent,
+               double usual_sd, Calibration &to) {
+  Datum d;
+  d.film = int(to.films.size()) - 1;
+  d.condition = c.id;
+  d.number = number;
+  d.pressure = c.max_pressure_MPa->value;
+  d.pressure_sd =
+      c.max_pressure_MPa->sd > 0.0 ? c.max_pressure_MPa->sd / d.pressure : kUsualPressureSd;
+  d.measured = per_cent * value.value;
+  d.sd = value.sd > 0.0 ? per_cent * value.sd : usual_sd;
+  to.data.push_back(d);
+}
+
+} // namespace
+
+void add_experiment(const Experiment &experiment, const FilmBank &bank, Calibration &to,
+                    std::vector<std::string> &not_said) {
+  const std::size_t before = to.data.size();
+  to.films.push_back(bank.film_of(experiment.recipe));
+  to.films.back().name = experiment.name;
+  for (const std::string &why : bank.beyond(to.films.back()))
+    not_said.push_back(fmt::format("{}: {}: extrapolated.", experiment.name, why));
+  for (const Condition &c : experiment.conditions) {
+    if (!c.max_pressure_MPa || !bank.covers(c.max_pressure_MPa->value)) {
+      not_said.push_back(fmt::format("{}, {}: its pressure is not known, or outside the bank's "
+                                     "{:g} to {:g} MPa: left out.",
+                                     experiment.name, c.id, bank.spec().pressures.front(),
+                                     bank.spec().pressures.back()));
+      continue;
+    }
+    if (c.porosity_after_percent)
+      add_datum(c, FilmNumber::PorosityAfter, *c.porosity_after_percent, 0.01, kUsualPorositySd,
+                to);
+    if (c.cracked_bodies_fraction)
+      add_datum(c, FilmNumber::Cracked, *c.cracked_bodies_fraction, 1.0, kUsualCrackedSd, to);
+  }
+  if (to.data.size() == before)
+    throw Failure(kBadInput,
+                  fmt::format("{}: no condition with max_pressure_MPa within the bank's pressures "
+                              "has porosity_after_percent or cracked_bodies_fraction.",
+                              experiment.name));
+}
+
+namespace {
+
+/// Where a number is asked for.
+struct Spot {
+  int film;
+  FilmNumber number;
+  double log_pressure;
+};
+
+/// A part of what the model misses is common to all films; it changes over a factor e of pressure.
+/// One shift of the bank's numerics is common to all porosities.
+double error_covariance(const ModelError &e, const Missed &missed, const Spot &a, const Spot &b) {
+  if (a.number != b.number)
+    return 0.0;
+  const double off = a.log_pressure - b.log_pressure;
+  const double alike = std::exp(-0.5 * off * off) * (a.film == b.film ? 1.0 : missed.shared);
+  switch (a.number) {
+  case FilmNumber::PorosityAfter:
+    return e.numerics * e.numerics + missed.sd * missed.sd * alike;
+  case FilmNumber::Cracked:
+    return e.cracked * e.cracked * alike;
+  case FilmNumber::Springback:
+  case FilmNumber::LogModulus:
+    return 0.0;
+  }
+  return 0.0;
+}
+
+Spot spot_of(const Datum &d) { return {d.film, d.number, std::log(d.pressure)}; }
+
+/// Emulated values of the data, and what is uncertain about them but for the measurement.
+struct Predicted {
+  Vector mean, variance, by_pressure; ///< by_pressure: for one sd of the press's pressure
+};
+
+Predicted predicted_data(const FilmBank &bank, const Calibration &c, const Material &material) {
+  constexpr double kStep = 0.05; // of ln p
+  const auto n = Eigen::Index(c.data.size());
+  Predicted out = {Vector(n), Vector(n), Vector(n)};
+  std::map<std::pair<int, FilmNumber>, std::vector<Guess>> curves;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Datum &d = c.data[std::size_t(k)];
+    auto [at, is_new] = curves.try_emplace({d.film, d.number});
+    if (is_new)
+      at->second = bank.at_pressures(d.number, c.films[std::size_t(d.film)], material);
+    const Guess g = bank.at(at->second, d.pressure);
+    out.mean[k] = g.mean;
+    out.variance[k] = g.variance;
+    const double slope = (bank.at(at->second, d.pressure * std::exp(kStep)).mean -
+                          bank.at(at->second, d.pressure * std::exp(-kStep)).mean) /
+                         (2.0 * kStep);
+    out.by_pressure[k] = slope * d.pressure_sd;
+  }
+  return out;
+}
+
+/// Of measured - predicted.
+Matrix covariance_of(const Calibration &c, const Predicted &p, const Missed &missed) {
+  const auto n = Eigen::Index(c.data.size());
+  Matrix out(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const Datum &a = c.data[std::size_t(i)], &b = c.data[std::size_t(j)];
+      out(i, j) = error_covariance(c.error, missed, spot_of(a), spot_of(b));
+      if (a.film == b.film)
+        out(i, j) += p.by_pressure[i] * p.by_pressure[j];
+      if (i == j)
+        out(i, j) += a.sd * a.sd + p.variance[i];
+    }
+  return out;
+}
+
+Vector measured_of(const Calibration &c) {
+  Vector out{Eigen::Index(c.data.size())};
+  for (std::size_t k = 0; k < c.data.size(); ++k)
+    out[Eigen::Index(k)] = c.data[k].measured;
+  return out;
+}
+
+double log_likelihood(const FilmBank &bank, const Calibration &c, const Draw &draw) {
+  const Predicted p = predicted_data(bank, c, draw.material);
+  const Cholesky chol(covariance_of(c, p, draw.missed));
+  const Vector off = chol.matrixL().solve(measured_of(c) - p.mean);
+  return -0.5 * off.squaredNorm() - Matrix(chol.matrixL()).diagonal().array().log().sum();
+}
+
+/// Samples of one hypothesis, from its prior.
+std::vector<Draw> prior_draws(const FilmBank &bank, const ModelError &error, int effect,
+                              int count) {
+  const auto d = int(bank.material().size());
+  const Matrix scores = inference::sobol_normals(d + 3, count, std::uint64_t(effect + 2));
+  const inference::Prior discrepancy = {inference::Prior::log_uniform, error.low, error.high},
+                         shared = {inference::Prior::uniform, 0.0, 1.0};
+  std::vector<Draw> out{std::size_t(count)};
+  for (int k = 0; k < count; ++k) {
+    Draw &draw = out[std::size_t(k)];
+    for (int j = 0; j < d; ++j)
+      draw.material.parameters.push_back(bank.material()[std::size_t(j)].prior.value(scores(j, k)));
+    draw.missed.sd = discrepancy.value(scores(d, k));
+    draw.missed.shared = shared.value(scores(d + 2, k));
+    draw.material.effect = effect;
+    if (effect >= 0)
+      draw.material.amplitude = bank.effects()[std::size_t(effect)].prior.value(scores(d + 1, k));
+  }
+  return out;
+}
+
+} // namespace
+
+void calibrate(const FilmBank &bank, const CalibrationSettings &settings, Calibration &c) {
+  std::vector<Draw> all;
+  std::vector<double> logs;
+  const auto hypotheses = int(bank.effects().size()) + 1;
+  for (int h = 0; h < hypotheses; ++h)
+    for (const Draw &draw : prior_draws(bank, c.error, h - 1, settings.samples)) {
+      all.push_back(draw);
+      logs.push_back(log_likelihood(bank, c, draw));
+    }
+  const double largest = *std::max_element(logs.begin(), logs.end());
+  std::vector<double> weights;
+  for (const double l : logs)
+    weights.push_back(std::exp(l - largest));
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  c.hypotheses.clear();
+  for (int h = 0; h < hypotheses; ++h) {
+    const auto first = weights.begin() + std::ptrdiff_t(h) * settings.samples,
+               end = first + settings.samples;
+    const double of = std::accumulate(first, end, 0.0),
+                 squares = std::inner_product(first, end, first, 0.0);
+    c.hypotheses.push_back({h == 0 ? "none" : bank.effects()[std::size_t(h - 1)].name, of / sum,
+                            squares > 0.0 ? of * of / squares : 0.0});
+  }
+  // Systematic resampling: the k-th draw is the first whose summed weight passes (k + 1/2) / n.
+  c.draws.clear();
+  double passed = 0.0;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    passed += weights[k] / sum * settings.draws;
+    while (double(c.draws.size()) + 0.5 < passed && int(c.draws.size()) < settings.draws)
+      c.draws.push_back(all[k]);
+  }
+}
+
+std::vector<std::string> at_the_end(const FilmBank &bank, const Calibration &c) {
+  std::vector<std::string> out;
+  for (std::size_t k = 0; k < bank.material().size(); ++k) {
+    const inference::Parameter &p = bank.material()[k];
+    int low = 0, high = 0;
+    for (const Draw &d : c.draws) {
+      const double at = p.prior.scaled(d.material.parameters[k]);
+      low += at < -0.8;
+      high += at > 0.8;
+    }
+    if (2 * std::max(low, high) >= int(c.draws.size()))
+      out.push_back(
+          fmt::format("{} lies at the {} end of the bank's range, {:g} to {:g}: a material "
+                      "outside it may fit better, or the model lacks something.",
+                      p.name, low > high ? "lower" : "upper", p.prior.a, p.prior.b));
+  }
+  return out;
+}
+
+std::vector<Guess> given_data(const FilmBank &bank, const Calibration &c, const Draw &draw,
+                              const Wanted &wanted) {
+  const std::vector<Guess> curve = bank.at_pressures(wanted.number, wanted.film, draw.material);
+  const auto known = std::find_if(c.films.begin(), c.films.end(), [&](const Film &f) {
+    return f.name == wanted.film.name && f.recipe == wanted.film.recipe;
+  });
+  const int film = known == c.films.end() ? -1 : int(known - c.films.begin());
+  const auto n = Eigen::Index(c.data.size());
+  const Predicted p = predicted_data(bank, c, draw.material);
+  const Cholesky chol(covariance_of(c, p, draw.missed));
+  const Vector weights = chol.solve(measured_of(c) - p.mean);
+  std::vector<Guess> out;
+  for (const double pressure : wanted.pressures) {
+    const Spot here = {film, wanted.number, std::log(pressure)};
+    Guess g = bank.at(curve, pressure);
+    g.variance += error_covariance(c.error, draw.missed, here, here);
+    Vector with(n);
+    for (Eigen::Index k = 0; k < n; ++k)
+      with[k] = error_covariance(c.error, draw.missed, spot_of(c.data[std::size_t(k)]), here);
+    g.mean += with.dot(weights);
+    g.variance -= with.dot(Vector(chol.solve(with)));
+    g.variance = std::max(g.variance, 0.0);
+    out.push_back(g);
+  }
+  return out;
+}
+
+} // namespace calendem

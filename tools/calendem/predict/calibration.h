@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Material parameters and effects as measured films leave them: draws from the posterior over the
+// bank's emulators, averaged over which effect acts.
+#ifndef CALENDEM_PREDICT_CALIBRATION_H
+#define CALENDEM_PREDICT_CALIBRATION_H
+
+#include "base/experiment.h"
+#include "predict/film_bank.h"
+
+namespace calendem {
+
+/// A measured number of a film after one pressing.
+struct Datum {
+  int film = 0; ///< place in Calibration::films
+  std::string condition;
+  FilmNumber number = FilmNumber::PorosityAfter;
+  double pressure = 0.0;    ///< [MPa]
+  double pressure_sd = 0.0; ///< of its logarithm, the same error in all of a film's data
+  double measured = 0.0, sd = 0.0;
+};
+
+/// How wrong the model may be. Standard deviations of porosity 0-1 unless said.
+struct ModelError {
+  double numerics = 0.0;           ///< the bank's: one shift of all porosities
+  double low = 0.003, high = 0.04; ///< of the discrepancy, log-uniform
+  double cracked = 0.1;            ///< of the share of cracked particles
+};
+
+/// The model's own error.
+struct Missed {
+  double sd = 0.0;     ///< of porosity 0-1
+  double shared = 0.5; ///< of its variance, that all films have in common, 0-1
+};
+
+struct Draw {
+  Material material;
+  Missed missed;
+};
+
+/// An effect that may act, or none.
+struct Weighed {
+  std::string name;
+  double probability = 0.0, effective_samples = 0.0;
+};
+
+struct Calibration {
+  std::vector<Film> films;
+  std::vector<Datum> data;
+  ModelError error;
+  std::vector<Weighed> hypotheses; ///< none first, then the bank's effects
+  std::vector<Draw> draws;         ///< of equal weight
+};
+
+/// Adds the film of an experiment and its data: porosities after and cracked particles of conditions
+/// whose pressure is known and within the bank's. What is left out is reported in `not_said`.
+/// Throws Failure(2) if it is another electrode, or nothing is left.
+void add_experiment(const Experiment &experiment, const FilmBank &bank, Calibration &to,
+                    std::vector<std::string> &not_said);
+
+struct CalibrationSettings {
+  int samples = 4096; ///< of each hypothesis, from its prior
+  int draws = 400;
+};
+
+/// Fills hypotheses and draws from films, data and error. Each hypothesis has the same prior
+/// probability. Samples are a Sobol sequence over the priors, weighted by the likelihood of all data
+/// together (importance sampling): deterministic.
+void calibrate(const FilmBank &bank, const CalibrationSettings &settings, Calibration &calibration);
+
+/// Parameters that the data drive to an end of the bank's range: half of the draws lie in its outer
+/// tenth.
+std::vector<std::string> at_the_end(const FilmBank &bank, const Calibration &calibration);
+
+/// What a film's numbers are at one pressure under one draw: normal.
+struct Wanted {
+  Film film;
+  FilmNumber number = FilmNumber::PorosityAfter;
+  std::vector<double> pressures; ///< [MPa]
+};
+
+/// Given the data, at each wanted pressure: mean and variance of emulators and model error, not of a
+/// press.
+std::vector<Guess> given_data(const FilmBank &bank, const Calibration &calibration,
+                              const Draw &draw, const Wanted &wanted);
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "predict/film_bank.h"
+#include "base/messages.h"
+#include "diagnose/bank_points.h"
+#include "diagnose/experiment_data.h"
+
+#include <math.h> // pchip.hpp of Boost 1.74 needs the global isnan
+
+#include <algorithm>
+#include <boost/math/interpolators/pchip.hpp>
+#include <cmath>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace calendem {
+
+using inference::Training;
+using inference::Vector;
+namespace {
+
+constexpr std::size_t kFewestPressures = 4; // of the monotone cubic
+// Variance of an effect's difference between two runs of one packing, in those of a run: see
+// diagnose/inference/emulators.cpp.
+constexpr double kOfDifference = 1.5;
+constexpr double kBeyond = 0.05; // standard deviation per unit of ln p beyond the bank's pressures
+
+bool is_recipe(const BankParameter &p) { return p.keys.front().rfind("recipe.", 0) == 0; }
+
+inference::Parameter parameter_of(const BankParameter &p) {
+  const auto kind =
+      p.spread == Spread::LogUniform ? inference::Prior::log_uniform : inference::Prior::uniform;
+  return {p.name, {kind, p.low, p.high}};
+}
+
+/// -1 to 1 over the prior's range, and beyond.
+double scaled(const BankParameter &p, double value) { return parameter_of(p).prior.scaled(value); }
+
+} // namespace
+
+double value_of(FilmNumber number, const SimulatedRun &run) {
+  switch (number) {
+  case FilmNumber::PorosityAfter:
+    return run.porosity_after;
+  case FilmNumber::Springback:
+    return (1.0 - run.porosity_at_max) / (1.0 - run.porosity_after) - 1.0;
+  case FilmNumber::Cracked:
+    return run.cracked_fraction;
+  case FilmNumber::LogModulus: {
+    const auto released_to = [&](double share) {
+      return displacement_at(run.release_pressure, run.release_displacement, share * run.target);
+    };
+    const double strain = (released_to(0.95) - released_to(0.5)) / run.thickness_at_max;
+    return std::log(1e-3 * 0.45 * run.target / strain);
+  }
+  }
+  return NAN;
+}
+
+FilmBank::FilmBank(const BankTable &table) : spec_(table.spec) {
+  if (spec_.pressures.size() < kFewestPressures)
+    throw Failure(kBadInput, fmt::format("{}: the bank has {} pressures; to predict between them "
+                                         "{} are needed (pressures_MPa).",
+                                         spec_.file, spec_.pressures.size(), kFewestPressures));
+  for (const BankParameter &p : spec_.parameters) {
+    of_film_.push_back(is_recipe(p));
+    if (is_recipe(p))
+      film_.push_back(p);
+    else
+      material_.push_back(parameter_of(p));
+  }
+  bank_loading_ = read_recipe(spec_.recipe_file).loading;
+  learn(table);
+  learn_full_cell(table);
+}
+
+namespace {
+
+/// A point's input, and its values at the bank's pressures.
+Vector input_of(const BankSpec &spec, const BankPoint &point) {
+  Vector out(Eigen::Index(spec.parameters.size()));
+  for (std::size_t k = 0; k < spec.parameters.size(); ++k)
+    out[Eigen::Index(k)] = scaled(spec.parameters[k], point.base[k]);
+  return out;
+}
+
+Vector values_of(FilmNumber number, const PointRuns &runs) {
+  Vector out{Eigen::Index(runs.size())};
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    out[Eigen::Index(k)] = value_of(number, runs[k]->run);
+  return out;
+}
+
+/// Points of one effect, their inputs and their differences from the base points.
+struct Learnt {
+  Training training;
+  std::array<inference::Matrix, kFilmNumbers> values; ///< pressures x points
+};
+
+Learnt learnt_of(const BankSpec &spec, const std::vector<PointRuns> &points,
+                 const std::string &effect) {
+  std::map<int, const PointRuns *> base;
+  std::vector<const PointRuns *> of;
+  for (const PointRuns &p : points) {
+    if (p.front()->point.effect.empty())
+      base[p.front()->point.base_point] = &p;
+    if (p.front()->point.effect == effect)
+      of.push_back(&p);
+  }
+  const auto n = Eigen::Index(of.size()), d = Eigen::Index(spec.parameters.size());
+  const Eigen::Index extra = effect.empty() ? 0 : 1;
+  Learnt out;
+  out.training.inputs.resize(d + extra, n);
+  out.training.amplitudes.resize(extra, n);
+  for (auto &v : out.values)
+    v.resize(Eigen::Index(spec.pressures.size()), n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const BankPoint &point = of[std::size_t(k)]->front()->point;
+    out.training.inputs.col(k).head(d) = input_of(spec, point);
+    out.training.packing.push_back(point.packing);
+    if (extra > 0) {
+      const Effect e = effect_of(spec, effect);
+      const inference::Parameter q = inference_effect(e).parameters.front();
+      const double amplitude = e.parameter.amplitude(point.value);
+      out.training.inputs(d, k) = q.input(amplitude);
+      out.training.amplitudes(0, k) = q.strength(amplitude);
+    }
+    for (int number = 0; number < kFilmNumbers; ++number) {
+      auto column = out.values[std::size_t(number)].col(k);
+      column = values_of(FilmNumber(number), *of[std::size_t(k)]);
+      if (extra > 0)
+        column -= values_of(FilmNumber(number), *base.at(point.base_point));
+    }
+  }
+  return out;
+}
+
+std::vector<inference::GaussianProcess>
+emulators_of(const Learnt &learnt, int number, const std::vector<inference::GaussianProcess> *of) {
+  std::vector<inference::GaussianProcess> out;
+  const inference::Matrix &values = learnt.values[std::size_t(number)];
+  for (Eigen::Index p = 0; p < values.rows(); ++p) {
+    Training t = learnt.training;
+    t.values = values.row(p);
+    if (of)
+      t.usual_noise = kOfDifference * (*of)[std::size_t(p)].run_variance();
+    out.emplace_back(t);
+  }
+  return out;
+}
+
+} // namespace
+
+void FilmBank::learn(const BankTable &table) {
+  std::vector<std::string> ignored;
+  const std::vector<PointRuns> points = points_of(table, ignored);
+  const Learnt base = learnt_of(spec_, points, "");
+  if (base.training.packing.size() < std::size_t(inference::kFewestRuns))
+    throw Failure(kBadInput,
+                  fmt::format("{}: the table has {} whole points of the base model; at "
+                              "least {} are needed.",
+                              spec_.file, base.training.packing.size(), inference::kFewestRuns));
+  for (int number = 0; number < kFilmNumbers; ++number)
+    base_[std::size_t(number)] = emulators_of(base, number, nullptr);
+  for (const std::string &name : spec_.effects) {
+    const Learnt with = learnt_of(spec_, points, name);
+    if (find_effect(name).instrument ||
+        with.training.packing.size() < std::size_t(inference::kFewestRuns))
+      continue;
+    effects_.push_back(inference_effect(effect_of(spec_, name)).parameters.front());
+    effects_.back().name = name;
+    with_.emplace_back();
+    for (int number = 0; number < kFilmNumbers; ++number)
+      with_.back()[std::size_t(number)] = emulators_of(with, number, &base_[std::size_t(number)]);
+  }
+}
+
+/// What runs on the full cell differ by from the emulators, for the film that they are of.
+void FilmBank::learn_full_cell(const BankTable &table) {
+  std::map<int, PointRuns> points;
+  for (const BankRow &row : table.rows)
+    if (row.point.effect == kFullCell)
+      points[row.point.base_point].push_back(&row);
+  if (points.size() < 2)
+    return;
+  const Recipe recipe = read_recipe(spec_.full_cell.recipe_file);
+  const Film film = film_of(recipe);
+  const auto n = double(points.size());
+  for (int number = 0; number < kFilmNumbers; ++number) {
+    std::vector<double> sum(spec_.pressures.size(), 0.0), squares = sum;
+    for (auto &[base_point, runs] : points) {
+      std::sort(runs.begin(), runs.end(),
+                [](const BankRow *a, const BankRow *b) { return a->run.target < b->run.target; });
+      if (runs.size() != spec_.pressures.size())
+        return;
+      Material material;
+      for (std::size_t k = 0; k < of_film_.size(); ++k)
+        if (!of_film_[k])
+          material.parameters.push_back(runs.front()->point.base[k]);
+      const auto expected = at_pressures(FilmNumber(number), film, material);
+      for (std::size_t p = 0; p < runs.size(); ++p) {
+        const double change = value_of(FilmNumber(number), runs[p]->run) - expected[p].mean;
+        sum[p] += change;
+        squares[p] += change * change;
+      }
+    }
+    FullCell &out = full_cell_[std::size_t(number)];
+    for (std::size_t p = 0; p < sum.size(); ++p) {
+      out.change.push_back(sum[p] / n);
+      out.variance.push_back(std::max(0.0, squares[p] - sum[p] * sum[p] / n) / (n - 1.0) *
+                             (1.0 + 1.0 / n));
+    }
+  }
+  full_loading_ = recipe.loading;
+}
+
+Film FilmBank::film_of(const Recipe &recipe) const {
+  const Recipe bank = read_recipe(spec_.recipe_file);
+  std::map<std::string, std::string> wanted = bank.settings.all();
+  Film out;
+  out.name = recipe.settings.text("name");
+  out.loading = recipe.loading;
+  for (const BankParameter &p : film_) {
+    double sum = 0.0;
+    for (const std::string &key : p.keys) {
+      const std::string bare = key.substr(key.find('.') + 1);
+      sum += recipe.settings.number(bare);
+      wanted[bare] = recipe.settings.text(bare);
+      if (bare.rfind("composition.", 0) == 0)
+        wanted["composition.am_weight_percent"] =
+            recipe.settings.text("composition.am_weight_percent");
+    }
+    out.recipe.push_back(sum / double(p.keys.size()));
+  }
+  if (const auto differs = other_electrode(wanted, recipe.settings.all()); !differs.empty())
+    throw Failure(kBadInput, fmt::format("{}: the film is not of the bank's kind; {}. Make a bank "
+                                         "of it (calendem bank; copy {} and change its recipe).",
+                                         recipe.file, fmt::join(differs, "; "), spec_.file));
+  return out;
+}
+
+std::vector<std::string> FilmBank::beyond(const Film &film) const {
+  std::vector<std::string> out;
+  for (std::size_t k = 0; k < film_.size(); ++k)
+    if (film.recipe[k] < film_[k].low || film.recipe[k] > film_[k].high)
+      out.push_back(fmt::format("{} is {:g}, the bank has {:g} to {:g}", film_[k].name,
+                                film.recipe[k], film_[k].low, film_[k].high));
+  return out;
+}
+
+bool FilmBank::covers(double pressure) const {
+  return pressure >= 0.98 * spec_.pressures.front() && pressure <= 1.02 * spec_.pressures.back();
+}
+
+Vector FilmBank::input(const Film &film, const Material &material) const {
+  Vector out{Eigen::Index(of_film_.size())};
+  std::size_t of_recipe = 0, of_case = 0;
+  for (std::size_t k = 0; k < of_film_.size(); ++k)
+    out[Eigen::Index(k)] =
+        scaled(spec_.parameters[k],
+               of_film_[k] ? film.recipe[of_recipe++] : material.parameters[of_case++]);
+  return out;
+}
+
+std::vector<Guess> FilmBank::at_pressures(FilmNumber number, const Film &film,
+                                          const Material &material) const {
+  const auto n = std::size_t(number);
+  const Vector x = input(film, material);
+  Vector with(x.size() + 1), strength = Vector::Zero(1);
+  if (material.effect >= 0) {
+    const inference::Parameter &q = effects_[std::size_t(material.effect)];
+    with << x, q.input(material.amplitude);
+    strength[0] = q.strength(material.amplitude);
+  }
+  // A film's faces weigh by 1 / loading: no change on the bank's film, all of it on the full cell's.
+  const double share = full_loading_ > 0.0 ? (1.0 - bank_loading_ / film.loading) /
+                                                 (1.0 - bank_loading_ / full_loading_)
+                                           : 0.0;
+  std::vector<Guess> out;
+  for (std::size_t p = 0; p < spec_.pressures.size(); ++p) {
+    const inference::Mean base = base_[n][p].at(x, Vector());
+    Guess g = {base.mean, base.variance};
+    if (material.effect >= 0) {
+      const inference::Mean more = with_[std::size_t(material.effect)][n][p].at(with, strength);
+      g.mean += more.mean;
+      g.variance += more.variance;
+    }
+    if (share != 0.0) {
+      g.mean += share * full_cell_[n].change[p];
+      g.variance += share * share * full_cell_[n].variance[p];
+    }
+    out.push_back(g);
+  }
+  return out;
+}
+
+Guess FilmBank::at(const std::vector<Guess> &curve, double pressure) const {
+  std::vector<double> x, mean, variance;
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    x.push_back(std::log(spec_.pressures[k]));
+    mean.push_back(curve[k].mean);
+    variance.push_back(curve[k].variance);
+  }
+  const double at = std::clamp(std::log(pressure), x.front(), x.back());
+  const double beyond = kBeyond * (std::log(pressure) - at);
+  std::size_t right = 1;
+  while (right + 1 < x.size() && x[right] < at)
+    ++right;
+  const double share = (at - x[right - 1]) / (x[right] - x[right - 1]);
+  const double between = variance[right - 1] + share * (variance[right] - variance[right - 1]);
+  using boost::math::interpolators::pchip;
+  return {pchip<std::vector<double>>(std::move(x), std::move(mean))(at), between + beyond * beyond};
+}
+
+std::vector<inference::Quality> FilmBank::quality(FilmNumber number) const {
+  std::vector<inference::Quality> out;
+  for (const inference::GaussianProcess &g : base_[std::size_t(number)])
+    out.push_back(g.left_out());
+  return out;
+}
+
+} // namespace calendem

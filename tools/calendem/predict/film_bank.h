@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a bank's runs say of any film of its material: emulators of what a film is like after it was
+// pressed, at each of the bank's pressures and between them.
+#ifndef CALENDEM_PREDICT_FILM_BANK_H
+#define CALENDEM_PREDICT_FILM_BANK_H
+
+#include "diagnose/bank/bank_table.h"
+#include "diagnose/inference/gaussian_process.h"
+#include "diagnose/inference/prior.h"
+#include <array>
+
+namespace calendem {
+
+/// Numbers of a pressed film, 0-1 but for the modulus.
+enum class FilmNumber {
+  PorosityAfter, ///< total porosity after release
+  Springback,    ///< (thickness after - at the maximum) / thickness at the maximum
+  Cracked,       ///< share of NMC particles in pieces
+  /// ln of the unloading modulus in GPa: secant of stress over strain of the thickness at the
+  /// maximum, from 95 to 50 % of the largest pressure.
+  LogModulus
+};
+constexpr int kFilmNumbers = 4;
+
+/// The uncalendered film, as the bank's parameters describe it.
+struct Film {
+  std::string name;
+  std::vector<double> recipe; ///< values of the parameters whose keys are a recipe's
+  double loading = 0.0;       ///< [mg/cm2]
+};
+
+/// One set of the parameters whose keys are a case's, and an effect that is on.
+struct Material {
+  std::vector<double> parameters; ///< in their units
+  int effect = -1;                ///< place in FilmBank::effects(); -1: none
+  double amplitude = 0.0;         ///< of that effect
+};
+
+struct Guess {
+  double mean = 0.0, variance = 0.0; ///< variance: of the emulators, not of the sample
+};
+
+class FilmBank {
+public:
+  /// Throws Failure(2) with fewer than four pressures or kFewestRuns points. A point that lacks a
+  /// run is left out.
+  explicit FilmBank(const BankTable &table);
+
+  const BankSpec &spec() const { return spec_; }
+  const std::vector<inference::Parameter> &material() const { return material_; }
+  const std::vector<BankParameter> &film() const { return film_; }
+  /// Simulated ones that the bank has runs of.
+  const std::vector<inference::Parameter> &effects() const { return effects_; }
+
+  /// Throws Failure(2) if its recipe is another electrode than the bank's but for the parameters.
+  Film film_of(const Recipe &recipe) const;
+  /// In what a film lies beyond the bank: "porosity before 55, the bank has 38 to 52".
+  std::vector<std::string> beyond(const Film &film) const;
+  bool covers(double pressure) const;
+
+  /// At each of the bank's pressures.
+  std::vector<Guess> at_pressures(FilmNumber number, const Film &film,
+                                  const Material &material) const;
+  /// Between them by a monotone cubic (Fritsch and Butland 1984) in the pressure's logarithm; beyond
+  /// them the last value and a variance that grows.
+  Guess at(const std::vector<Guess> &curve, double pressure) const;
+  /// How well left-out packings are predicted, of a number at each pressure.
+  std::vector<inference::Quality> quality(FilmNumber number) const;
+
+private:
+  using Emulators = std::vector<inference::GaussianProcess>; ///< a pressure each
+  struct FullCell {
+    std::vector<double> change, variance; ///< at each pressure
+  };
+  BankSpec spec_;
+  std::vector<inference::Parameter> material_, effects_;
+  std::vector<BankParameter> film_;
+  std::vector<bool> of_film_; ///< of the bank's parameters
+  std::array<Emulators, kFilmNumbers> base_;
+  std::vector<std::array<Emulators, kFilmNumbers>> with_; ///< differences, by effect
+  std::array<FullCell, kFilmNumbers> full_cell_;
+  double bank_loading_ = 0.0, full_loading_ = 0.0;
+
+  inference::Vector input(const Film &film, const Material &material) const;
+  void learn(const BankTable &table);
+  void learn_full_cell(const BankTable &table);
+};
+
+/// Of a run.
+double value_of(FilmNumber number, const SimulatedRun &run);
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "predict/model_file.h"
+#include "base/messages.h"
+#include "base/provenance.h"
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace calendem {
+
+using Json = nlohmann::ordered_json;
+namespace {
+
+constexpr const char *kNumberNames[kFilmNumbers] = {"porosity_after", "springback", "cracked",
+                                                    "log_modulus"};
+
+FilmNumber number_of(const std::string &name) {
+  for (int k = 0; k < kFilmNumbers; ++k)
+    if (name == kNumberNames[k])
+      return FilmNumber(k);
+  throw Failure(kBadInput, fmt::format("number '{}' is unknown.", name));
+}
+
+Json films_of(const FilmBank &bank, const Calibration &c) {
+  Json out = Json::array();
+  for (const Film &f : c.films) {
+    Json row = {{"name", f.name}, {"loading_mg_cm2", f.loading}};
+    for (std::size_t k = 0; k < f.recipe.size(); ++k)
+      row["recipe"][bank.film()[k].name] = f.recipe[k];
+    out.push_back(row);
+  }
+  return out;
+}
+
+Json data_of(const Calibration &c) {
+  Json out = Json::array();
+  for (const Datum &d : c.data)
+    out.push_back({{"film", d.film},
+                   {"condition", d.condition},
+                   {"number", kNumberNames[int(d.number)]},
+                   {"pressure_MPa", d.pressure},
+                   {"pressure_sd_relative", d.pressure_sd},
+                   {"measured", d.measured},
+                   {"sd", d.sd}});
+  return out;
+}
+
+std::string effect_name(const FilmBank &bank, int effect) {
+  return effect < 0 ? "none" : bank.effects()[std::size_t(effect)].name;
+}
+
+Json draws_of(const FilmBank &bank, const Calibration &c) {
+  Json out = Json::array();
+  for (const Draw &d : c.draws) {
+    Json row = {{"effect", effect_name(bank, d.material.effect)},
+                {"amplitude", d.material.amplitude},
+                {"missed_sd", d.missed.sd},
+                {"missed_shared", d.missed.shared}};
+    for (std::size_t k = 0; k < bank.material().size(); ++k)
+      row[bank.material()[k].name] = d.material.parameters[k];
+    out.push_back(row);
+  }
+  return out;
+}
+
+Json left_out_json(const std::vector<LeftOut> &rows) {
+  Json out = Json::array();
+  const auto names = rules_of_thumb({{0.45, 50.0, 0.3}, {0.45, 150.0, 0.25}});
+  for (const LeftOut &r : rows) {
+    Json row = {{"film", r.film},
+                {"condition", r.condition},
+                {"pressure_MPa", r.pressure},
+                {"measured", r.measured},
+                {"median", r.predicted.median},
+                {"low50", r.predicted.low50},
+                {"high50", r.predicted.high50},
+                {"low90", r.predicted.low90},
+                {"high90", r.predicted.high90}};
+    for (std::size_t k = 0; k < names.size(); ++k)
+      row["rules"][names[k].name] = r.rules[k];
+    out.push_back(row);
+  }
+  return out;
+}
+
+/// Middle, and the interval that holds 90 %, of a number of the draws.
+Json spread_of(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    return values[std::size_t(std::lround(share * double(values.size() - 1)))];
+  };
+  return {{"median", at(0.5)}, {"low90", at(0.05)}, {"high90", at(0.95)}};
+}
+
+Json parameters_of(const FilmBank &bank, const Calibration &c) {
+  Json out = Json::array();
+  for (std::size_t k = 0; k < bank.material().size(); ++k) {
+    std::vector<double> values;
+    for (const Draw &d : c.draws)
+      values.push_back(d.material.parameters[k]);
+    Json row = {{"parameter", bank.material()[k].name},
+                {"prior_low", bank.material()[k].prior.a},
+                {"prior_high", bank.material()[k].prior.b}};
+    row.update(spread_of(values));
+    out.push_back(row);
+  }
+  const auto add = [&](const char *name, double low, double high, const auto &value) {
+    std::vector<double> values;
+    for (const Draw &d : c.draws)
+      values.push_back(value(d.missed));
+    Json row = {{"parameter", name}, {"prior_low", low}, {"prior_high", high}};
+    row.update(spread_of(values));
+    out.push_back(row);
+  };
+  add("missed_points", 100.0 * c.error.low, 100.0 * c.error.high,
+      [](const Missed &m) { return 100.0 * m.sd; });
+  add("missed_shared", 0.0, 1.0, [](const Missed &m) { return m.shared; });
+  return out;
+}
+
+/// How well packings that were left out are predicted.
+Json emulators_of(const FilmBank &bank) {
+  Json out = Json::array();
+  for (int n = 0; n < kFilmNumbers; ++n) {
+    const auto quality = bank.quality(FilmNumber(n));
+    for (std::size_t k = 0; k < quality.size(); ++k)
+      out.push_back({{"number", kNumberNames[n]},
+                     {"pressure_MPa", bank.spec().pressures[k]},
+                     {"q2", quality[k].q2},
+                     {"error", quality[k].error},
+                     {"own_error", quality[k].own}});
+  }
+  return out;
+}
+
+/// An effect's value in its key's unit.
+double key_value(const FilmBank &bank, const Draw &d) {
+  return find_effect(effect_name(bank, d.material.effect)).parameter.value(d.material.amplitude);
+}
+
+Json hypotheses_of(const FilmBank &bank, const Calibration &c) {
+  Json out = Json::array();
+  for (std::size_t h = 0; h < c.hypotheses.size(); ++h) {
+    const Weighed &w = c.hypotheses[h];
+    Json row = {{"name", w.name},
+                {"probability", w.probability},
+                {"effective_samples", w.effective_samples}};
+    std::vector<double> values;
+    for (const Draw &d : c.draws)
+      if (d.material.effect == int(h) - 1 && h > 0)
+        values.push_back(key_value(bank, d));
+    if (!values.empty()) {
+      row["key"] = find_effect(w.name).parameter.keys.front();
+      row.update(spread_of(values));
+    }
+    out.push_back(row);
+  }
+  return out;
+}
+
+} // namespace
+
+std::string table_file(const std::string &bank_file) {
+  return std::filesystem::path(bank_file).replace_extension("csv").string();
+}
+
+Json to_json(const FilmBank &bank, const Calibration &c, const std::vector<LeftOut> &rows) {
+  const std::string &file = bank.spec().file;
+  return {{"bank",
+           {{"file", std::filesystem::absolute(file).string()},
+            {"hash", hash_of_file(file)},
+            {"table_hash", hash_of_file(table_file(file))}}},
+          {"films", films_of(bank, c)},
+          {"data", data_of(c)},
+          {"model_error",
+           {{"numerics", c.error.numerics},
+            {"low", c.error.low},
+            {"high", c.error.high},
+            {"cracked", c.error.cracked}}},
+          {"hypotheses", hypotheses_of(bank, c)},
+          {"parameters", parameters_of(bank, c)},
+          {"emulators", emulators_of(bank)},
+          {"left_out", left_out_json(rows)},
+          {"draws", draws_of(bank, c)},
+          {"provenance", {{"calendem", version()}, {"hashes", "64-bit FNV-1a"}}}};
+}
+
+std::string case_of(const FilmBank &bank, const Calibration &c) {
+  const auto best = std::max_element(
+      c.hypotheses.begin(), c.hypotheses.end(),
+      [](const Weighed &a, const Weighed &b) { return a.probability < b.probability; });
+  const int effect = int(best - c.hypotheses.begin()) - 1;
+  std::vector<const Draw *> of;
+  for (const Draw &d : c.draws)
+    if (d.material.effect == effect)
+      of.push_back(&d);
+  const auto middle = [&](const auto &value) {
+    std::vector<double> values;
+    for (const Draw *d : of)
+      values.push_back(value(*d));
+    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2),
+                     values.end());
+    return values[values.size() / 2];
+  };
+  std::map<std::string, std::string> tables; // lines by table
+  const auto add = [&](const std::string &key, double value) {
+    const std::string bare = key.rfind("case.", 0) == 0 ? key.substr(5) : key;
+    const std::size_t dot = bare.rfind('.');
+    tables[bare.substr(0, dot)] += fmt::format("{} = {:.4g}\n", bare.substr(dot + 1), value);
+  };
+  std::size_t material = 0;
+  for (const BankParameter &p : bank.spec().parameters)
+    if (p.keys.front().rfind("case.", 0) == 0) {
+      const double value = middle([&](const Draw &d) { return d.material.parameters[material]; });
+      ++material;
+      for (const std::string &key : p.keys)
+        add(key, value);
+    }
+  if (effect >= 0)
+    for (const std::string &key : find_effect(best->name).parameter.keys)
+      add(key, middle([&](const Draw &d) { return key_value(bank, d); }));
+  std::string out = fmt::format(
+      "# The most probable material of a calibration ({}, {:.0f} %): the middle of its draws, "
+      "each\n"
+      "# parameter by itself. Put the folder of your electrode here.\nelectrode = \"electrode\"\n",
+      best->name, 100.0 * best->probability);
+  for (const auto &[table, lines] : tables)
+    out += fmt::format("\n[{}]\n{}", table, lines);
+  return out;
+}
+
+namespace {
+
+Material material_of(const FilmBank &bank, const Json &row) {
+  Material out;
+  for (const inference::Parameter &p : bank.material())
+    out.parameters.push_back(row.at(p.name));
+  const std::string effect = row.at("effect");
+  for (std::size_t k = 0; k < bank.effects().size(); ++k)
+    if (bank.effects()[k].name == effect)
+      out.effect = int(k);
+  if (out.effect < 0 && effect != "none")
+    throw Failure(kBadInput, fmt::format("effect '{}' is none of the bank's.", effect));
+  out.amplitude = row.at("amplitude");
+  return out;
+}
+
+Calibration calibration_of(const FilmBank &bank, const Json &json) {
+  Calibration out;
+  for (const Json &row : json.at("films")) {
+    Film f;
+    f.name = row.at("name");
+    f.loading = row.at("loading_mg_cm2");
+    for (const BankParameter &p : bank.film())
+      f.recipe.push_back(row.at("recipe").at(p.name));
+    out.films.push_back(f);
+  }
+  for (const Json &row : json.at("data")) {
+    Datum d = {row.at("film"),
+               row.at("condition"),
+               number_of(row.at("number")),
+               row.at("pressure_MPa"),
+               row.at("pressure_sd_relative"),
+               row.at("measured"),
+               row.at("sd")};
+    if (d.film < 0 || d.film >= int(out.films.size()))
+      throw Failure(kBadInput,
+                    fmt::format("a datum's film is {}; there are {}.", d.film, out.films.size()));
+    out.data.push_back(d);
+  }
+  const Json &error = json.at("model_error");
+  out.error = {error.at("numerics"), error.at("low"), error.at("high"), error.at("cracked")};
+  for (const Json &row : json.at("hypotheses"))
+    out.hypotheses.push_back({row.at("name"), row.at("probability"), row.at("effective_samples")});
+  for (const Json &row : json.at("draws"))
+    out.draws.push_back({material_of(bank, row), {row.at("missed_sd"), row.at("missed_shared")}});
+  if (out.draws.empty())
+    throw Failure(kBadInput, "it holds no draws.");
+  return out;
+}
+
+Json parsed(const std::string &file) {
+  if (!std::filesystem::is_regular_file(file))
+    throw Failure(kBadInput, fmt::format("{}: not there. Make it with calendem calibrate.", file));
+  try {
+    return Json::parse(text_of_file(file));
+  } catch (const Json::exception &) {
+    throw Failure(kBadInput, fmt::format("{}: cut or damaged; make it again with calendem "
+                                         "calibrate.",
+                                         file));
+  }
+}
+
+/// The bank that the model was made from, there and unchanged.
+FilmBank bank_of(const std::string &file, const Json &json) {
+  const std::string bank = json.at("bank").at("file");
+  const auto unchanged = [&](const std::string &of, const char *key) {
+    if (hash_of_file(of) != json.at("bank").at(key).get<std::string>())
+      throw Failure(kBadInput, fmt::format("{}: {} is not there or has changed since the model was "
+                                           "calibrated on it. Calibrate again.",
+                                           file, of));
+  };
+  unchanged(bank, "hash");
+  unchanged(table_file(bank), "table_hash");
+  return FilmBank(read_bank_table(read_bank_spec(bank), table_file(bank)));
+}
+
+} // namespace
+
+Model read_model(const std::string &file) {
+  const Json json = parsed(file);
+  try {
+    FilmBank bank = bank_of(file, json);
+    Calibration calibration = calibration_of(bank, json);
+    return {std::move(bank), std::move(calibration), json};
+  } catch (const Json::exception &e) {
+    throw Failure(kBadInput, fmt::format("{}: no model of calendem calibrate, or of another "
+                                         "version: {}. Calibrate again.",
+                                         file, e.what()));
+  }
+}
+
+} // namespace calendem
