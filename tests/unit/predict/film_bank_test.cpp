@@ -45,6 +45,20 @@ TEST(FilmBank, BeyondTheBankItWidensAndSaysSo) {
   EXPECT_FALSE(bank.covers(10.0));
 }
 
+// A run that lacks rows of its release has no modulus; the others teach it.
+TEST(FilmBank, ARunThatLacksANumberIsLeftOutOfIt) {
+  BankTable table = made_coatings();
+  table.rows[12].run.release_pressure.clear();
+  table.rows[12].run.release_displacement.clear();
+  const FilmBank bank(table);
+  for (const Guess &g :
+       bank.at_pressures(FilmNumber::LogModulus, made_film("x", 46.0, 2.2), kMiddle))
+    EXPECT_NEAR(g.mean, std::log(1.9), 0.02);
+  for (BankRow &row : table.rows)
+    row.run.release_pressure.clear();
+  EXPECT_THROW(FilmBank{table}, Failure);
+}
+
 TEST(FilmBank, TooFewPressuresAreRefused) {
   BankTable table = made_coatings();
   table.spec.pressures = {80.0, 150.0};

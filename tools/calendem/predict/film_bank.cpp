@@ -139,8 +139,20 @@ emulators_of(const Learnt &learnt, int number, const std::vector<inference::Gaus
   std::vector<inference::GaussianProcess> out;
   const inference::Matrix &values = learnt.values[std::size_t(number)];
   for (Eigen::Index p = 0; p < values.rows(); ++p) {
-    Training t = learnt.training;
-    t.values = values.row(p);
+    std::vector<Eigen::Index> known; // a run may lack a number, as the rows of a release
+    for (Eigen::Index k = 0; k < values.cols(); ++k)
+      if (std::isfinite(values(p, k)))
+        known.push_back(k);
+    if (known.size() < std::size_t(inference::kFewestRuns))
+      throw Failure(kBadInput, fmt::format("the bank has {} usable points at its pressure number "
+                                           "{}; at least {} are needed.",
+                                           known.size(), p + 1, inference::kFewestRuns));
+    Training t;
+    t.inputs = learnt.training.inputs(Eigen::all, known);
+    t.amplitudes = learnt.training.amplitudes(Eigen::all, known);
+    t.values = Vector(values.row(p))(known);
+    for (const Eigen::Index k : known)
+      t.packing.push_back(learnt.training.packing[std::size_t(k)]);
     if (of)
       t.usual_noise = kOfDifference * (*of)[std::size_t(p)].run_variance();
     out.emplace_back(t);
@@ -174,40 +186,54 @@ void FilmBank::learn(const BankTable &table) {
   }
 }
 
+namespace {
+
+/// Mean of what several runs differ by, and the variance of a further one about it.
+inference::Mean mean_change(const std::vector<double> &changes) {
+  const auto n = double(changes.size());
+  const double mean = std::accumulate(changes.begin(), changes.end(), 0.0) / n;
+  double squares = 0.0;
+  for (const double c : changes)
+    squares += (c - mean) * (c - mean);
+  return {mean, squares / (n - 1.0) * (1.0 + 1.0 / n)};
+}
+
+} // namespace
+
 /// What runs on the full cell differ by from the emulators, for the film that they are of.
 void FilmBank::learn_full_cell(const BankTable &table) {
-  std::map<int, PointRuns> points;
+  std::vector<const BankRow *> rows;
   for (const BankRow &row : table.rows)
     if (row.point.effect == kFullCell)
-      points[row.point.base_point].push_back(&row);
-  if (points.size() < 2)
+      rows.push_back(&row);
+  if (rows.empty())
     return;
   const Recipe recipe = read_recipe(spec_.full_cell.recipe_file);
   const Film film = film_of(recipe);
-  const auto n = double(points.size());
   for (int number = 0; number < kFilmNumbers; ++number) {
-    std::vector<double> sum(spec_.pressures.size(), 0.0), squares = sum;
-    for (auto &[base_point, runs] : points) {
-      std::sort(runs.begin(), runs.end(),
-                [](const BankRow *a, const BankRow *b) { return a->run.target < b->run.target; });
-      if (runs.size() != spec_.pressures.size())
-        return;
+    std::vector<std::vector<double>> changes(spec_.pressures.size());
+    for (const BankRow *row : rows) {
       Material material;
       for (std::size_t k = 0; k < of_film_.size(); ++k)
         if (!of_film_[k])
-          material.parameters.push_back(runs.front()->point.base[k]);
-      const auto expected = at_pressures(FilmNumber(number), film, material);
-      for (std::size_t p = 0; p < runs.size(); ++p) {
-        const double change = value_of(FilmNumber(number), runs[p]->run) - expected[p].mean;
-        sum[p] += change;
-        squares[p] += change * change;
-      }
+          material.parameters.push_back(row->point.base[k]);
+      const auto p =
+          std::size_t(std::find(spec_.pressures.begin(), spec_.pressures.end(), row->run.target) -
+                      spec_.pressures.begin());
+      const double change = value_of(FilmNumber(number), row->run) -
+                            at_pressures(FilmNumber(number), film, material).at(p).mean;
+      if (std::isfinite(change))
+        changes[p].push_back(change);
     }
-    FullCell &out = full_cell_[std::size_t(number)];
-    for (std::size_t p = 0; p < sum.size(); ++p) {
-      out.change.push_back(sum[p] / n);
-      out.variance.push_back(std::max(0.0, squares[p] - sum[p] * sum[p] / n) / (n - 1.0) *
-                             (1.0 + 1.0 / n));
+    for (std::size_t p = 0; p < changes.size(); ++p) {
+      if (changes[p].size() < 2)
+        throw Failure(kBadInput,
+                      fmt::format("{}: {} of the runs on the full cell are usable at {:g} MPa; at "
+                                  "least 2 are needed, or a bank without [full_cell].",
+                                  spec_.file, changes[p].size(), spec_.pressures[p]));
+      const inference::Mean m = mean_change(changes[p]);
+      full_cell_[std::size_t(number)].change.push_back(m.mean);
+      full_cell_[std::size_t(number)].variance.push_back(m.variance);
     }
   }
   full_loading_ = recipe.loading;
