@@ -148,7 +148,7 @@ Lead lead_of(const Which &w, const std::vector<int> &effects) {
   return lead;
 }
 
-/// The effects that act whatever acts with them, or the most probable hypothesis.
+/// The effects that act whatever acts with them, or the most probable effect or hypothesis.
 Lead leading(const Which &w, double enough) {
   std::vector<int> sure;
   Lead most;
@@ -167,7 +167,8 @@ Lead leading(const Which &w, double enough) {
   if (!sure.empty())
     return most;
   const Judged &best = w.judged.front();
-  return {best.hypothesis.name, best.probability, &best};
+  return best.probability > most.probability ? Lead{best.hypothesis.name, best.probability, &best}
+                                             : most;
 }
 
 /// Why what leads may not be claimed; empty: it may.
