@@ -66,7 +66,7 @@ TEST(FindGap, WithoutAnyDeviationThereIsNoZ) {
   EXPECT_EQ(gap.rows[0].share, 0.0);
 }
 
-TEST(FindGap, AnotherElectrodeIsTold) {
+TEST(FindGap, AnotherElectrodeIsReported) {
   SimulatedRun r = pressed_to(150, 0.28, "a");
   const auto reported = [&r] {
     const std::vector<std::string> texts = find_gap(paper(), {r}).not_said;
@@ -82,7 +82,7 @@ TEST(FindGap, AnotherElectrodeIsTold) {
   EXPECT_FALSE(reported());
 }
 
-TEST(FindGap, NothingToCompareTellsWhy) {
+TEST(FindGap, NothingToCompareSaysWhy) {
   try {
     find_gap(paper(), {pressed_to(120, 0.3, "a")});
     FAIL();
@@ -93,7 +93,7 @@ TEST(FindGap, NothingToCompareTellsWhy) {
   }
 }
 
-TEST(FindGap, WhatWasImposedIsTold) {
+TEST(FindGap, WhatWasImposedIsReported) {
   SimulatedRun r = pressed_to(150, 0.28, "a");
   const auto reported = [&r] {
     const Gap gap = find_gap(paper(), {r});

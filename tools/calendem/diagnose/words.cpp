@@ -157,7 +157,7 @@ Words undecided(const Json &gap) {
   Words w{"One of these: " + leading(all), "", {measurement_of(which)}};
   if (!any)
     w.meaning = "No difference is significant, but weak effects could be hidden in the noise. ";
-  w.meaning += fmt::format("Effects with \"or\" between them cannot be told apart on these data. "
+  w.meaning += fmt::format("These data do not distinguish effects with \"or\" between them. "
                            "Sets of them, the most probable first, up to 95 %: {}.",
                            leading(which["set95"].get<std::vector<std::string>>()));
   return w;

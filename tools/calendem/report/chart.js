@@ -211,7 +211,7 @@ Plot.prototype.drawAxes = function() {
   this.label(chart.right_label, this.width - 5, middle, true);
 };
 
-/// Places of a line, those aside that no eye can tell from the one before; null: a gap.
+/// Points of a line, without those within half a pixel of the one before; null: a gap.
 Plot.prototype.path = function(s) {
   var out = [], last = null;
   for (var i = 0; i < s.x.length; ++i) {

@@ -112,7 +112,7 @@ const Judged *unsettled(const std::vector<Judged> &judged) {
 }
 
 /// How probable it is that only something like the effects of that name acts.
-std::string told_alike(const Which &w, const std::string &name) {
+std::string what_acts_alike(const Which &w, const std::string &name) {
   for (const Judged &j : w.judged)
     if (const auto at = j.of_place.find("like " + name);
         at != j.of_place.end() && at->second * j.probability > kCounts)
@@ -175,7 +175,7 @@ Lead leading(const Which &w, double enough) {
 std::string objection(const Which &w, const Lead &lead, const WhichSettings &settings) {
   if (lead.probability < settings.claim_probability)
     return fmt::format("The most probable, {}, has {:.3g}; a claim needs {:g}.{}", lead.name,
-                       lead.probability, settings.claim_probability, told_alike(w, lead.name));
+                       lead.probability, settings.claim_probability, what_acts_alike(w, lead.name));
   if (const Judged *few = unsettled(w.judged))
     return fmt::format("The evidence of {} rests on {:.0f} samples that count; at least {:g} are "
                        "asked for.",
