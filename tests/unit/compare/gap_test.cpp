@@ -311,7 +311,7 @@ TEST(HeatMap, ConditionsStandOnceInTheOrderGiven) {
   EXPECT_EQ(map["conditions"], (std::vector<std::string>{"p50", "p150"}));
   ASSERT_EQ(map["rows"].size(), 2u);
   const nlohmann::json &first = map["rows"][0]["cells"], &second = map["rows"][1]["cells"];
-  EXPECT_EQ(first[0]["text"], "+3.5\u00a0% (z\u00a0+7.0)");
+  EXPECT_EQ(first[0]["text"], "+3.5\u00a0points (z\u00a0+7.0)");
   EXPECT_NE(first[0]["colour"], second[0]["colour"]); // beyond twice the threshold, within
   EXPECT_NE(first[0]["colour"], first[1]["colour"]);  // too high, too low
   EXPECT_EQ(second[1]["text"], "–");

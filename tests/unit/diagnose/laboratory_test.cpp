@@ -216,6 +216,8 @@ TEST(Laboratory, AChangeOfTheDialIsWhatChanged) {
   EXPECT_EQ(d.gap["which"]["headline"], "What changed. Explained by thickness_zero");
   const Diagnosed nothing = diagnosed_change(before, again, bank(), kCells);
   EXPECT_EQ(nothing.gap["which"]["answer"], "nothing to see") << summary(nothing);
+  EXPECT_NE(nothing.gap["which"]["meaning"].get<std::string>().find("Before and after agree"),
+            std::string::npos);
 }
 
 // A point that runs of the full cell lack spoils no error of the others.

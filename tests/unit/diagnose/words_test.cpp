@@ -102,7 +102,7 @@ TEST(ClaimInWords, AnEffectIsSwitchedOnAndAnInstrumentIsChecked) {
   rows = Json::array({fitted("friction", "material.am.friction")});
   expect_parts(gap, {"Explained by friction", "Coulomb friction", "Switch it on",
                      "material.am.friction = 0.3 (95 %: 0.2 to 0.45)",
-                     "something else acts too has 65 %"});
+                     "Something else acts too with a probability of 65 %"});
   rows.push_back(fitted("thickness_zero", "effects.thickness_zero.offset_um"));
   gap["which"]["claim"] = "thickness_zero";
   expect_parts(gap, {"Check the instrument: effects.thickness_zero.offset_um = 0.3"});
