@@ -114,7 +114,7 @@ TEST(ClaimInWords, AnEffectIsSwitchedOnAndAnInstrumentIsChecked) {
 // Below what noise leaves, a cause neither shrinks nor enlarges the gap.
 TEST(HowFarInWords, TheNoiseFloorStandsBesideTheGap) {
   const auto said = [](double before, double after) {
-    return how_far_in_words({{"before", before}, {"after", after}, {"noise_floor", 35.0}});
+    return shrinkage_in_words({{"before", before}, {"after", after}, {"noise_floor", 35.0}});
   };
   EXPECT_EQ(said(5.2, 8.1),
             "Gap 5.2 before, 8.1 after; errors of measurement and sample alone leave "
@@ -122,7 +122,7 @@ TEST(HowFarInWords, TheNoiseFloorStandsBesideTheGap) {
             "or grows.");
   EXPECT_NE(said(80.0, 8.1).find("what is left may be nothing"), std::string::npos);
   EXPECT_EQ(said(80.0, 50.0).find("nothing"), std::string::npos);
-  EXPECT_EQ(how_far_in_words({{"before", 50.0}, {"noise_floor", 35.0}}),
+  EXPECT_EQ(shrinkage_in_words({{"before", 50.0}, {"noise_floor", 35.0}}),
             "Gap 50.0; errors of measurement and sample alone leave up to 35.0 (95 %).");
 }
 

@@ -3,7 +3,6 @@
 #include "base/messages.h"
 #include "diagnose/bank_points.h"
 #include "diagnose/inference/numerics.h"
-#include "diagnose/repeats.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -244,7 +244,7 @@ Json claim_in_words(const Json &gap) {
           {"next", w.next}};
 }
 
-std::string how_far_in_words(const Json &shrink) {
+std::string shrinkage_in_words(const Json &shrink) {
   const double before = shrink["before"], floor = shrink["noise_floor"];
   const double after = shrink.value("after", before);
   const bool both = shrink.contains("after");
