@@ -72,7 +72,8 @@ void print_images(const nlohmann::ordered_json &shrink) {
 }
 
 /// The third part: adds "shrink" to gap.json once the models have run again.
-void run_models_again(Options &o, const Experiment &experiment, const BankTable &table, Diagnosed &d) {
+void run_models_again(Options &o, const Experiment &experiment, const BankTable &table,
+                      Diagnosed &d) {
   if (o.no_rerun || !o.before.empty())
     return;
   const std::vector<RerunModel> models = models_to_rerun(experiment, table, d, o.cells);
