@@ -289,7 +289,7 @@ END
     ":18: cracked_bodies_fraction is 30" ":19: dwell_s is -1"
 }
 
-curve_in_other_units() { # of an experiment: mm, Pa, another separator, a stage nobody knows
+curve_in_other_units() { # of an experiment: mm, Pa, another separator, stages that are wrong
   cp "$scripts/cases/paper/electrode.toml" "$work/"
   printf '%s\n' '[experiment]' 'name = "x"' 'electrode = "electrode.toml"' '[[condition]]' 'id = "a"' \
     'control = "pressure"' 'max_pressure_MPa = 150' 'curve = "curve.csv"' 'curve_sd_um = 0.1' | file experiment.toml
@@ -302,6 +302,8 @@ curve_in_other_units() { # of an experiment: mm, Pa, another separator, a stage 
   refused experiment.toml "Columns are separated by commas, decimals by points"
   curve 'displacement_um,pressure_MPa,stage\n0,0,up\n20,150,up\n'
   refused experiment.toml "stage of row 1 is 'up'; allowed are loading"
+  curve 'displacement_um,pressure_MPa,stage\n0,0.3,loading\n0,0.1,unloading\n20,150,unloading\n'
+  refused experiment.toml "rows of the stage loading reach 0.3 MPa, the curve 150"
   curve '\xef\xbb\xbfdisplacement_um,pressure_MPa\n0,0\n20,150\n' # as spreadsheets write it
   expect 0 calendem validate "$work/experiment.toml"
 }

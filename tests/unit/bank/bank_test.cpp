@@ -110,7 +110,7 @@ TEST(Bank, TheFullCellGetsTheFirstBasePointsInItsOwnRecipe) {
   EXPECT_EQ(read_bank_table(spec, file + ".csv").rows[0].point.effect, kFullCell);
 }
 
-TEST(Bank, MistakesAreTold) {
+TEST(Bank, MistakesAreReported) {
   try {
     spec_of("[bank]\nrecipe = \"electrode.toml\"\npressure_MPa = [80]\npackings = 1\nbase_points = "
             "4\neffect_points = 9\neffects = [\"frction\"]\n[[parameter]]\nname = \"E\"\nlow = "
@@ -176,7 +176,7 @@ TEST(Bank, PricesOfMeasurementsAreTheUsualOnesUnlessGiven) {
   }
 }
 
-TEST(Bank, MistakesOfMeasurementsAreTold) {
+TEST(Bank, MistakesOfMeasurementsAreReported) {
   try {
     spec_of(kBank + kParameters +
             "[[measurement]]\nname = \"cracks\"\n[[measurement]]\nname = \"dwell\"\nsd = "
@@ -249,7 +249,7 @@ TEST(Bank, AStepStaysWhereItWas) {
 }
 
 // Each in a row of its own; the fuzzer found that a parameter could be no number.
-TEST(Bank, RowsThatAreNoPointAreTold) {
+TEST(Bank, RowsThatAreNoPointAreReported) {
   BankSpec spec;
   spec.parameters = {{"E", {}, 100.0, 300.0}};
   const BankTable table = {spec, {{{"", 3, 1, {200}, 0.0}, some_run(80, 1)}}};

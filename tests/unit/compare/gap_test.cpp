@@ -66,7 +66,7 @@ TEST(FindGap, WithoutAnyDeviationThereIsNoZ) {
   EXPECT_EQ(gap.rows[0].share, 0.0);
 }
 
-TEST(FindGap, AnotherElectrodeIsTold) {
+TEST(FindGap, AnotherElectrodeIsReported) {
   SimulatedRun r = pressed_to(150, 0.28, "a");
   const auto reported = [&r] {
     const std::vector<std::string> texts = find_gap(paper(), {r}).not_said;
@@ -82,7 +82,7 @@ TEST(FindGap, AnotherElectrodeIsTold) {
   EXPECT_FALSE(reported());
 }
 
-TEST(FindGap, NothingToCompareTellsWhy) {
+TEST(FindGap, NothingToCompareSaysWhy) {
   try {
     find_gap(paper(), {pressed_to(120, 0.3, "a")});
     FAIL();
@@ -93,7 +93,7 @@ TEST(FindGap, NothingToCompareTellsWhy) {
   }
 }
 
-TEST(FindGap, WhatWasImposedIsTold) {
+TEST(FindGap, WhatWasImposedIsReported) {
   SimulatedRun r = pressed_to(150, 0.28, "a");
   const auto reported = [&r] {
     const Gap gap = find_gap(paper(), {r});
@@ -311,7 +311,7 @@ TEST(HeatMap, ConditionsStandOnceInTheOrderGiven) {
   EXPECT_EQ(map["conditions"], (std::vector<std::string>{"p50", "p150"}));
   ASSERT_EQ(map["rows"].size(), 2u);
   const nlohmann::json &first = map["rows"][0]["cells"], &second = map["rows"][1]["cells"];
-  EXPECT_EQ(first[0]["text"], "+3.5\u00a0% (z\u00a0+7.0)");
+  EXPECT_EQ(first[0]["text"], "+3.5\u00a0points (z\u00a0+7.0)");
   EXPECT_NE(first[0]["colour"], second[0]["colour"]); // beyond twice the threshold, within
   EXPECT_NE(first[0]["colour"], first[1]["colour"]);  // too high, too low
   EXPECT_EQ(second[1]["text"], "–");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/diagnose.h"
-#include "diagnose/error_terms.h"
+#include "diagnose/error_model.h"
 #include "support/made_bank.h"
 #include "support/test_folder.h"
 #include <fstream>

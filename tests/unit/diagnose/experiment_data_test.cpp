@@ -43,7 +43,7 @@ TEST(ExperimentData, PressureOfTheBankTakesItsRunAndOneBetweenIsInterpolated) {
   EXPECT_NEAR(porosity(40.0), low + (high - low) / 3.0, 1e-12);
 }
 
-TEST(ExperimentData, ConditionsThatTheBankLacksAreTold) {
+TEST(ExperimentData, ConditionsThatTheBankLacksAreReported) {
   Experiment e = made_experiment(kTruth);
   e.conditions[1].dwell_s = 5.0;
   e.conditions[1].labels_after = "after.mhd";
@@ -184,7 +184,7 @@ TEST(ExperimentData, InstrumentsAreAppliedToTheRunsOfTheBaseModel) {
   EXPECT_EQ(shown, 24);
 }
 
-TEST(ExperimentData, AnEffectOfFewPointsIsLeftOutAndTold) {
+TEST(ExperimentData, AnEffectOfFewPointsIsLeftOutAndReported) {
   BankTable table = made_bank();
   int points = 0;
   const auto beyond_four = [&](const BankRow &row) {
@@ -294,7 +294,7 @@ TEST(ExperimentData, WhatHappensAtTheFacesCountsLessInAThickerFilm) {
   }
 }
 
-TEST(ExperimentData, EffectsThatTheBankHasNoRunsOfAreTold) {
+TEST(ExperimentData, EffectsThatTheBankHasNoRunsOfAreReported) {
   const BankTable table = made_bank();
   const ExperimentData data = data_of(made_experiment(kTruth), table, {});
   const auto &own = table.spec.effects;
@@ -310,7 +310,7 @@ TEST(ExperimentData, EffectsThatTheBankHasNoRunsOfAreTold) {
   EXPECT_EQ(reported, 1);
 }
 
-TEST(ExperimentData, NumbersAreToldWithUnitAndPressure) {
+TEST(ExperimentData, NumbersHaveUnitAndPressure) {
   const ExperimentData data = data_of(made_experiment(kTruth), made_bank(), {});
   ASSERT_EQ(data.labels.size(), data.experiment.of.size());
   EXPECT_EQ(data.labels[0].name, "total porosity");

@@ -216,6 +216,19 @@ TEST(Laboratory, AChangeOfTheDialIsWhatChanged) {
   EXPECT_EQ(d.gap["which"]["headline"], "What changed. Explained by thickness_zero");
   const Diagnosed nothing = diagnosed_change(before, again, bank(), kCells);
   EXPECT_EQ(nothing.gap["which"]["answer"], "nothing to see") << summary(nothing);
+  EXPECT_NE(nothing.gap["which"]["meaning"].get<std::string>().find("Before and after agree"),
+            std::string::npos);
+}
+
+// A point that runs of the full cell lack spoils no error of the others.
+TEST(Laboratory, ErrorsAreNumbersWhereACurveIsLowerThanTheBanks) {
+  Experiment e = Laboratory("low").experiment([](SimulatedRun &) {});
+  e.conditions.resize(1);
+  std::ofstream(e.conditions[0].curve) << "displacement_um,pressure_MPa\n0,0\n0.1,0.1\n0.2,0.2\n";
+  const ExperimentData data = data_of(e, bank(), {});
+  ASSERT_FALSE(data.terms.empty());
+  for (const ErrorTerm &t : data.terms)
+    EXPECT_TRUE(t.columns.allFinite()) << t.name;
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/random.h"
+#include "diagnose/error_model.h"
 #include "diagnose/experiment_data.h"
-#include "diagnose/repeats.h"
 #include "support/made_bank.h"
 #include <gtest/gtest.h>
 

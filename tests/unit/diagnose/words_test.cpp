@@ -53,8 +53,8 @@ void expect_parts(const Json &gap, const std::vector<std::string> &parts) {
 
 TEST(ClaimInWords, EveryClaimSaysWhatItMeansAndWhatToDo) {
   Json nothing = claimed("none");
-  expect_parts(nothing, {"nothing to see", "Nothing that these data could show", "acts has 29 %",
-                         "not excluded", "limit no effect"});
+  expect_parts(nothing, {"nothing to see", "Nothing that these data could show",
+                         "acts with a probability of 29 %", "not excluded", "limit no effect"});
   nothing["which"]["effects"] = Json::array({fitted("friction", "material.am.friction")});
   expect_parts(nothing, {"friction: material.am.friction below 0.45 (95 %). Others"});
   expect_parts(claimed("noise"), {"explained", "Explained by errors larger than stated",
@@ -102,7 +102,7 @@ TEST(ClaimInWords, AnEffectIsSwitchedOnAndAnInstrumentIsChecked) {
   rows = Json::array({fitted("friction", "material.am.friction")});
   expect_parts(gap, {"Explained by friction", "Coulomb friction", "Switch it on",
                      "material.am.friction = 0.3 (95 %: 0.2 to 0.45)",
-                     "something else acts too has 65 %"});
+                     "Something else acts too with a probability of 65 %"});
   rows.push_back(fitted("thickness_zero", "effects.thickness_zero.offset_um"));
   gap["which"]["claim"] = "thickness_zero";
   expect_parts(gap, {"Check the instrument: effects.thickness_zero.offset_um = 0.3"});
@@ -114,7 +114,7 @@ TEST(ClaimInWords, AnEffectIsSwitchedOnAndAnInstrumentIsChecked) {
 // Below what noise leaves, a cause neither shrinks nor enlarges the gap.
 TEST(HowFarInWords, TheNoiseFloorStandsBesideTheGap) {
   const auto said = [](double before, double after) {
-    return how_far_in_words({{"before", before}, {"after", after}, {"noise_floor", 35.0}});
+    return shrinkage_in_words({{"before", before}, {"after", after}, {"noise_floor", 35.0}});
   };
   EXPECT_EQ(said(5.2, 8.1),
             "Gap 5.2 before, 8.1 after; errors of measurement and sample alone leave "
@@ -122,7 +122,7 @@ TEST(HowFarInWords, TheNoiseFloorStandsBesideTheGap) {
             "or grows.");
   EXPECT_NE(said(80.0, 8.1).find("what is left may be nothing"), std::string::npos);
   EXPECT_EQ(said(80.0, 50.0).find("nothing"), std::string::npos);
-  EXPECT_EQ(how_far_in_words({{"before", 50.0}, {"noise_floor", 35.0}}),
+  EXPECT_EQ(shrinkage_in_words({{"before", 50.0}, {"noise_floor", 35.0}}),
             "Gap 50.0; errors of measurement and sample alone leave up to 35.0 (95 %).");
 }
 

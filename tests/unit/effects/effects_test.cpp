@@ -73,7 +73,7 @@ TEST(Effects, LawAndVerificationAreThere) {
   }
 }
 
-TEST(Effects, AnUnknownNameIsToldTheClosest) {
+TEST(Effects, AnUnknownNameIsAnsweredWithTheClosest) {
   try {
     find_effect("frictoin");
     FAIL();

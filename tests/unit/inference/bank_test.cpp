@@ -38,7 +38,7 @@ TEST(BankTable, ReadsWhatItWrote) {
   EXPECT_NO_THROW(check(read));
 }
 
-TEST(BankTable, EveryMistakeIsTold) {
+TEST(BankTable, EveryMistakeIsReported) {
   Bank bank = synthetic_bank(6, 0.1);
   std::string text = write_table(bank);
   text.replace(text.find("strength"), 8, "strenght");
@@ -50,7 +50,7 @@ TEST(BankTable, EveryMistakeIsTold) {
   EXPECT_NE(reported.find("26"), std::string::npos) << reported; // the line
 }
 
-TEST(Bank, RunsThatCannotServeAreTold) {
+TEST(Bank, RunsThatCannotServeAreReported) {
   Bank bank = synthetic_bank(8, 0.1);
   bank.runs[1].packing = "another";
   EXPECT_NE(message_of([&] { check(bank); }).find("'plasticity': 1 of its 8 runs"),

@@ -117,7 +117,7 @@ TEST(Diagnosis, WhatNoCandidateExplainsIsUnknown) {
   EXPECT_TRUE(d.where.rows[0].significant);
 }
 
-TEST(Diagnosis, TwinsAreNotToldApartAndTheMeasurementThatDoesIsNamed) {
+TEST(Diagnosis, TwinsAreIndistinguishableAndTheMeasurementThatSeparatesThemIsNamed) {
   const Laboratory lab({}, {second_scale(), dwell()});
   const Diagnosis d = lab.diagnose("plasticity", 0.8, 7);
   EXPECT_EQ(d.which.claim, "undecided");

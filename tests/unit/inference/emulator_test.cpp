@@ -40,7 +40,7 @@ TEST(GaussianProcess, LearnsACurvedResponseFromFortyRuns) {
 
 // 60 runs, 15 packings: variances within three of their standard errors (15 - 1 packings: relative
 // error sqrt(2/14); noise: 60 - 15 - about 9 of the response).
-TEST(GaussianProcess, TellsPackingsFromNoise) {
+TEST(GaussianProcess, SeparatesPackingsFromNoise) {
   const GaussianProcess g(sample(60, 15, 0.5, 0.2, 2));
   EXPECT_NEAR(g.packing_variance() / 0.25, 1.0, 3.0 * std::sqrt(2.0 / 14.0));
   EXPECT_NEAR(g.run_variance() / 0.04, 1.0, 3.0 * std::sqrt(2.0 / 36.0));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/provenance.h"
-#include "simulate/drying.h"
+#include "simulate/collect.h"
 #include "support/test_folder.h"
 #include <cmath>
 #include <gtest/gtest.h>

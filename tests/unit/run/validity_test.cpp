@@ -119,5 +119,14 @@ TEST(Validity, RawRowsInTheOrderOfTheirColumns) {
   EXPECT_EQ(rows[0].ranges[kCbdCbd].force_beyond[2], 172);
 }
 
+// A resumed run writes some steps again; its last row may be on its way to the disk.
+TEST(Validity, OfEqualStepsTheLastCounts) {
+  const std::string file = (calendem_test::test_folder() / "raw.csv").string();
+  std::ofstream(file) << "step,value\n10,1\n20,2\n20,-3e-1\n30\n40,x\n50,5";
+  const std::map<long, std::vector<double>> expected = {{10, {10, 1}}, {20, {20, -0.3}}};
+  EXPECT_EQ(rows_by_step(file, 2), expected);
+  EXPECT_TRUE(rows_by_step(file + ".missing", 2).empty());
+}
+
 } // namespace
 } // namespace calendem

@@ -86,7 +86,7 @@ TEST(Slurry, MixingIndexOfKnownMixtures) {
   EXPECT_NEAR(mixing_index(particles, 40.0, 8), 1.0 + 1.0 / 49.0, 1e-12);
 }
 
-TEST(Slurry, MistakesOfTheFileAreTold) {
+TEST(Slurry, MistakesOfTheFileAreReported) {
   const std::string cell = kPaper;
   EXPECT_NE(mistakes_of(cell + "[slurry]\nsphere_fraction = 0.3\n").find("dry spheres fill 0.376"),
             std::string::npos);

@@ -78,7 +78,7 @@ TEST(SurfaceArea, KnowsPeriodicFaces) {
 }
 
 // Requirement: each pair of phases has its own area: an AM ball half sunk into CBD.
-TEST(SurfaceArea, TellsThePhasesApart) {
+TEST(SurfaceArea, SeparatesThePhases) {
   const int n = 48;
   const double r = 14, volume = std::pow(n, 3);
   const PhaseImage image = phases({n, n, n}, true, [&](const Eigen::Vector3d &x) {

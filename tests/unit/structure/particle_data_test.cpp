@@ -165,7 +165,7 @@ TEST(ParticleData, FilesThatAreNoneAreRefused) {
                {"no section Atoms", "write_data"});
 }
 
-TEST(ParticleData, TheFirstTenMistakesAreToldTheOthersCounted) {
+TEST(ParticleData, TheFirstTenMistakesAreReportedTheOthersCounted) {
   std::string text = replaced(replaced(kHead, "2 atoms", "30 atoms"), "Atoms # sphere", "Atoms");
   for (int k = 1; k <= 30; ++k)
     text += std::to_string(k) + " 1 -4.4 4.65 0 2 3\n";

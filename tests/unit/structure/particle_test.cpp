@@ -8,7 +8,7 @@ namespace {
 using namespace calendem;
 using namespace calendem_test;
 
-TEST(FindRegions, TellsWhatTheBorderCuts) {
+TEST(FindRegions, ReportsWhatTheBorderCuts) {
   LabelImage image = empty_image(30, 30, 30, 0.3);
   add_sphere(image, {8, 8, 8}, 5, 3);
   add_sphere(image, {26, 15, 15}, 5, 9);

@@ -91,7 +91,7 @@ TEST(StudyFile, EveryCombinationOfTheGroupsIsARun) {
   EXPECT_EQ(second.settings.number("bond.damping"), 0.2);
 }
 
-TEST(StudyFile, EveryMistakeIsTold) {
+TEST(StudyFile, EveryMistakeIsReported) {
   expect_parts(
       refusal(kHead + "keep = \"some\"\nat_pressure_MPa = [-1]\nspeed = 3\n[[vary]]\nkeys = "
                       "[\"case.bond.tensile_strength\"]\nvalues = [1]\n[[vary]]\nkeys = "

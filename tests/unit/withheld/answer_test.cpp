@@ -168,7 +168,7 @@ TEST_F(Withheld, ChangedTruthsAndAnswersAreNotScored) {
   EXPECT_EQ(status_of_opening(), kCheckFailed);
 }
 
-TEST_F(Withheld, WhatIsHandedOutTellsNoTruth) {
+TEST_F(Withheld, WhatIsHandedOutRevealsNoTruth) {
   const nlohmann::json sealed = nlohmann::json::parse(bytes_of(round_ + "/sealed/truth.json"));
   std::vector<std::string> secrets = {"secret", "sealed", "null", "open", "fault", "unknown"};
   for (const Effect &e : effects())

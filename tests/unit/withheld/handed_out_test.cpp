@@ -108,7 +108,7 @@ TEST(Truths, BaseParametersAreDrawnFromTheirPriors) {
   EXPECT_NEAR(double(tails) / all, 0.1, 4.0 * std::sqrt(0.09 / all));
 }
 
-TEST(Truths, MistakesOfARoundAreTold) {
+TEST(Truths, MistakesOfARoundAreReported) {
   try {
     round_of("[round]\nbank = \"bank.toml\"\nnull_packings = 9\nnull_draws = 3\nopen = "
              "[\"cohesin\"]\n[noise]\nthickness_um = -1\nunderstated_by = [4, 3]\n");

@@ -37,7 +37,7 @@ TEST(Sealing, SecretsDiffer) {
   EXPECT_NE(derived_seed("secret", "truths"), derived_seed("secret", "order"));
 }
 
-TEST(Sealing, AFoldersHashTellsNamesAndBytes) {
+TEST(Sealing, AFoldersHashCoversNamesAndBytes) {
   const auto folder = test_folder();
   std::ofstream(folder / "a") << "1";
   std::ofstream(folder / "b") << "2";

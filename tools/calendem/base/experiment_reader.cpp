@@ -17,7 +17,7 @@ public:
   using TableReader::TableReader;
 
   Experiment read(const TomlFile &file) {
-    tell_unknown(file.root, {"experiment", "condition"});
+    report_unknown(file.root, {"experiment", "condition"});
     const toml::table *head = file.root["experiment"].as_table();
     if (head)
       read_head(*head);
@@ -69,7 +69,7 @@ private:
     std::vector<std::string> known = {"split"};
     for (const Key &key : head_keys())
       known.push_back(key.name);
-    tell_unknown(head, known, "experiment.");
+    report_unknown(head, known, "experiment.");
     e_.name = text(head, head_keys()[0]);
     e_.electrode = existing(head, head_keys()[1]);
     e_.sample_diameter_mm = number(head, head_keys()[2]);
@@ -108,7 +108,7 @@ private:
       known.push_back(key.name);
     for (const Quantity &q : quantities())
       known.push_back(q.key.name);
-    tell_unknown(*t, known, "condition.");
+    report_unknown(*t, known, "condition.");
     Condition c;
     c.id = text(*t, condition_keys()[0]);
     c.control = text(*t, condition_keys()[1]);
@@ -141,7 +141,7 @@ private:
     std::vector<std::string> known = {"value", "sd", "sd_relative"};
     if (has_foil)
       known.push_back("includes_foil");
-    tell_unknown(*t, known, key.name + ".");
+    report_unknown(*t, known, key.name + ".");
     if (const toml::node *foil = t->get("includes_foil"); foil && has_foil)
       read_foil(*foil, key, m);
     const toml::node *value = t->get("value");

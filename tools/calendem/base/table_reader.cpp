@@ -11,14 +11,14 @@ void TableReader::unknown(const std::string &name, int line,
                 fmt::format("unknown key '{}'. Did you mean '{}'?", name, closest(name, known)));
 }
 
-void TableReader::tell_unknown(const toml::table &table, const std::vector<std::string> &known,
-                               const std::string &prefix) {
+void TableReader::report_unknown(const toml::table &table, const std::vector<std::string> &known,
+                                 const std::string &prefix) {
   for (const auto &[key, node] : table)
     if (std::find(known.begin(), known.end(), key.str()) == known.end())
       unknown(prefix + std::string(key.str()), line_of(node), known);
 }
 
-void TableReader::tell_missing(const toml::table &table, const Key &key) {
+void TableReader::report_missing(const toml::table &table, const Key &key) {
   if (key.fallback.empty() && whole_)
     mistakes_.add(line_of(table), fmt::format("key '{}' is missing ({}).", key.name, key.meaning));
 }
@@ -26,7 +26,7 @@ void TableReader::tell_missing(const toml::table &table, const Key &key) {
 std::string TableReader::text(const toml::table &table, const Key &key) {
   const toml::node *node = table.get(key.name);
   if (!node) {
-    tell_missing(table, key);
+    report_missing(table, key);
     return key.fallback == "-" ? "" : key.fallback;
   }
   if (!node->is_string())
@@ -53,7 +53,7 @@ std::optional<double> TableReader::number(const toml::node &node, const Key &key
 double TableReader::number(const toml::table &table, const Key &key) {
   if (const toml::node *node = table.get(key.name))
     return number(*node, key).value_or(0.0);
-  tell_missing(table, key);
+  report_missing(table, key);
   return key.fallback.empty() || key.fallback == "-" ? 0.0 : std::stod(key.fallback);
 }
 
@@ -61,7 +61,7 @@ std::vector<double> TableReader::numbers(const toml::table &table, const Key &ke
   std::vector<double> out;
   const toml::node *node = table.get(key.name);
   if (!node) {
-    tell_missing(table, key);
+    report_missing(table, key);
     return out;
   }
   const toml::array *list = node->as_array();

@@ -25,8 +25,8 @@ protected:
   Mistakes &mistakes_;
 
   /// `prefix` is of the names in messages: "condition.".
-  void tell_unknown(const toml::table &table, const std::vector<std::string> &known,
-                    const std::string &prefix = "");
+  void report_unknown(const toml::table &table, const std::vector<std::string> &known,
+                      const std::string &prefix = "");
   void unknown(const std::string &name, int line, const std::vector<std::string> &known);
   std::string text(const toml::table &table, const Key &key);
   std::optional<double> number(const toml::node &node, const Key &key);
@@ -38,7 +38,7 @@ protected:
   std::string path(const toml::table &table, const Key &key);
 
 private:
-  void tell_missing(const toml::table &table, const Key &key);
+  void report_missing(const toml::table &table, const Key &key);
 };
 
 } // namespace calendem

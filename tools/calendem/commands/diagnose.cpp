@@ -72,7 +72,8 @@ void print_images(const nlohmann::ordered_json &shrink) {
 }
 
 /// The third part: adds "shrink" to gap.json once the models have run again.
-void how_far(Options &o, const Experiment &experiment, const BankTable &table, Diagnosed &d) {
+void run_models_again(Options &o, const Experiment &experiment, const BankTable &table,
+                      Diagnosed &d) {
   if (o.no_rerun || !o.before.empty())
     return;
   const std::vector<RerunModel> models = models_to_rerun(experiment, table, d, o.cells);
@@ -155,7 +156,7 @@ void run(Options o) {
   write_gap(d.gap, diagnosis_page(d.gap), o.folder);
   print(d);
   fmt::print("page: {0}/gap.html\ndata: {0}/gap.json\n", o.folder);
-  how_far(o, experiment, table, d);
+  run_models_again(o, experiment, table, d);
 }
 
 } // namespace

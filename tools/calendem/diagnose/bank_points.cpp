@@ -255,10 +255,11 @@ FullCellChange full_cell_change(const Experiment &e, const BankTable &bank,
     d.col(Eigen::Index(k)) = changes[k];
   const Vector mean = d.rowwise().mean();
   d.colwise() -= mean;
-  not_said.push_back(fmt::format(
-      "The bank's cell carries {:g} mg/cm2, the sample {:g}: its runs are shifted by {:.0f} % of "
-      "what {} runs of {:g} mg/cm2 differ by; how well that is known counts as uncertainty.",
-      small, e.recipe.loading, 100.0 * share, changes.size(), full));
+  if (share != 0.0)
+    not_said.push_back(fmt::format(
+        "The bank's cell carries {:g} mg/cm2, the sample {:g}: its runs are shifted by {:.0f} % of "
+        "what {} runs of {:g} mg/cm2 differ by; how well that is known counts as uncertainty.",
+        small, e.recipe.loading, 100.0 * share, changes.size(), full));
   return {share * mean, share * share * (1.0 + 1.0 / n) / (n - 1.0) * d * d.transpose()};
 }
 

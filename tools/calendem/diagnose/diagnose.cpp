@@ -34,7 +34,7 @@ std::string layout_of(const ExperimentData &data, const inference::ModelSettings
 }
 
 /// In the report, and as a remark where it is beyond chance.
-void tell_point_noise(const std::vector<inference::PointNoise> &noise, Diagnosed &out) {
+void report_point_noise(const std::vector<inference::PointNoise> &noise, Diagnosed &out) {
   out.gap["point_noise"] = nlohmann::ordered_json::array();
   for (const inference::PointNoise &p : noise) {
     const double times = p.times_stated();
@@ -129,7 +129,7 @@ Diagnosed diagnosed(const Experiment &experiment, const BankTable &table, double
                                       settings, point_noise);
   out.gap = inference::to_json(out.diagnosis, experiment.name);
   put_in_words(out.data, table, out.gap);
-  tell_point_noise(point_noise, out);
+  report_point_noise(point_noise, out);
   out.gap["budget"] = budget_of(out);
   out.gap["not_said"] = out.data.not_said;
   return out;

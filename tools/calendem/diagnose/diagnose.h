@@ -57,7 +57,7 @@ Diagnosed diagnosed_change(const Experiment &before, const Experiment &after,
 void put_in_words(const ExperimentData &data, const BankTable &bank, nlohmann::ordered_json &gap);
 
 /// How far, with what noise alone would leave, in one sentence: of "before", "after", "noise_floor".
-std::string how_far_in_words(const nlohmann::ordered_json &shrink);
+std::string shrinkage_in_words(const nlohmann::ordered_json &shrink);
 
 /// {"answer", "headline", "meaning", "next": [""]} for a gap.json: what the claim means, what to do
 /// next. Answers: "explained", "one of these", "something else" (that no model here has), "nothing

@@ -3,7 +3,6 @@
 #include "base/messages.h"
 #include "diagnose/bank_points.h"
 #include "diagnose/inference/numerics.h"
-#include "diagnose/repeats.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -108,13 +107,15 @@ void set_experiment(const inference::ObservableVector &measured,
   for (const int k : known_of(data.bank, 0, int(labels.size())))
     if (std::isfinite(measured.values[k]))
       kept.push_back(k);
+  std::map<std::string, std::vector<std::string>> lacking; // of a condition
   for (int k = 0; k < int(labels.size()); ++k)
     if (std::find(kept.begin(), kept.end(), k) == kept.end())
-      data.not_said.push_back(fmt::format("{}: {}: not every run of the bank has it; left out.",
-                                          measured.of[std::size_t(k)].condition,
-                                          labels[std::size_t(k)].name));
+      lacking[measured.of[std::size_t(k)].condition].push_back(labels[std::size_t(k)].name);
     else
       data.labels.push_back(labels[std::size_t(k)]);
+  for (const auto &[condition, names] : lacking)
+    data.not_said.push_back(fmt::format("{}: not every run of the bank has its {}; left out.",
+                                        condition, fmt::join(names, ", ")));
   for (ErrorTerm &t : data.terms)
     t.columns = Matrix(t.columns(kept, Eigen::all));
   if (kept.empty())
@@ -143,9 +144,10 @@ void set_next(const Experiment &e, const BankSpec &spec, const std::vector<Furth
   }
 }
 
-/// A matrix whose product with its transpose is this covariance.
+/// A matrix whose product with its transpose is this covariance; 0 where that is not known.
 Matrix root_of(const Matrix &covariance) {
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(covariance);
+  const Matrix known = covariance.array().isFinite().select(covariance, 0.0);
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(known);
   return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
@@ -188,7 +190,7 @@ std::vector<PointRuns> enough(std::vector<PointRuns> points, BankSpec &spec,
 }
 
 /// Effects that have no part in the diagnosis.
-void tell_other_effects(const BankSpec &spec, std::vector<std::string> &not_said) {
+void report_other_effects(const BankSpec &spec, std::vector<std::string> &not_said) {
   std::vector<std::string> others;
   for (const Effect &e : effects())
     if (std::find(spec.effects.begin(), spec.effects.end(), e.name) == spec.effects.end())
@@ -268,7 +270,7 @@ ExperimentData data_of(const Experiment &experiment, const BankTable &table,
 ExperimentData data_of(const Experiment &experiment, const BankTable &as_given,
                        const std::vector<std::string> &conditions, const BankTable &full_cell) {
   ExperimentData data;
-  tell_other_effects(as_given.spec, data.not_said);
+  report_other_effects(as_given.spec, data.not_said);
   BankTable table = as_given;
   const std::vector<PointRuns> all_points =
       enough(points_of(table, data.not_said), table.spec, data.not_said);

@@ -4,7 +4,7 @@
 #define CALENDEM_DIAGNOSE_EXPERIMENT_DATA_H
 
 #include "diagnose/bank/bank_table.h"
-#include "diagnose/error_terms.h"
+#include "diagnose/error_model.h"
 #include "diagnose/inference/model.h"
 
 namespace calendem {

@@ -52,10 +52,12 @@ json budget_part(const json &gap) {
 
 json effects_part(const json &gap) {
   json rows = json::array(), hidden = json::array();
-  for (const json &row : gap["which"]["effects"])
-    rows.push_back({{"effect", row["effect"]},
+  for (const json &row : gap["which"]["effects"]) {
+    const std::string name = row["effect"], said = row["said"]; // "name: what"
+    rows.push_back({{"effect", name},
                     {"acts", fmt::format("{:.1f}", 100.0 * row["inclusion"].get<double>())},
-                    {"said", row["said"]}});
+                    {"said", said.substr(std::min(said.size(), name.size() + 2))}});
+  }
   for (const json &p : gap["parameters"]) {
     json row = {{"name", p["parameter"]}, {"all", range(p)}, {"moved_by", "–"}};
     if (p.contains("moved_by"))

@@ -205,7 +205,7 @@ nlohmann::ordered_json rerun(const Experiment &experiment, const BankTable &tabl
   nlohmann::ordered_json out = {{"train", experiment.train}, {"held_out", experiment.test}};
   const auto reported = models_json(table.spec, held_out, models, simulated);
   out.update(in_short(reported, noise_floor(held_out, simulated[0])));
-  out["in_words"] = how_far_in_words(out);
+  out["in_words"] = shrinkage_in_words(out);
   out.update(
       {{"unit", "standard deviations of measurement and sample"},
        {"packings", options.packings},

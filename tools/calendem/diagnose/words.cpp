@@ -82,13 +82,22 @@ std::string what_is_left(const Json &which) {
 
 Words none(const Json &gap) {
   return {"Nothing that these data could show",
-          fmt::format("With its parameters recalibrated the base model fits all that was measured. "
-                      "That no effect acts has {}; one too small to be seen, or hidden in the "
-                      "recalibrated parameters, is not excluded.",
-                      percent(gap["which"]["probability"]["none"])),
+          fmt::format(
+              "With its parameters recalibrated the base model fits all that was measured. "
+              "No effect acts with a probability of {}; one too small to be seen, or hidden in the "
+              "recalibrated parameters, is not excluded.",
+              percent(gap["which"]["probability"]["none"])),
           {"Use the recalibrated parameters with their 95 % ranges over all explanations, below: "
            "part of each may be a hidden cause.",
            what_is_left(gap["which"])}};
+}
+
+Words nothing_changed(const Json &gap) {
+  return {"Nothing that these data could show",
+          fmt::format("Before and after agree within their errors. No effect acts with a "
+                      "probability of {}; one too small to be seen is not excluded.",
+                      percent(gap["which"]["probability"]["none"])),
+          {what_is_left(gap["which"])}};
 }
 
 Words noise() {
@@ -107,6 +116,13 @@ Words unknown(const Json &gap) {
           {"Do not recalibrate it away: parameters fitted now would carry it.",
            "Check the readings there first, then look for physics that the table of "
            "effects lacks (calendem effects)."}};
+}
+
+Words unknown_change(const Json &gap) {
+  return {"Something that no model here has",
+          "No effect of the bank makes this difference. " + about_unknown(gap),
+          {"Check the readings there first. A base parameter that changed (a softer binder, weaker "
+           "particles) is no effect of the table: it counts here."}};
 }
 
 /// The most probable ones of a list; the others are counted.
@@ -157,7 +173,7 @@ Words undecided(const Json &gap) {
   Words w{"One of these: " + leading(all), "", {measurement_of(which)}};
   if (!any)
     w.meaning = "No difference is significant, but weak effects could be hidden in the noise. ";
-  w.meaning += fmt::format("Effects with \"or\" between them cannot be told apart on these data. "
+  w.meaning += fmt::format("These data do not distinguish effects with \"or\" between them. "
                            "Sets of them, the most probable first, up to 95 %: {}.",
                            leading(which["set95"].get<std::vector<std::string>>()));
   return w;
@@ -175,8 +191,9 @@ std::string with_others(const Json &which) {
     if (names(claim, name))
       acts = acts == 0.0 ? inclusion.get<double>() : std::min(acts, inclusion.get<double>());
   const double more = acts - which["probability"].value(claim, 0.0);
-  return more < kWorthSaying ? ""
-                             : fmt::format(" That something else acts too has {}.", percent(more));
+  return more < kWorthSaying
+             ? ""
+             : fmt::format(" Something else acts too with a probability of {}.", percent(more));
 }
 
 Words named(const Json &gap) {
@@ -215,19 +232,19 @@ const char *answer_of(const std::string &claim) {
 
 Json claim_in_words(const Json &gap) {
   const std::string claim = gap["which"]["claim"];
-  const Words w = claim == "none"        ? none(gap)
+  const bool change = gap.contains("change_from");
+  const Words w = claim == "none"        ? (change ? nothing_changed(gap) : none(gap))
                   : claim == "noise"     ? noise()
-                  : claim == "unknown"   ? unknown(gap)
+                  : claim == "unknown"   ? (change ? unknown_change(gap) : unknown(gap))
                   : claim == "undecided" ? undecided(gap)
                                          : named(gap);
-  const bool change = gap.contains("change_from");
   return {{"answer", answer_of(claim)},
           {"headline", change ? "What changed. " + w.headline : w.headline},
           {"meaning", w.meaning},
           {"next", w.next}};
 }
 
-std::string how_far_in_words(const Json &shrink) {
+std::string shrinkage_in_words(const Json &shrink) {
   const double before = shrink["before"], floor = shrink["noise_floor"];
   const double after = shrink.value("after", before);
   const bool both = shrink.contains("after");

@@ -26,14 +26,14 @@ const char *const kRunAgain =
     "run the case again (calendem run), or let a run that was interrupted end (--resume)";
 
 /// VTK writes its own complaints to the terminal; ours name the file and the remedy.
-class QuietVtk {
+class WithoutVtkWarnings {
 public:
-  QuietVtk() : before_(vtkObject::GetGlobalWarningDisplay()) {
+  WithoutVtkWarnings() : before_(vtkObject::GetGlobalWarningDisplay()) {
     vtkObject::SetGlobalWarningDisplay(0);
   }
-  ~QuietVtk() { vtkObject::SetGlobalWarningDisplay(before_); }
-  QuietVtk(const QuietVtk &) = delete;
-  QuietVtk &operator=(const QuietVtk &) = delete;
+  ~WithoutVtkWarnings() { vtkObject::SetGlobalWarningDisplay(before_); }
+  WithoutVtkWarnings(const WithoutVtkWarnings &) = delete;
+  WithoutVtkWarnings &operator=(const WithoutVtkWarnings &) = delete;
 
 private:
   int before_;
@@ -44,7 +44,7 @@ vtkSmartPointer<vtkDataSet> read_data(const std::string &file, Mistakes &mistake
     mistakes.add(file, "the frame is listed in the .pvd file but missing", kRunAgain);
     return nullptr;
   }
-  const QuietVtk quiet;
+  const WithoutVtkWarnings guard;
   vtkNew<vtkXMLGenericDataObjectReader> reader;
   reader->SetFileName(file.c_str());
   reader->Update();
@@ -79,7 +79,7 @@ std::vector<FrameFile> read_series(const std::string &pvd, Mistakes &mistakes) {
     mistakes.add(pvd, "the list of frames is missing", kRunAgain);
     return frames;
   }
-  const QuietVtk quiet;
+  const WithoutVtkWarnings guard;
   const auto root =
       vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(pvd.c_str()));
   vtkXMLDataElement *list =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A chart as data; page.js draws it. Linear axes; a second y axis on the right when a series asks
+// A chart as data; chart.js draws it. Linear axes; a second y axis on the right when a series asks
 // for it. Every series differs from the others by dash, marker or hatch as well as by colour.
 #ifndef CALENDEM_REPORT_CHART_H
 #define CALENDEM_REPORT_CHART_H

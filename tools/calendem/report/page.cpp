@@ -28,7 +28,7 @@ std::string to_html(const Page &page) {
   values["data"] = in_script(data_of(page).dump());
   values["script"] = embedded::kPageScript;
   if (!page.charts.empty())
-    values["chart_script"] = embedded::kD3;
+    values["chart_scripts"] = {embedded::kD3, embedded::kChartScript};
   return fill_template(page.html, values);
 }
 

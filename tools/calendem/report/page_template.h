@@ -29,11 +29,12 @@ std::string in_script(std::string json);
 // Text files of this folder, compiled in by CMakeLists.txt (embedded.cpp.in).
 namespace calendem::report::embedded {
 
-extern const char *const kPageCss;    ///< page.css
-extern const char *const kPageScript; ///< page.js
-extern const char *const kD3;         ///< d3 of the distribution (libjs-d3, BSD licence)
-extern const char *const kExplorer;   ///< explorer.js
-extern const char *const kThree;      ///< three.js of the distribution (libjs-three, MIT licence)
+extern const char *const kPageCss;     ///< page.css
+extern const char *const kPageScript;  ///< page.js
+extern const char *const kChartScript; ///< chart.js
+extern const char *const kD3;          ///< d3 of the distribution (libjs-d3, BSD licence)
+extern const char *const kExplorer;    ///< explorer.js
+extern const char *const kThree;       ///< three.js of the distribution (libjs-three, MIT licence)
 extern const char *const kOrbitControls; ///< its controls
 extern const char *const kTable1;        ///< reference/table1.csv
 extern const char *const kPaperBonds;    ///< reference/paper_bonds.csv

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/study_charts.h"
+#include "report/study_page.h"
 #include "report/tables.h"
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/study_groups.h"
+#include "report/study_page.h"
 #include <algorithm>
 #include <cctype>
 #include <cmath>

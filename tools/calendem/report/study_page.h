@@ -1,11 +1,66 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A study as a page.
+// A study as a page: its finished runs, packings of the same settings together; the paper's Figure 4
+// for every setting, and results against the settings that were varied.
 #ifndef CALENDEM_REPORT_STUDY_PAGE_H
 #define CALENDEM_REPORT_STUDY_PAGE_H
 
-#include "report/study_charts.h"
+#include "base/csv_table.h"
+#include "report/chart.h"
+#include <functional>
+#include <map>
 
 namespace calendem {
+
+/// Mean over packings and their standard deviation; 0 with one packing.
+struct MeanAndSd {
+  double mean = 0.0, sd = 0.0;
+  int n = 0; ///< 0: none has a value, the mean is NaN
+};
+
+MeanAndSd mean_and_sd(const std::vector<double> &values);
+
+struct StudyGroup {
+  std::map<std::string, std::string> settings; ///< by column
+  std::vector<std::size_t> rows;               ///< of the table
+};
+
+class StudyTable {
+public:
+  /// `varied`: the study's columns. Columns that say the same as one before them are left out.
+  StudyTable(CsvTable table, const std::vector<std::string> &varied);
+
+  /// Varied columns but for the seed of the packing.
+  const std::vector<std::string> &settings() const { return settings_; }
+  /// Those whose values are numbers, two at least.
+  std::vector<std::string> numeric_settings() const;
+  /// Finished runs that share all settings but those in `apart`; in the order of the table.
+  std::vector<StudyGroup> groups(const std::vector<std::string> &apart = {}) const;
+  /// "criterion = signed, strength = 500"; empty where nothing is varied.
+  static std::string label(const StudyGroup &group);
+
+  std::vector<double> numbers(const StudyGroup &group, const std::string &column) const;
+  std::vector<std::string> texts(const StudyGroup &group, const std::string &column) const;
+  MeanAndSd mean_and_sd(const StudyGroup &group, const std::string &column) const;
+  /// Pressures [MPa] of columns `name`_at_…_MPa.
+  std::vector<double> pressures(const std::string &name) const;
+  std::size_t finished() const { return finished_.size(); }
+
+private:
+  CsvTable table_;
+  std::vector<std::string> settings_;
+  std::vector<std::size_t> finished_;
+};
+
+/// Last part of a key without its unit: "tensile_strength".
+std::string short_name(const std::string &key);
+
+/// The curve.csv of a run by its name in the table; a table without rows if it is not there.
+using CurveOfRun = std::function<CsvTable(const std::string &run)>;
+
+/// A setting's key in words: "bond tensile strength (MPa)".
+std::string setting_in_words(const std::string &key);
+
+std::vector<report::Chart> study_charts(const StudyTable &table, const CurveOfRun &curve);
 
 /// The page of a study: charts, and a table of its settings with the distance to the paper's
 /// numbers. `description` is study.json.

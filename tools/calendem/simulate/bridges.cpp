@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/csv_table.h"
 #include "base/provenance.h"
 #include "simulate/collect.h"
+#include <algorithm>
 #include <array>
-#include <cstdio>
+#include <cmath>
 #include <fmt/format.h>
 #include <fstream>
-#include <map>
+#include <iterator>
 
 namespace calendem {
 namespace {
@@ -13,21 +15,6 @@ namespace {
 /// Made to AM, CBD, collector; broken likewise.
 using Counts = std::array<long, 6>;
 const char *const kTo[] = {"am", "cbd", "collector"};
-
-// After a resumption the last of equal steps counts. Cut lines are dropped.
-std::map<long, Counts> read(const std::string &file) {
-  std::map<long, Counts> rows;
-  std::ifstream in(file);
-  std::string line;
-  while (std::getline(in, line) && !in.eof()) {
-    long step = 0;
-    Counts c;
-    if (std::sscanf(line.c_str(), "%ld,%ld,%ld,%ld,%ld,%ld,%ld", &step, &c[0], &c[1], &c[2], &c[3],
-                    &c[4], &c[5]) == 7)
-      rows[step] = c;
-  }
-  return rows;
-}
 
 nlohmann::json by_kind(const Counts &counts, int first) {
   nlohmann::json out;
@@ -40,7 +27,7 @@ nlohmann::json by_kind(const Counts &counts, int first) {
 
 nlohmann::json write_bridges(const std::string &folder, const std::vector<RawRow> &rows,
                              const RawRow &top) {
-  const std::map<long, Counts> counts = read(folder + "/bridges_raw.csv");
+  const auto counts = rows_by_step(folder + "/bridges_raw.csv", 7);
   if (counts.empty())
     return nullptr;
   std::string out = "time_us,pressure_MPa,thickness_um,made_am,made_cbd,made_collector,broken_am,"
@@ -50,7 +37,7 @@ nlohmann::json write_bridges(const std::string &folder, const std::vector<RawRow
     const auto found = counts.find(static_cast<long>(r.step));
     if (found == counts.end())
       continue;
-    last = found->second;
+    std::copy(found->second.begin() + 1, found->second.end(), last.begin());
     at_top = r.step == top.step ? last : at_top;
     out += fmt::format("{:.6f},{:.6g},{:.6f},{}\n", r.time, r.p_top, r.gap, fmt::join(last, ","));
   }
@@ -58,6 +45,27 @@ nlohmann::json write_bridges(const std::string &folder, const std::vector<RawRow
   return {{"made", by_kind(last, 0)},
           {"broken_at_max", by_kind(at_top, 3)},
           {"broken_after", by_kind(last, 3)}};
+}
+
+nlohmann::json dried_film(const std::string &folder) {
+  std::ifstream in(folder + "/drying.csv");
+  const CsvTable rows = CsvTable::parse({std::istreambuf_iterator<char>(in), {}});
+  if (rows.rows() == 0)
+    return nullptr;
+  const auto last = [&](const char *column) { return rows.numbers(column).back(); };
+  double left = 0.0;
+  for (const double x : rows.numbers("left_over_fJ"))
+    left = std::isnan(x) ? x : std::max(left, std::fabs(x));
+  return {{"shrinkage", last("shrinkage")},
+          {"film_tension_MPa", last("film_tension_MPa")},
+          {"height_of_top_um", last("top_um")},
+          {"bridges_broken",
+           {{"am", static_cast<long>(last("broken_am"))},
+            {"cbd", static_cast<long>(last("broken_cbd"))},
+            {"collector", static_cast<long>(last("broken_collector"))}}},
+          {"kinetic_fJ", last("kinetic_fJ")},
+          {"work_of_shrinking_fJ", last("shrinking_fJ")},
+          {"unaccounted_fraction", left / last("shrinking_fJ")}};
 }
 
 } // namespace calendem

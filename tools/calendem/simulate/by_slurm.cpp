@@ -88,7 +88,7 @@ private:
   SlurmArray packings_, runs_;
   Tasks packing_tasks_, run_tasks_;
   std::set<int> lost_;
-  std::string told_;
+  std::string reported_;
 
   int number(int k) const { return study_.runs[k].number; }
 
@@ -156,9 +156,9 @@ private:
       return true;
     } catch (const Failure &) { // its controller may be down for a while; the jobs go on
       const std::string text = "no answer from squeue, trying again";
-      if (text != told_)
+      if (text != reported_)
         say(text);
-      told_ = text;
+      reported_ = text;
       return false;
     }
   }
@@ -197,9 +197,9 @@ private:
                                    study_.runs.size(), shown(run_tasks_));
     if (!making_.packings_to_make().empty())
       text += "; packings: " + shown(packing_tasks_);
-    if (text != told_)
+    if (text != reported_)
       say(text);
-    told_ = text;
+    reported_ = text;
   }
 
   void lose(int k) {

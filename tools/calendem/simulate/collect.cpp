@@ -3,17 +3,13 @@
 #include "base/case.h"
 #include "base/provenance.h"
 #include "physics/nanopore_collapse.h"
-#include "simulate/drying.h"
-#include "simulate/elongation.h"
 #include "simulate/line_load.h"
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <fmt/format.h>
 #include <fstream>
-#include <map>
-#include <sstream>
 
 namespace calendem {
 namespace {
@@ -177,30 +173,29 @@ long count_rows(const std::string &file) {
 
 } // namespace
 
-std::vector<RawRow> read_raw(const std::string &file) {
-  std::map<long, RawRow> rows;
+std::map<long, std::vector<double>> rows_by_step(const std::string &file, std::size_t columns) {
+  std::map<long, std::vector<double>> rows;
   std::ifstream in(file);
   std::string line;
-  while (std::getline(in, line)) {
-    if (in.eof()) // a line without its end is being written
-      break;
-    std::array<double, kRawColumns> v;
-    size_t n = 0;
-    std::istringstream fields(line);
-    std::string field;
-    while (n < v.size() && std::getline(fields, field, ',')) {
-      char *end = nullptr;
-      v[n] = std::strtod(field.c_str(), &end);
-      if (end == field.c_str())
+  while (std::getline(in, line) && !in.eof()) { // a line without its end is being written
+    std::vector<double> row;
+    const char *at = line.c_str();
+    for (char *end = nullptr; row.size() < columns; at = end + (*end == ',')) {
+      const double value = std::strtod(at, &end);
+      if (end == at)
         break;
-      ++n;
+      row.push_back(value);
     }
-    if (n == v.size())
-      std::memcpy(&rows[static_cast<long>(v[0])], v.data(), sizeof v);
+    if (row.size() == columns)
+      rows[static_cast<long>(row[0])] = row;
   }
+  return rows;
+}
+
+std::vector<RawRow> read_raw(const std::string &file) {
   std::vector<RawRow> out;
-  for (const auto &[step, row] : rows)
-    out.push_back(row);
+  for (const auto &[step, row] : rows_by_step(file, kRawColumns))
+    std::memcpy(&out.emplace_back(), row.data(), kRawColumns * sizeof(double));
   return out;
 }
 

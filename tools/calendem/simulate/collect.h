@@ -10,8 +10,10 @@
 #include "simulate/fracture.h"
 #include "simulate/run.h"
 #include <cstddef>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace calendem {
@@ -39,7 +41,11 @@ constexpr int kRawColumns = offsetof(RawRow, elongation) / sizeof(double);
 /// |P platen - P collector| / P platen within which a run counts as quasi-static.
 constexpr double kQuasiStatic = 0.05;
 
-/// Rows by time; after a resumption the last of equal steps counts. Cut lines are dropped.
+/// Rows of a file that the input scripts write on and on, by their first column, the step. Of equal
+/// steps, as a resumption leaves them, the last counts. Headings and rows that are cut are left out.
+std::map<long, std::vector<double>> rows_by_step(const std::string &file, std::size_t columns);
+
+/// curve_raw.csv.
 std::vector<RawRow> read_raw(const std::string &file);
 
 /// Gap at which the averaged pressure first falls below `fraction` of the maximum during the last
@@ -111,6 +117,9 @@ std::string ledger_warning(const nlohmann::json &energy);
 nlohmann::json write_bridges(const std::string &folder, const std::vector<RawRow> &rows,
                              const RawRow &top);
 
+/// Of drying.csv, the film before the press, for the summary. Null in a run without drying stress.
+nlohmann::json dried_film(const std::string &folder);
+
 // What the passes under a roll amount to: line load, length of the nip, and the times of the real
 // passage against those of the run.
 
@@ -119,6 +128,22 @@ RollNip roll_nip(const Settings &settings);
 /// For each pass its smallest gap, largest pressure, and line load and contact length on both sides
 /// of the nip; the time under the roll at the web's real speed, and how much faster the run was.
 nlohmann::json roll_passes(const std::vector<RawRow> &rows, const Settings &settings);
+
+// A web that elongates in the nip: elongation_raw.csv, and what of it goes into curve.csv and
+// summary.json.
+
+/// Fills in `elongation` and `work_elongation` of the rows; false if the cell kept its sides.
+bool add_elongation(const std::string &folder, std::vector<RawRow> &rows);
+
+/// Elongation at a time, between rows by interpolation.
+double elongation_at(const std::vector<RawRow> &rows, double time);
+
+/// Header and cells of further columns of curve.csv.
+std::string elongation_columns();
+std::string elongation_cells(const RawRow &row, const ElectrodeFacts &electrode);
+
+/// For summary.json.
+nlohmann::json elongation_of(const RawRow &top, const RawRow &last, const ElectrodeFacts &);
 
 // Whether a run stayed where its laws hold: overlaps within the range of Hertz' law, the platen
 // slow enough to count as quasi-static.

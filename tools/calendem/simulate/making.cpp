@@ -77,13 +77,13 @@ void Making::make(int k) {
   if (ended(k))
     return;
   const auto begin = std::chrono::steady_clock::now();
-  const auto tell_end = [&](const std::string &how) {
+  const auto report_end = [&](const std::string &how) {
     const auto s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin);
     report(k, fmt::format("{}, {:.0f} s", how, s.count()));
   };
   if (o_.step == StudyStep::Packing) {
     states_[k].status = pack(k);
-    tell_end(states_[k].status.empty() ? "packed" : states_[k].status);
+    report_end(states_[k].status.empty() ? "packed" : states_[k].status);
     return;
   }
   if (o_.step == StudyStep::Run && !packed(k))
@@ -95,7 +95,7 @@ void Making::make(int k) {
   if (failed.empty() && !study_.keep_all)
     keep_tables(k);
   set_status(k, failed.empty() ? "done" : failed);
-  tell_end(states_[k].status);
+  report_end(states_[k].status);
 }
 
 void Making::refresh(int but) {

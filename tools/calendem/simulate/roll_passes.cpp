@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "simulate/collect.h"
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace calendem {
 namespace {
@@ -76,6 +77,40 @@ nlohmann::json roll_passes(const std::vector<RawRow> &rows, const Settings &s) {
           {"run_faster_by", nip.web_speed(s.number("platen.speed_m_s"), way) / web_speed},
           {"time_in_the_last_nip_ms",
            1e-3 * passes.back()["contact_length_um"].get<double>() / web_speed}};
+}
+
+bool add_elongation(const std::string &folder, std::vector<RawRow> &rows) {
+  const auto known = rows_by_step(folder + "/elongation_raw.csv", 3);
+  for (RawRow &r : rows)
+    if (const auto at = known.find(static_cast<long>(r.step)); at != known.end()) {
+      r.elongation = at->second[1];
+      r.work_elongation = at->second[2];
+    }
+  return !known.empty();
+}
+
+double elongation_at(const std::vector<RawRow> &rows, double time) {
+  const auto above = std::lower_bound(rows.begin(), rows.end(), time,
+                                      [](const RawRow &r, double t) { return r.time < t; });
+  if (above == rows.end())
+    return rows.back().elongation;
+  if (above == rows.begin())
+    return above->elongation;
+  const RawRow &a = *(above - 1), &b = *above;
+  return a.elongation + (b.elongation - a.elongation) * (time - a.time) / (b.time - a.time);
+}
+
+std::string elongation_columns() { return ",elongation_percent,cell_x_um,work_elongation_fJ"; }
+
+std::string elongation_cells(const RawRow &row, const ElectrodeFacts &e) {
+  return fmt::format(",{:.6f},{:.9f},{:.6g}", 100.0 * row.elongation,
+                     e.elongated(row.elongation).lx, row.work_elongation);
+}
+
+nlohmann::json elongation_of(const RawRow &top, const RawRow &last, const ElectrodeFacts &e) {
+  return {{"percent_at_max", 100.0 * top.elongation},
+          {"percent_after", 100.0 * last.elongation},
+          {"cell_x_after_um", e.elongated(last.elongation).lx}};
 }
 
 } // namespace calendem

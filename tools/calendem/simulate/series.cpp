@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The frames of a run: ParaView series and the space that particles fill.
 #include "base/provenance.h"
-#include "simulate/elongation.h"
+#include "simulate/collect.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

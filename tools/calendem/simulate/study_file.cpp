@@ -15,7 +15,7 @@ namespace calendem {
 namespace {
 
 constexpr std::size_t kMostRuns = 100000;
-constexpr int kMostRunsTold = 5;
+constexpr int kMostRunsListed = 5;
 
 /// Keys that change together; each row is one combination of their values.
 struct Group {
@@ -52,7 +52,7 @@ public:
   using TableReader::TableReader;
 
   void read_head(const toml::table &t, Study &out) {
-    tell_unknown(t, {"name", "recipe", "case", "at_pressure_MPa", "keep"});
+    report_unknown(t, {"name", "recipe", "case", "at_pressure_MPa", "keep"});
     out.name = text(t, {"name", "", "study", 0, 0, "", "for reports", "", true});
     out.recipe_file = path(t, {"recipe", "", "", 0, 0, "", "electrode recipe", "", true});
     out.case_file = path(t, {"case", "", "", 0, 0, "", "its electrode is replaced", "", true});
@@ -68,7 +68,7 @@ public:
       mistakes_.add(line_of(node), "write what is varied as tables: [[vary]].");
       return {};
     }
-    tell_unknown(*t, {"keys", "values", "normal", "design"});
+    report_unknown(*t, {"keys", "values", "normal", "design"});
     if (t->contains("design") && (t->contains("keys") || t->contains("values"))) {
       mistakes_.add(line_of(node), "give either keys and values, or a design.");
       return {};
@@ -112,7 +112,7 @@ private:
   /// normal = { mean, sd, cells }: the law at the middle of as many equal shares, drawn apart until
   /// the cells' standard deviation is the law's.
   void add_normal(Group &group, const toml::table &t, int line) {
-    tell_unknown(t, {"mean", "sd", "cells"}, "normal.");
+    report_unknown(t, {"mean", "sd", "cells"}, "normal.");
     const double mean = number(t, {"mean", "", "", -1e9, 1e9, "", "of the cells"}),
                  sd = number(t, {"sd", "", "", 0, 1e9, "", "of the cells"});
     const int cells = int(number(t, {"cells", "", "", 2, 1000, "", "how many", "", false, true}));
@@ -257,11 +257,11 @@ void add_runs(Study &out, const std::vector<std::vector<std::string>> &rows, Mis
     Mistakes of_run(fmt::format("run {}", out.runs.size() + 1));
     out.runs.push_back(make_run(out, recipe, settings, row, of_run));
     out.runs.back().number = static_cast<int>(out.runs.size());
-    if (!of_run.empty() && ++wrong <= kMostRunsTold)
+    if (!of_run.empty() && ++wrong <= kMostRunsListed)
       mistakes.add(0, of_run.text());
   }
-  if (wrong > kMostRunsTold)
-    mistakes.add(0, fmt::format("{} more runs have mistakes.", wrong - kMostRunsTold));
+  if (wrong > kMostRunsListed)
+    mistakes.add(0, fmt::format("{} more runs have mistakes.", wrong - kMostRunsListed));
 }
 
 Study read_study(const std::string &file) {

@@ -145,7 +145,7 @@ bool run_again(const ScoredCase &c) {
   return std::isfinite(c.predicted_shrinkage) && std::isfinite(c.shrinkage);
 }
 bool strong_single(const ScoredCase &c) {
-  return c.block == "single" && c.signal_to_noise >= kLoudEnough;
+  return c.block == "single" && c.signal_to_noise >= kStrongEnough;
 }
 
 Metric judged(Metric m, const char *gate, double least, double most = INFINITY) {
@@ -228,7 +228,7 @@ void add_reported(const All &cases, std::vector<Metric> &out) {
                              "left out: area under the ROC curve",
                              chosen_of(cases,
                                        [](const auto &c) {
-                                         return c.signal_to_noise >= kLoudEnough &&
+                                         return c.signal_to_noise >= kStrongEnough &&
                                                 (c.block == "single" || c.block == "left_out");
                                        }),
                              auroc_of_unknown));
@@ -253,7 +253,7 @@ void add_reported(const All &cases, std::vector<Metric> &out) {
         right));
   };
   between("below their limit against none", 0.0, kDetectable);
-  between("from there to signal-to-noise 6", kDetectable, kLoudEnough);
+  between("from there to signal-to-noise 6", kDetectable, kStrongEnough);
   out.push_back(share_of("pair: a measurement that would decide is named", cases,
                          in_block({"pair"}), [](const auto &c) { return c.next_named; }));
   out.push_back(share_of("nulls: none claimed", cases, in_block({"null"}), claims_right));

@@ -16,8 +16,8 @@ public:
   using TableReader::TableReader;
 
   void read_head(const toml::table &t, Round &out) {
-    tell_unknown(t, {"name", "bank", "null_packings", "null_draws", "amplitudes", "samples", "open",
-                     "pairs", "faults", "other_numerics"});
+    report_unknown(t, {"name", "bank", "null_packings", "null_draws", "amplitudes", "samples",
+                       "open", "pairs", "faults", "other_numerics"});
     out.name = text(t, {"name", "", "withheld", 0, 0, "", "for reports", "", true});
     if (const std::string bank = path(t, {"bank", "", "", 0, 0, "", "bank (TOML)", "", true});
         !bank.empty())
@@ -40,8 +40,8 @@ public:
   }
 
   void read_noise(const toml::table &t, MeasurementNoise &out) {
-    tell_unknown(t, {"pressure_percent", "displacement_um", "thickness_um", "porosity_percent",
-                     "cracked_fraction", "understated_by"});
+    report_unknown(t, {"pressure_percent", "displacement_um", "thickness_um", "porosity_percent",
+                       "cracked_fraction", "understated_by"});
     // at least what the file can write: a value without error is no measurement
     out.pressure_percent = number(t, {"pressure_percent", "", "1", 0.01, 20, "%", "sd"});
     out.displacement_um = number(t, {"displacement_um", "", "0.02", 1e-4, 10, "um", "sd"});

@@ -79,7 +79,7 @@ double auroc_of_unknown(const Cases &cases);
 
 /// Signal-to-noise from which the gates of `where` and `which` count, and that of the detection
 /// limit: log-odds of 3 are half of a squared distance of 6.
-constexpr double kLoudEnough = 6.0, kDetectable = 2.449489742783178;
+constexpr double kStrongEnough = 6.0, kDetectable = 2.449489742783178;
 
 /// Truths and answers of a round. Throws Failure: 4 if a truth, what was handed out or an answer
 /// is not what its hash says, 2 if files are missing.

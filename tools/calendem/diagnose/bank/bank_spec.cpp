@@ -29,8 +29,8 @@ public:
   using TableReader::TableReader;
 
   void read_head(const toml::table &t, BankSpec &out) {
-    tell_unknown(t, {"name", "recipe", "case", "packings", "base_points", "effect_points", "seed",
-                     "pressures_MPa", "effects"});
+    report_unknown(t, {"name", "recipe", "case", "packings", "base_points", "effect_points", "seed",
+                       "pressures_MPa", "effects"});
     out.name = text(t, head_keys()[0]);
     out.recipe_file = path(t, head_keys()[1]);
     out.case_file = path(t, head_keys()[2]);
@@ -54,7 +54,7 @@ public:
       mistakes_.add(line_of(node), "write a parameter as a table: [[parameter]].");
       return p;
     }
-    tell_unknown(*t, {"name", "keys", "low", "high", "prior"});
+    report_unknown(*t, {"name", "keys", "low", "high", "prior"});
     p.name = text(*t, {"name", "", "", 0, 0, "", "of the parameter", "", true});
     if (p.name.find_first_not_of(
             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") != std::string::npos)
@@ -80,7 +80,7 @@ public:
   }
 
   void read_full_cell(const toml::table &t, BankSpec &out) {
-    tell_unknown(t, {"recipe", "case", "points"});
+    report_unknown(t, {"recipe", "case", "points"});
     out.full_cell.recipe_file =
         path(t, {"recipe", "", "", 0, 0, "", "recipe of the cell", "", true});
     out.full_cell.case_file = path(t, {"case", "", "", 0, 0, "", "its case", "", true});
@@ -97,7 +97,7 @@ public:
     const toml::table *t = node.as_table();
     if (!t)
       return mistakes_.add(line_of(node), "write an effect's range as a table: [[effect]].");
-    tell_unknown(*t, {"name", "low", "high", "points"});
+    report_unknown(*t, {"name", "low", "high", "points"});
     const int before = mistakes_.count();
     const std::string name = text(*t, {"name", "", "", 0, 0, "", "of the effect",
                                        fmt::format("{}", fmt::join(out.effects, "|"))});
@@ -128,7 +128,7 @@ public:
     const toml::table *t = node.as_table();
     if (!t)
       return mistakes_.add(line_of(node), "write a measurement as a table: [[measurement]].");
-    tell_unknown(*t, {"name", "hours", "sd"});
+    report_unknown(*t, {"name", "hours", "sd"});
     std::string names;
     for (const MeasurementPrice &p : prices)
       names += (names.empty() ? "" : "|") + p.name;
@@ -151,7 +151,7 @@ public:
       mistakes_.add(line_of(node), "write an error of the runs as a table: [[numerics]].");
       return {};
     }
-    tell_unknown(*t, {"name", "porosity_points"});
+    report_unknown(*t, {"name", "porosity_points"});
     return {text(*t, {"name", "", "", 0, 0, "", "of the error", "", true}),
             number(*t, {"porosity_points", "", "", 0, 20, "%", "of the porosity under pressure"})};
   }

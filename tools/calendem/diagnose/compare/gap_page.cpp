@@ -82,7 +82,7 @@ std::string colour_of(double z, double threshold) {
 
 nlohmann::json square(const nlohmann::json &r, double threshold) {
   const double z = r["z"].is_number() ? r["z"].get<double>() : INFINITY;
-  const std::string unit = shown_unit(r["unit"]);
+  const std::string unit = r["unit"] == "%" ? "points" : shown_unit(r["unit"]);
   return {{"text", fmt::format("{}{} (z\u00a0{})", shown(r["residual"], "{:+.3g}"),
                                unit.empty() ? "" : "\u00a0" + unit, shown(r["z"], "{:+.1f}"))},
           {"colour", colour_of(z, threshold)}};

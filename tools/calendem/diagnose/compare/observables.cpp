@@ -205,8 +205,8 @@ void along_curve(const Experiment &e, const Condition &c, std::vector<Observable
     return;
   const MeasuredCurve curve = read_curve(c.curve);
   if (curve.left_out > 0)
-    not_said.push_back(fmt::format("{}: {} rows of its curve jump away from their neighbours and "
-                                   "are left out.",
+    not_said.push_back(fmt::format("{}: rows of its curve jump away from their neighbours: {} left "
+                                   "out.",
                                    c.id, curve.left_out));
   const std::optional<Measured> loading = loading_of(e, c);
   const double solid = loading ? solid_thickness_um(e, loading->value) : 1.0;
@@ -284,7 +284,8 @@ std::vector<Observable> points_of_curve(const Experiment &e, const Condition &c,
     o.curve = over_solid ? "displacement over solid thickness" : "displacement";
     o.coordinate = share;
     o.pressure = at;
-    o.name = fmt::format("{} at {:.0f} MPa{}", o.curve, at, released ? " on release" : "");
+    o.name = fmt::format("{} at {:.{}f} MPa{}", o.curve, at, at < 1.0 ? 2 : 0,
+                         released ? " on release" : "");
     o.stage = released ? "relaxation" : "compression";
     o.unit = over_solid ? "" : "um";
     o.simulated = [of_run, at](const SimulatedRun &r) { return of_run(r, at); };

@@ -112,7 +112,7 @@ const Judged *unsettled(const std::vector<Judged> &judged) {
 }
 
 /// How probable it is that only something like the effects of that name acts.
-std::string told_alike(const Which &w, const std::string &name) {
+std::string what_acts_alike(const Which &w, const std::string &name) {
   for (const Judged &j : w.judged)
     if (const auto at = j.of_place.find("like " + name);
         at != j.of_place.end() && at->second * j.probability > kCounts)
@@ -148,7 +148,7 @@ Lead lead_of(const Which &w, const std::vector<int> &effects) {
   return lead;
 }
 
-/// The effects that act whatever acts with them, or the most probable hypothesis.
+/// The effects that act whatever acts with them, or the most probable effect or hypothesis.
 Lead leading(const Which &w, double enough) {
   std::vector<int> sure;
   Lead most;
@@ -167,14 +167,15 @@ Lead leading(const Which &w, double enough) {
   if (!sure.empty())
     return most;
   const Judged &best = w.judged.front();
-  return {best.hypothesis.name, best.probability, &best};
+  return best.probability > most.probability ? Lead{best.hypothesis.name, best.probability, &best}
+                                             : most;
 }
 
 /// Why what leads may not be claimed; empty: it may.
 std::string objection(const Which &w, const Lead &lead, const WhichSettings &settings) {
   if (lead.probability < settings.claim_probability)
     return fmt::format("The most probable, {}, has {:.3g}; a claim needs {:g}.{}", lead.name,
-                       lead.probability, settings.claim_probability, told_alike(w, lead.name));
+                       lead.probability, settings.claim_probability, what_acts_alike(w, lead.name));
   if (const Judged *few = unsettled(w.judged))
     return fmt::format("The evidence of {} rests on {:.0f} samples that count; at least {:g} are "
                        "asked for.",

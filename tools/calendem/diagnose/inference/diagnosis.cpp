@@ -59,9 +59,10 @@ void heed_where(const Where &where, double claim_probability, Which &which) {
   if (which.claim != "none" || !seen || none >= claim_probability)
     return;
   which.claim = "undecided";
-  which.why = fmt::format("A difference is significant, but each effect that would explain it is "
-                          "too small to be told from none, which has {:.3g}; a claim needs {:g}.",
-                          none, claim_probability);
+  which.why =
+      fmt::format("A difference is significant, but each effect that would explain it is "
+                  "too small to be distinguished from none, which has {:.3g}; a claim needs {:g}.",
+                  none, claim_probability);
 }
 
 } // namespace
