@@ -37,7 +37,7 @@ includes_point_one_way() { # physics <- registry <- liggghts, tools/calendem; te
   # A folder of tools/calendem knows itself, those before it in this list, and its CMake library links no other.
   local folder known=physics\|registry
   for folder in base electrode/structure electrode/pack electrode/slurry electrode simulate measure report \
-    diagnose/inference diagnose/compare diagnose/bank diagnose withheld commands .; do
+    diagnose/inference diagnose/compare diagnose/bank diagnose predict withheld commands .; do
     known="$known|$folder"
     find "tools/calendem/$folder" -maxdepth 1 -name '*.h' -o -maxdepth 1 -name '*.cpp' | LC_ALL=C sort |
       xargs grep -nE '^ *# *include *"' /dev/null | without "include \"($known)/[a-z0-9_]+\.h\"" |

@@ -35,7 +35,7 @@ public:
 
 private:
   std::map<std::string, std::string> values_;
-  std::map<std::string, std::string> follows_; ///< key, the one it follows
+  std::map<std::string, std::string> follows_;              ///< key, the one it follows
   std::map<std::string, std::vector<std::string>> left_by_; ///< key, those that leave it
   std::map<std::string, int> lines_;
   std::set<std::string> wrong_;
