@@ -50,7 +50,7 @@ TEST(Recipe, ActiveMaterialIsWhatCarbonAndBinderLeave) {
   EXPECT_NEAR(r.am_weight, 0.95, 1e-12);
   expect_all(message_for("[composition]\ncarbon_weight_percent = 30\nbinder_weight_percent = "
                          "30\n"),
-             {":4:", "leave 40 %", "50 to 100 %"});
+             {":3:", "leave 40 %", "50 to 100 %"});
   expect_all(message_for("[composition]\ncarbon_weight_percent = 0.02\nbinder_weight_percent = "
                          "0.02\n"),
              {"look like fractions"});

@@ -90,8 +90,9 @@ void check_composition(const Settings &s, Mistakes &mistakes) {
                  fmt::format("[composition] adds up to {:.6g} % (active material {:.6g}, carbon "
                              "{:.6g}, binder {:.6g}); it must be 100 %.{}",
                              sum, am, carbon, binder, hint));
-  else if (s.line(kAmWeight) == 0 && (am < kLeastAm || fractions))
-    mistakes.add(std::max(s.line(kCarbonWeight), s.line(kBinderWeight)),
+  else if (const int line = std::max(s.line(kCarbonWeight), s.line(kBinderWeight));
+           line > 0 && s.line(kAmWeight) == 0 && (am < kLeastAm || fractions))
+    mistakes.add(line,
                  fmt::format("carbon ({:.6g} %) and binder ({:.6g} %) leave {:.6g} % of active "
                              "material; allowed is {:g} to 100 %.{}",
                              carbon, binder, am, kLeastAm, hint));
