@@ -114,9 +114,8 @@ TEST(RulesOfThumb, FindTheirOwnConstants) {
   EXPECT_NEAR(of_meyer[1], 70.0, 0.5);
 }
 
-// Forty measured numbers of twenty truths, drawn from the priors: each film predicted from the other.
-// With p = 0.9 36 +- 1.9 are expected inside if they were independent; two films of one truth miss
-// together: half as many, 18 +- 1.3, counted twice. 31 is three of those below.
+// Forty measured numbers of twenty truths, drawn from the priors: each film predicted from the other. 36 are expected
+// inside; the two of a truth miss together at the worst, which makes the standard deviation 2.7. 31 is two of those below.
 TEST(LeftOut, IntervalsHoldWhatTheyPromise) {
   Random random(5, 3);
   int inside = 0, all = 0;
