@@ -52,6 +52,7 @@ refuses() { # WORDS ARGUMENTS...
 refuses "the bank has 20 to 300" predict model/model.json film.toml --pressure 5
 refuses "a range is LOW:HIGH" predict model/model.json film.toml --pressure 80:20
 refuses "give MPa as 20,50,80" predict model/model.json film.toml --pressure twenty
+refuses "'nan' is no number" predict model/model.json film.toml --vary porosity_before_percent=nan
 refuses "give NAME=VALUE,VALUE" predict model/model.json film.toml --vary porosity=40
 refuses "not there. Make it with calendem calibrate" predict none.json film.toml
 printf 'name = "other"\n[particles]\nmedian_um = 9\n' >other.toml

@@ -51,8 +51,8 @@ void run_calibrate(const CalibrateOptions &o) {
     fmt::print("  {:<36} {:4.0f} MPa  measured {:.1f}, predicted {:.1f} (90 %: {:.1f} to {:.1f}), "
                "Heckel {:.1f}, Meyer {:.1f}\n",
                r.film, r.pressure, kPercent * r.measured, kPercent * r.predicted.median,
-               kPercent * r.predicted.low90, kPercent * r.predicted.high90, kPercent * r.rules[0],
-               kPercent * r.rules[1]);
+               kPercent * r.predicted.low90, kPercent * r.predicted.high90,
+               kPercent * r.rules.at("Heckel"), kPercent * r.rules.at("Meyer"));
   for (const std::string &text : not_said)
     fmt::print("- {}\n", text);
   fmt::print("page: {0}/model.html\nmodel: {0}/model.json\ncase: {0}/case.toml\n", o.folder);
@@ -123,7 +123,7 @@ std::vector<Film> varied(std::vector<Film> films, const std::vector<std::string>
       for (const std::string &value : CLI::detail::split(text.substr(equals + 1), ',')) {
         Film changed = f;
         double number = 0.0;
-        if (!CLI::detail::lexical_cast(value, number))
+        if (!CLI::detail::lexical_cast(value, number) || !std::isfinite(number))
           throw Failure(kBadInput, fmt::format("--vary is '{}'; '{}' is no number.", text, value));
         changed.recipe[place] = number;
         changed.name += fmt::format("{}{} {:g}", f.name.empty() ? "" : ", ", name, number);
@@ -207,11 +207,15 @@ void run_design(const PredictOptions &o) {
   write_file(o.folder + "/design.html", design_page(target, designs, json));
   for (const Design &d : designs) {
     const Chance &best = d.chances[d.best];
-    fmt::print("{}: {:.0f} MPa meets the target with {:.0f} % (porosity {:.0f} %, cracked {:.0f} "
-               "%): porosity {:.1f} %, cracked {:.0f} %\n",
-               d.film.name, best.pressure, kPercent * best.both, kPercent * best.porosity,
-               kPercent * best.cracked, kPercent * d.predicted.after[d.best].median,
-               kPercent * d.predicted.cracked[d.best].median);
+    const Band &after = d.predicted.after[d.best], &cracked = d.predicted.cracked[d.best];
+    fmt::print("{}: {:.0f} MPa meets the target with {:.0f} %: porosity {:.1f} % (90 %: {:.1f} to "
+               "{:.1f}), cracked particles {:.0f} % ({:.0f} to {:.0f})\n",
+               d.film.name, best.pressure, kPercent * best.both, kPercent * after.median,
+               kPercent * after.low90, kPercent * after.high90, kPercent * cracked.median,
+               kPercent * cracked.low90, kPercent * cracked.high90);
+    if (target.cracked_below < 1.0)
+      fmt::print("  the porosity with {:.0f} %, the cracked particles with {:.0f} %\n",
+                 kPercent * best.porosity, kPercent * best.cracked);
     for (const std::string &text : d.predicted.beyond)
       fmt::print("  note: {}: extrapolated\n", text);
   }

@@ -3,6 +3,7 @@
 #include "base/messages.h"
 #include "diagnose/bank_points.h"
 #include "diagnose/experiment_data.h"
+#include "diagnose/inference/emulators.h"
 
 #include <math.h> // pchip.hpp of Boost 1.74 needs the global isnan
 
@@ -19,9 +20,6 @@ using inference::Vector;
 namespace {
 
 constexpr std::size_t kFewestPressures = 4; // of the monotone cubic
-// Variance of an effect's difference between two runs of one packing, in those of a run: see
-// diagnose/inference/emulators.cpp.
-constexpr double kOfDifference = 1.5;
 constexpr double kBeyond = 0.05; // standard deviation per unit of ln p beyond the bank's pressures
 
 bool is_recipe(const BankParameter &p) { return p.keys.front().rfind("recipe.", 0) == 0; }
@@ -154,7 +152,7 @@ emulators_of(const Learnt &learnt, int number, const std::vector<inference::Gaus
     for (const Eigen::Index k : known)
       t.packing.push_back(learnt.training.packing[std::size_t(k)]);
     if (of)
-      t.usual_noise = kOfDifference * (*of)[std::size_t(p)].run_variance();
+      t.usual_noise = inference::kOfDifference * (*of)[std::size_t(p)].run_variance();
     out.emplace_back(t);
   }
   return out;

@@ -98,7 +98,7 @@ std::vector<LeftOut> left_out(const FilmBank &bank, const Calibration &all,
                      porosity_band(bank, others, f, d.pressure, d.pressure_sd, d.sd),
                      {}};
       for (const RuleOfThumb &rule : rules)
-        row.rules.push_back(rule.porosity(rule.constants, porosity_before(bank, f), d.pressure));
+        row.rules[rule.name] = rule.porosity(rule.constants, porosity_before(bank, f), d.pressure);
       out.push_back(row);
     }
   }

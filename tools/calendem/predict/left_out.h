@@ -5,6 +5,7 @@
 #define CALENDEM_PREDICT_LEFT_OUT_H
 
 #include "predict/prediction.h"
+#include <map>
 
 namespace calendem {
 
@@ -33,7 +34,7 @@ struct LeftOut {
   std::string film, condition;
   double pressure = 0.0, measured = 0.0; ///< MPa; porosity 0-1
   Band predicted;                        ///< with measurement's and press's errors
-  std::vector<double> rules;             ///< in the order of rules_of_thumb
+  std::map<std::string, double> rules;   ///< porosity by the name of the rule of thumb
 };
 
 /// Every porosity after calendering, predicted from the other films. Empty with one film.

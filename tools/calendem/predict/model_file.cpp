@@ -66,7 +66,6 @@ Json draws_of(const FilmBank &bank, const Calibration &c) {
 
 Json left_out_json(const std::vector<LeftOut> &rows) {
   Json out = Json::array();
-  const auto names = rules_of_thumb({{0.45, 50.0, 0.3}, {0.45, 150.0, 0.25}});
   for (const LeftOut &r : rows) {
     Json row = {{"film", r.film},
                 {"condition", r.condition},
@@ -76,9 +75,8 @@ Json left_out_json(const std::vector<LeftOut> &rows) {
                 {"low50", r.predicted.low50},
                 {"high50", r.predicted.high50},
                 {"low90", r.predicted.low90},
-                {"high90", r.predicted.high90}};
-    for (std::size_t k = 0; k < names.size(); ++k)
-      row["rules"][names[k].name] = r.rules[k];
+                {"high90", r.predicted.high90},
+                {"rules", r.rules}};
     out.push_back(row);
   }
   return out;

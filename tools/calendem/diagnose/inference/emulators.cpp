@@ -7,11 +7,6 @@
 namespace calendem::inference {
 namespace {
 
-// Of the base model's variance between runs, in a difference of two: between 0, if all of it is
-// what the base emulator misses, which cancels, and 2, if all is chaotic. 1 and 2 predict left-out
-// differences of a bank of 8 packings about as well.
-constexpr double kOfDifference = 1.5;
-
 /// Scaled base parameters and effect's parameters; strengths of its amplitudes.
 struct Point {
   Vector input, amplitudes;
