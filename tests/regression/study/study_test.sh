@@ -75,3 +75,11 @@ status=0
 "$bin/calendem" bank "$work/bank.toml" -o "$work/bank" --liggghts "$(type -P false)" >"$work/bank.log" 2>&1 || status=$?
 [ $status = 3 ] || { cat "$work/bank.log"; fail "exit status $status of a bank whose runs fail"; }
 grep -q "^study: 2 runs, 0 of them there -> .*full_cell" "$work/bank.log" || { cat "$work/bank.log"; fail "the full cell was not tried"; }
+
+# A bank that is stopped does not begin with the full cell.
+"$bin/calendem" bank "$work/bank.toml" -o "$work/stopped" >"$work/stopped.log" 2>&1 &
+job=$!
+until [ -n "$(find "$work/stopped/packings" -name 'electrode.json' 2>/dev/null)" ]; do sleep 0.05; done
+kill -TERM $job
+wait $job && fail "a bank that was stopped must not end with exit status 0"
+! grep -q full_cell "$work/stopped.log" || { cat "$work/stopped.log"; fail "a stopped bank began with the full cell"; }

@@ -26,6 +26,7 @@ null_packings = 1
 null_draws = 2
 amplitudes = 0
 samples = 2
+paired_runs = "yes"
 open = ["displacement_scale"]
 faults = ["friction + noise"]
 T
@@ -65,15 +66,22 @@ for k in 001 002 003 004; do # models are run again where an effect is claimed, 
   [ "$again" = no ] || grep -q "\"$k/shrink.json\"" "$work/answers/answers.json" || fail "no hash of $k/shrink.json"
 done
 
-withheld score "$work/round" "$work/answers" -o "$work/scores"
+score() { withheld score "$work/round" "$work/answers" -o "$work/scores" --bank "$here/bank.toml"; }
+score
+grep -q '"paired": true' "$work/scores/scores.json" || fail "the keeper's paired runs were not used"
 for file in scores.json scores.md scores.html; do [ -s "$work/scores/$file" ] || fail "no $file"; done
 grep -q "false claims on nulls | .* | 2 | 1 | <= 0.03" "$work/scores/scores.md" || fail "two draws of one null packing are not counted as one truth"
 
+pair=$(find "$work/round/sealed/without_cause" -name experiment.toml | head -n 1)
+cp "$pair" "$work/pair"
+sed -i 's/porosity/prosity/' "$pair"
+refused 4 "without its cause is not what its hash says" score
+cp "$work/pair" "$pair"
+
 # The same command makes nothing again, and hands out the same.
 make_round >"$work/again.log"
-grep -q "12 runs, 12 of them there" "$work/again.log" || fail "runs were made twice"
+grep -q "20 runs, 20 of them there" "$work/again.log" || fail "runs were made twice"
 diff -r "$work/round/handed_out" "$work/given/copy" || fail "another round was handed out"
 
 sed -i 's/"claim": "[a-z]*/&!/' "$work/answers/002/gap.json"
-refused 4 "the answer 002/gap.json is not what its hash says" \
-  withheld score "$work/round" "$work/answers" -o "$work/scores"
+refused 4 "the answer 002/gap.json is not what its hash says" score

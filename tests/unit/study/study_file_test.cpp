@@ -91,6 +91,18 @@ TEST(StudyFile, EveryCombinationOfTheGroupsIsARun) {
   EXPECT_EQ(second.settings.number("bond.damping"), 0.2);
 }
 
+// Two moduli are told apart, what is as in the files is not repeated.
+TEST(StudyFile, ARunIsNamedByWhatDiffersFromRecipeAndCase) {
+  const Study s = read_study(write_study(
+      kHead + "[[vary]]\nkeys = [\"recipe.seed\"]\nvalues = [1, 3]\n[[vary]]\nkeys = "
+              "[\"case.material.am.friction\", \"case.material.cbd.friction\"]\nvalues = [0.001, "
+              "0.2]\n"));
+  ASSERT_EQ(s.runs.size(), 4u);
+  EXPECT_EQ(s.runs[0].said, "as recipe and case");
+  EXPECT_EQ(s.runs[1].said, "am.friction 0.2, cbd.friction 0.2");
+  EXPECT_EQ(s.runs[2].said, "seed 3");
+}
+
 TEST(StudyFile, EveryMistakeIsReported) {
   expect_parts(
       refusal(kHead + "keep = \"some\"\nat_pressure_MPa = [-1]\nspeed = 3\n[[vary]]\nkeys = "

@@ -63,15 +63,17 @@ protected:
            "faults = [\"friction\", \"thickness_zero\"]\nopen = [\"displacement_scale\"]\n";
     const Round round = read_round((at_ / "round.toml").string());
     write_table(round.bank);
-    std::vector<Truth> truths = draw_truths(round, "secret");
-    std::vector<std::vector<PressedSamples>> shown;
-    for (Truth &t : truths) {
-      shown.emplace_back();
-      for (const double target : {30.0, 50.0})
-        shown.back().push_back({shown_of(t, target)});
+    std::vector<PressedTruth> pressed;
+    for (const Truth &t : draw_truths(round, "secret")) {
+      pressed.push_back({t, {}, {}});
+      for (const double target : {30.0, 50.0}) {
+        pressed.back().shown.push_back({shown_of(t, target)});
+        if (has_cause(t))
+          pressed.back().without_cause.push_back({shown_of(without_cause(t), target)});
+      }
     }
     fs::create_directories(round_ + "/sealed");
-    seal_round(round_, round, truths, shown, "secret");
+    seal_round(round_, round, pressed, "secret");
     fs::create_directories(at_ / "given");
     fs::copy(round_ + "/handed_out", given_, fs::copy_options::recursive);
   }
@@ -116,6 +118,10 @@ protected:
     }
   }
 
+  std::string pair_of_one() const {
+    return fs::directory_iterator(round_ + "/sealed/without_cause")->path().string();
+  }
+
   static void change(const std::string &file) {
     std::string text = bytes_of(file);
     text.replace(text.find_last_of("0123456789"), 1, "_");
@@ -137,6 +143,29 @@ TEST_F(Withheld, EffectsAreFoundAndAllHashesHold) {
   EXPECT_EQ(fs::last_write_time(gap), before);
 }
 
+// Far beyond noise, the places that the diagnosis reports are the true ones: those of what
+// recalibration leaves, here of a thickness zero in the curve too, since stiffness takes up a part.
+TEST_F(Withheld, TheKeepersPairsShowHowLargeAGapIsAndWhere) {
+  answer();
+  std::vector<ScoredCase> cases = open_round(round_, answers_);
+  const std::string bank = (at_ / "bank.toml").string(), table = (at_ / "bank.csv").string();
+  add_true_gaps(round_, answers_, bank, table, cases);
+  int strong = 0;
+  for (const ScoredCase &c : cases) {
+    EXPECT_EQ(c.paired, c.block != "null");
+    if (c.block != "fault")
+      continue;
+    ++strong;
+    EXPECT_GT(c.signal_to_noise, kStrongEnough);
+    EXPECT_EQ(c.true_places, c.places) << c.truth;
+    EXPECT_TRUE(c.true_places.count("p50|compression|displacement"));
+    EXPECT_EQ(c.true_places.count("p50|compression|thickness"), c.truth == "thickness_zero");
+  }
+  EXPECT_EQ(strong, 2);
+  std::ofstream(table, std::ios::app) << "\n";
+  EXPECT_THROW(add_true_gaps(round_, answers_, bank, table, cases), Failure);
+}
+
 // Learning takes most of the time of a diagnosis; it depends on no measured value.
 TEST_F(Withheld, CasesOfOneLayoutShareWhatIsLearnt) {
   const BankTable table =
@@ -155,7 +184,8 @@ TEST_F(Withheld, ChangedTruthsAndAnswersAreNotScored) {
   EXPECT_EQ(status_of_opening(), kDone);
   for (const std::string &file :
        {answers_ + "/002/gap.json", answers_ + "/002/baselines.json",
-        round_ + "/handed_out/003/p30.csv", round_ + "/handed_out/commitment.json"}) {
+        round_ + "/handed_out/003/p30.csv", round_ + "/handed_out/commitment.json",
+        pair_of_one() + "/p30.csv"}) {
     const std::string good = bytes_of(file);
     change(file);
     EXPECT_EQ(status_of_opening(), kCheckFailed) << file;
@@ -178,7 +208,7 @@ TEST_F(Withheld, WhatIsHandedOutRevealsNoTruth) {
     for (const auto &seed : one.at("truth").at("packing_seeds"))
       secrets.push_back(seed.dump());
     secrets.push_back(one.at("truth").at("handed_out_sha256"));
-    for (const std::string &name : one.at("truth").at("hidden"))
+    for (const auto &name : one.at("truth").at("hidden"))
       secrets.push_back(name);
   }
   int files = 0;

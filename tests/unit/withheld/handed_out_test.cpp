@@ -96,6 +96,46 @@ TEST(Truths, RunsHaveTheTruthsSettings) {
   }
 }
 
+// A press has a new disc for each pressure.
+TEST(Truths, APressureCanHaveDiscsOfItsOwn) {
+  std::string text = kRound;
+  text.insert(text.find("samples"), "specimens = \"one for each pressure\"\n");
+  const Round round = round_of(text);
+  const std::vector<Truth> truths = draw_truths(round, "secret");
+  const Study study = truth_study(round, truths);
+  std::set<unsigned long> packings;
+  for (const StudyRun &run : study.runs)
+    packings.insert(run.recipe.seed);
+  EXPECT_EQ(packings.size(), study.runs.size());
+  EXPECT_EQ(study.runs[4].recipe.seed, truths[0].packings[4]);
+}
+
+TEST(Truths, WithoutItsCauseATruthKeepsItsSamplesPressAndNumerics) {
+  const Round round = round_of(kRound);
+  int causes = 0;
+  for (const Truth &t : draw_truths(round, "secret")) {
+    const Truth without = without_cause(t);
+    EXPECT_FALSE(has_cause(without));
+    EXPECT_EQ(without.packings, t.packings);
+    EXPECT_EQ(without.pressure_error, t.pressure_error);
+    EXPECT_EQ(without.understated, t.understated);
+    causes += has_cause(t);
+    const auto numerics = [](const Truth &of) {
+      return std::count_if(of.hidden.begin(), of.hidden.end(),
+                           [](const auto &name) { return find_hidden(name)->numerics; });
+    };
+    EXPECT_EQ(numerics(without), numerics(t));
+    EXPECT_EQ(without.hidden.size(), std::size_t(numerics(t)));
+  }
+  EXPECT_EQ(causes, 2 * 3 + 1 + 1 + 1); // effects, cohesion, the pair, friction on a larger cell
+  Round paired = round;
+  paired.paired_runs = true;
+  const std::vector<Truth> truths = draw_truths(round, "secret"), all = with_pairs(paired, truths);
+  EXPECT_EQ(with_pairs(round, truths).size(), truths.size());
+  ASSERT_EQ(int(all.size()), int(truths.size()) + causes);
+  EXPECT_EQ(all.back().packings, truths[truths.size() - 2].packings); // larger_cell + friction
+}
+
 // Intervals of 90 % hold 90 % of the truths only if truths are drawn from the whole prior.
 TEST(Truths, BaseParametersAreDrawnFromTheirPriors) {
   const Round round = round_of(kRound);
@@ -186,6 +226,25 @@ TEST(HandedOut, CurvesAreThoseOfThePressTrueButForItsErrors) {
   EXPECT_NEAR(sample_area_cm2(e) * 1e8, 3 * 36.0, 1e-3); // um2: three of the bank's cells
   EXPECT_EQ(e.train, std::vector<std::string>{"p30"});
   EXPECT_EQ(e.test, std::vector<std::string>{"p50"});
+}
+
+TEST(HandedOut, APressMayShowTooMuchPressureSpringBackLateAndDrift) {
+  const Round round = round_of(kRound);
+  Truth truth = draw_truths(round, "secret")[0];
+  truth.pressure_error = 0.0;
+  truth.hidden = {"pressure_offset", "frame_hysteresis", "drift"};
+  EXPECT_NEAR(truth_study(round, {truth}).runs[1].settings.number("platen.max_pressure_MPa"),
+              50 - find_hidden("pressure_offset")->pressure_offset_MPa, 1e-9);
+  const Experiment e = handed(round, truth, 1);
+  std::ifstream in(e.conditions[1].curve);
+  std::string line;
+  int row = 40 - 37; // the first rows are below the offset
+  for (std::getline(in, line); std::getline(in, line); ++row) {
+    const double d = std::stod(line), p = std::stod(line.substr(line.find(',') + 1)) - 4.0;
+    const bool down = line.find("compression") != std::string::npos;
+    const double true_d = (down ? 0.0 : 2.3) + (down ? 3.0 : 1.0) * p / 50 + 0.4 * (row + 1) / 80;
+    EXPECT_NEAR(d, true_d, 5 * 0.02 + 0.01) << line;
+  }
 }
 
 } // namespace

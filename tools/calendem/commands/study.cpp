@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "simulate/study.h"
+#include "base/child.h"
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "commands/commands.h"
@@ -79,6 +80,8 @@ void make_bank(const Options &o) {
         throw;
       if (!failed)
         failed = f;
+      if (stop_requested() != 0)
+        break;
     }
   if (o.study.slurm.dry_run)
     return;

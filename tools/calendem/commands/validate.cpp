@@ -68,7 +68,7 @@ std::string name_after_check(const std::string &file) {
   }
   case FileKind::Round: {
     const Round round = read_round(file);
-    const Study study = truth_study(round, draw_truths(round, "any"));
+    const Study study = truth_study(round, with_pairs(round, draw_truths(round, "any")));
     return fmt::format("withheld round of {} runs", study.runs.size());
   }
   case FileKind::Case:

@@ -52,16 +52,21 @@ void add_answer(CLI::App &app) {
 }
 
 void add_score(CLI::App &app) {
-  struct Arguments {
-    std::string round, answers, folder;
-  };
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<ScoreOptions>();
+  a->bank = input_scripts() + "/cases/bank/bank.toml";
   CLI::App *verb = app.add_subcommand("score", "Open the truths, check all hashes, judge the "
                                                "answers: every gate, met or missed");
   verb->add_option("DIR", a->round, "folder of calendem withheld make")->required();
   verb->add_option("ANSWERS", a->answers, "folder of calendem withheld answer")->required();
   verb->add_option("-o,--output", a->folder, "folder for scores.json, .md and .html")->required();
-  verb->callback([a] { score_round(a->round, a->answers, a->folder); });
+  verb->add_option("--bank", a->bank, "bank (TOML) with which it was answered");
+  verb->add_option("--table", a->table,
+                   "the bank's table; default: beside the bank, with its name");
+  verb->callback([a] {
+    if (a->table.empty())
+      a->table = std::filesystem::path(a->bank).replace_extension("csv").string();
+    score_round(*a);
+  });
 }
 
 void add_rehearse(CLI::App &app) {

@@ -229,13 +229,8 @@ void Making::set_status(int k, const std::string &status) {
 
 void Making::report(int k, const std::string &what) {
   const std::lock_guard<std::mutex> lock(guard_);
-  std::string values;
-  for (std::size_t c = 0; c < study_.columns.size(); ++c) {
-    const std::string &name = study_.columns[c];
-    values += fmt::format(" {} = {}", name.substr(name.rfind('.') + 1), study_.runs[k].values[c]);
-  }
-  fmt::print("study: run {} of {}:{}: {}\n", study_.runs[k].number, study_.runs.size(), values,
-             what);
+  fmt::print("study: run {} of {}: {}: {}\n", study_.runs[k].number, study_.runs.size(),
+             study_.runs[k].said, what);
   std::cout << std::flush;
 }
 

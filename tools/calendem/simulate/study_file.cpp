@@ -248,6 +248,34 @@ void check_column(const std::string &name, Mistakes &mistakes) {
     mistakes.add(0, unknown_key(name));
 }
 
+namespace {
+
+/// The shortest end of the key, in whole parts, that no other column ends with.
+std::string short_name(const std::string &key, const std::vector<std::string> &columns) {
+  for (std::size_t dot = key.rfind('.'); dot != std::string::npos && dot > 0;
+       dot = key.rfind('.', dot - 1)) {
+    const std::string end = key.substr(dot);
+    if (std::count_if(columns.begin(), columns.end(), [&](const std::string &c) {
+          return c.size() >= end.size() && c.compare(c.size() - end.size(), end.size(), end) == 0;
+        }) == 1)
+      return end.substr(1);
+  }
+  return key;
+}
+
+std::string differences(const Study &study, const std::vector<std::string> &row,
+                        const Settings &recipe, const Settings &settings) {
+  std::vector<std::string> out;
+  for (std::size_t c = 0; c < row.size(); ++c) {
+    const std::string &key = study.columns[c], bare = key.substr(key.find('.') + 1);
+    if (row[c] != (key[0] == 'r' ? recipe : settings).text(bare))
+      out.push_back(short_name(key, study.columns) + " " + row[c]);
+  }
+  return out.empty() ? "as recipe and case" : fmt::format("{}", fmt::join(out, ", "));
+}
+
+} // namespace
+
 void add_runs(Study &out, const std::vector<std::vector<std::string>> &rows, Mistakes &mistakes) {
   Recipe recipe = read_recipe(out.recipe_file);
   make_paths_absolute(recipe.settings, out.recipe_file);
@@ -257,6 +285,8 @@ void add_runs(Study &out, const std::vector<std::vector<std::string>> &rows, Mis
     Mistakes of_run(fmt::format("run {}", out.runs.size() + 1));
     out.runs.push_back(make_run(out, recipe, settings, row, of_run));
     out.runs.back().number = static_cast<int>(out.runs.size());
+    if (of_run.empty())
+      out.runs.back().said = differences(out, row, recipe.settings, settings);
     if (!of_run.empty() && ++wrong <= kMostRunsListed)
       mistakes.add(0, of_run.text());
   }

@@ -27,6 +27,7 @@ namespace calendem {
 struct StudyRun {
   int number = 0;                  ///< from 1, in the order of the file
   std::vector<std::string> values; ///< of the study's columns
+  std::string said; ///< those that differ from recipe and case: "seed 3, am.friction 0.2"
   Recipe recipe;
   Settings settings; ///< of the case; its electrode is not yet known
 };

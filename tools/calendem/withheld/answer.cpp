@@ -288,6 +288,30 @@ std::string by_bic(const Problem &problem, const inference::Which &which) {
   return name;
 }
 
+std::string by_implausibility(const Problem &problem, const inference::Which &which) {
+  constexpr double kImplausible = 3.0;
+  std::string name = "none";
+  double least = INFINITY;
+  for (const inference::Judged &j : which.judged) {
+    const bool none = j.hypothesis.kind == inference::Hypothesis::none;
+    if (!none && !j.hypothesis.single())
+      continue;
+    const inference::Likelihood likelihood(problem, j.hypothesis, Matrix());
+    const inference::Prediction at = likelihood.predict(j.evidence.mode);
+    const double implausibility =
+        ((problem.observed - at.mean).array().abs() /
+         inference::covariance_about(problem, at).diagonal().array().sqrt())
+            .maxCoeff();
+    if (none && implausibility < kImplausible)
+      return "none";
+    if (!none && implausibility < least) {
+      least = implausibility;
+      name = j.hypothesis.name;
+    }
+  }
+  return name;
+}
+
 } // namespace
 
 std::map<std::string, std::string> baselines(const Problem &problem,
@@ -296,7 +320,8 @@ std::map<std::string, std::string> baselines(const Problem &problem,
   return {{"always none", "none"},
           {"largest residual", by_largest_residual(problem, d, w)},
           {"cosine match", by_cosine(problem, w)},
-          {"BIC", by_bic(problem, d.which)}};
+          {"BIC", by_bic(problem, d.which)},
+          {"history matching", by_implausibility(problem, d.which)}};
 }
 
 } // namespace calendem

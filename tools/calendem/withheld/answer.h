@@ -36,6 +36,9 @@ void answer_round(const AnswerOptions &options);
 ///   of its signature into the largest block;
 /// - cosine match: if the residual is beyond the 95 % point of chi-squared, the effect whose
 ///   signature has the largest cosine with it;
+/// - history matching: none if its best fit lies within three standard deviations of every feature,
+///   else the effect whose largest such distance is least (Vernon, Goldstein, Bower, Bayesian Anal.
+///   5 (2010) 619);
 /// - BIC: the least -2 ln L + k ln n (Schwarz, Ann. Stat. 6 (1978) 461) of none and each effect,
 ///   with L at the mode of likelihood times prior.
 /// Residuals are those of the recalibrated base model, signatures those of amplitudes one standard

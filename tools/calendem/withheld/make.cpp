@@ -67,12 +67,11 @@ std::vector<std::vector<PressedSamples>> shown_runs(const std::vector<std::strin
 }
 
 /// In an order that reveals nothing (Fisher and Yates).
-std::vector<Case> shuffled_cases(const std::vector<Truth> &truths,
-                                 const std::vector<std::vector<PressedSamples>> &shown,
+std::vector<Case> shuffled_cases(const std::vector<PressedTruth> &truths,
                                  const std::string &secret) {
   std::vector<Case> cases;
   for (std::size_t t = 0; t < truths.size(); ++t)
-    for (int d = 0; d < truths[t].draws && !shown[t].empty(); ++d)
+    for (int d = 0; d < truths[t].truth.draws && !truths[t].shown.empty(); ++d)
       cases.push_back({int(t), d});
   Random random(derived_seed(secret, "order"), 0);
   for (std::size_t k = cases.size(); k > 1; --k)
@@ -82,22 +81,28 @@ std::vector<Case> shuffled_cases(const std::vector<Truth> &truths,
 
 } // namespace
 
-void seal_round(const std::string &folder, const Round &round, const std::vector<Truth> &truths,
-                const std::vector<std::vector<PressedSamples>> &shown, const std::string &secret) {
-  const std::vector<Case> cases = shuffled_cases(truths, shown, secret);
+void seal_round(const std::string &folder, const Round &round,
+                const std::vector<PressedTruth> &truths, const std::string &secret) {
+  const std::vector<Case> cases = shuffled_cases(truths, secret);
   if (cases.empty())
     throw Failure(kSimulationFailed, "withheld: no truth has all its runs; see sealed/study/runs.");
   nlohmann::json sealed = {{"round", round.name}, {"cases", nlohmann::json::array()}};
   nlohmann::json open = {{"commitment", "SHA-256 of a salt, a line's end and the truth"},
                          {"calendem", version()},
                          {"cases", nlohmann::json::object()}};
+  const std::string without = folder + "/sealed/without_cause/";
   fs::remove_all(folder + "/handed_out");
+  fs::remove_all(without);
   for (std::size_t k = 0; k < cases.size(); ++k) {
-    const Truth &truth = truths[std::size_t(cases[k].truth)];
+    const PressedTruth &pressed = truths[std::size_t(cases[k].truth)];
     const std::string id = fmt::format("{:03}", k + 1), here = folder + "/handed_out/" + id;
-    hand_out(here, id, round, truth, shown[std::size_t(cases[k].truth)],
-             derived_seed(secret, "noise of " + id));
-    nlohmann::json t = to_json(truth, round.bank);
+    const std::uint64_t noise = derived_seed(secret, "noise of " + id);
+    hand_out(here, id, round, pressed.truth, pressed.shown, noise);
+    nlohmann::json t = to_json(pressed.truth, round.bank);
+    if (!pressed.without_cause.empty()) {
+      hand_out(without + id, id, round, without_cause(pressed.truth), pressed.without_cause, noise);
+      t["without_cause_sha256"] = sha256_of_files(without + id);
+    }
     t["id"] = id;
     t["point"] = cases[k].truth;
     t["noise_draw"] = cases[k].draw;
@@ -111,7 +116,8 @@ void seal_round(const std::string &folder, const Round &round, const std::vector
   fmt::print("withheld: {0} cases of {1} truths, {2}/handed_out\nNext: copy handed_out away from "
              "sealed, then calendem withheld answer COPY -o ANSWERS\n",
              cases.size(),
-             std::count_if(shown.begin(), shown.end(), [](const auto &s) { return !s.empty(); }),
+             std::count_if(truths.begin(), truths.end(),
+                           [](const PressedTruth &t) { return !t.shown.empty(); }),
              folder);
 }
 
@@ -129,7 +135,7 @@ void make_round(const MakeOptions &given) {
   fs::permissions(o.folder + "/sealed", fs::perms::owner_all);
   const std::string secret = secret_of(o);
   const std::vector<Truth> truths = draw_truths(round, secret);
-  const Study study = truth_study(round, truths);
+  const Study study = truth_study(round, with_pairs(round, truths));
   StudyOptions options;
   options.folder = o.folder + "/sealed/study";
   options.liggghts = o.liggghts;
@@ -137,7 +143,14 @@ void make_round(const MakeOptions &given) {
   run_truths(study, options);
   const auto shown = shown_runs(finished_runs(study, options), std::size_t(round.samples),
                                 round.bank.pressures.size());
-  seal_round(o.folder, round, truths, shown, secret);
+  std::vector<PressedTruth> pressed;
+  auto pair = shown.begin() + std::ptrdiff_t(truths.size());
+  for (std::size_t k = 0; k < truths.size(); ++k) {
+    pressed.push_back({truths[k], shown[k], {}});
+    if (round.paired_runs && has_cause(truths[k]))
+      pressed.back().without_cause = *pair++;
+  }
+  seal_round(o.folder, round, pressed, secret);
 }
 
 namespace {
@@ -159,8 +172,13 @@ public:
   Press(const Round &round, const Truth &truth, std::uint64_t seed)
       : noise_(round.noise), factor_(truth.understated), error_(1.0 + truth.pressure_error),
         random_(seed, kPurpose) {
-    for (const std::string &name : truth.hidden)
-      scale_ *= find_hidden(name)->displacement_factor;
+    for (const std::string &name : truth.hidden) {
+      const HiddenChange &h = *find_hidden(name);
+      scale_ *= h.displacement_factor;
+      offset_ += h.pressure_offset_MPa;
+      release_shift_ += h.release_shift_um;
+      drift_ += h.drift_um;
+    }
   }
 
   double with_noise(double value, double sd) { return value + factor_ * sd * random_.normal(); }
@@ -168,28 +186,29 @@ public:
   std::string curve(const PressedSamples &samples, double target) {
     std::string out = "displacement_um,pressure_MPa,stage\n";
     for (int k = 1; k <= kRows; ++k)
-      add(target * k / kRows, "compression", out, [&](double p) {
+      add(target * k / kRows, "compression", k, out, [&](double p) {
         return mean(samples, [&](const SimulatedRun &s) {
           return displacement_at(s.pressure, s.displacement, p);
         });
       });
     for (int k = kRows - 1; k > 0; --k)
-      add(target * k / kRows, "relaxation", out, [&](double p) {
-        return mean(samples, [&](const SimulatedRun &s) {
-          return displacement_at(s.release_pressure, s.release_displacement, p);
-        });
+      add(target * k / kRows, "relaxation", 2 * kRows - k, out, [&](double p) {
+        return release_shift_ + mean(samples, [&](const SimulatedRun &s) {
+                 return displacement_at(s.release_pressure, s.release_displacement, p);
+               });
       });
     return out;
   }
 
 private:
   const MeasurementNoise &noise_;
-  double factor_, error_, scale_ = 1.0;
+  double factor_, error_, scale_ = 1.0, offset_ = 0.0, release_shift_ = 0.0, drift_ = 0.0;
   Random random_;
 
   template <class Displacement>
-  void add(double shown_pressure, const char *stage, std::string &out, const Displacement &at) {
-    const double d = at(shown_pressure * error_);
+  void add(double shown_pressure, const char *stage, int row, std::string &out,
+           const Displacement &at) {
+    const double d = at(shown_pressure * error_ - offset_) + drift_ * row / (2 * kRows);
     const double measured = with_noise(scale_ * d, noise_.displacement_um);
     if (std::isfinite(d))
       out += fmt::format("{:.4f},{:.6g},{}\n", measured, shown_pressure, stage);
@@ -204,9 +223,8 @@ std::string condition(const Round &round, const PressedSamples &samples, double 
   };
   const double cracked =
       press.with_noise(shown(&SimulatedRun::cracked_fraction), n.cracked_fraction);
-  std::string out = fmt::format("\n[[condition]]\nid = \"p{:g}\"\nspecimen = \"one\"\ncontrol = "
-                                "\"pressure\"\n",
-                                target);
+  std::string out = fmt::format("\n[[condition]]\nid = \"p{:g}\"\n{}control = \"pressure\"\n",
+                                target, round.disc_for_each_pressure ? "" : "specimen = \"one\"\n");
   out += fmt::format("max_pressure_MPa = {{ value = {:g}, sd_relative = {:g} }}\n", target,
                      0.01 * n.pressure_percent);
   const auto add = [&](const char *key, double value, double sd) {

@@ -24,10 +24,17 @@ void make_round(const MakeOptions &options);
 /// What the press shows at one pressure: a run for each sample. What is handed out is their mean.
 using PressedSamples = std::vector<SimulatedRun>;
 
-/// The part without runs: hands out and seals. `shown`: what the press shows of each truth, empty
-/// where a run is not usable.
-void seal_round(const std::string &folder, const Round &round, const std::vector<Truth> &truths,
-                const std::vector<std::vector<PressedSamples>> &shown, const std::string &secret);
+/// A truth, and what the press shows of it at each pressure; empty where a run is not usable.
+struct PressedTruth {
+  Truth truth;
+  std::vector<PressedSamples> shown;
+  std::vector<PressedSamples> without_cause; ///< of the same samples; empty: not run
+};
+
+/// The part without runs: hands out and seals. Beside the truth it seals what would have been handed
+/// out without its cause, with the same errors of measurement: sealed/without_cause/NNN.
+void seal_round(const std::string &folder, const Round &round,
+                const std::vector<PressedTruth> &truths, const std::string &secret);
 
 /// Writes experiment.toml, a curve for each pressure and the recipe into `folder`, which is made.
 /// `shown`: of one truth, by the bank's pressures. `seed`: of the noise. `id`: the case's name.

@@ -10,6 +10,7 @@ namespace calendem {
 namespace {
 
 const char *const kPlus = " + ";
+const char *const kOne = "one for all pressures", *const kEach = "one for each pressure";
 
 class Reader : TableReader {
 public:
@@ -17,7 +18,7 @@ public:
 
   void read_head(const toml::table &t, Round &out) {
     report_unknown(t, {"name", "bank", "null_packings", "null_draws", "amplitudes", "samples",
-                       "open", "pairs", "faults", "other_numerics"});
+                       "specimens", "paired_runs", "open", "pairs", "faults", "other_numerics"});
     out.name = text(t, {"name", "", "withheld", 0, 0, "", "for reports", "", true});
     if (const std::string bank = path(t, {"bank", "", "", 0, 0, "", "bank (TOML)", "", true});
         !bank.empty())
@@ -29,6 +30,10 @@ public:
     out.null_draws = whole("null_draws", "100", 100000);
     out.amplitudes = whole("amplitudes", "3", 100);
     out.samples = int(number(t, {"samples", "", "1", 1, 1000, "", "number of", "", false, true}));
+    out.disc_for_each_pressure = text(t, {"specimens", "", kOne, 0, 0, "", "that are pressed",
+                                          std::string(kOne) + "|" + kEach}) == kEach;
+    out.paired_runs = text(t, {"paired_runs", "", "no", 0, 0, "",
+                               "truths run without their effects too", "no|yes"}) == "yes";
     if (out.null_draws < out.null_packings)
       mistakes_.add(line_of(t), fmt::format("null_draws is {}, null_packings {}: every packing "
                                             "needs a draw.",
@@ -120,59 +125,87 @@ bool names_effect(const std::string &claim) {
   return claim != "none" && claim != "unknown" && claim != "noise" && claim != "undecided";
 }
 
+namespace {
+
+using Keys = std::vector<std::string>;
+
+HiddenChange scaled(const char *name, const char *what, const Keys &keys, double factor) {
+  HiddenChange h{name, what};
+  for (const std::string &key : keys)
+    h.keys.push_back({key, "", factor});
+  return h;
+}
+
+HiddenChange set(const char *name, const char *what, std::vector<ChangedKey> keys) {
+  HiddenChange h{name, what};
+  h.keys = std::move(keys);
+  return h;
+}
+
+HiddenChange shown(const char *name, const char *what, double HiddenChange::*by, double size) {
+  HiddenChange h{name, what};
+  h.*by = size;
+  return h;
+}
+
+HiddenChange numerics(HiddenChange h) {
+  h.numerics = true;
+  return h;
+}
+
+} // namespace
+
 // Sizes are chosen to be seen, none to be hard; the sources are those of the keys they change.
 const std::vector<HiddenChange> &hidden_changes() {
   static const std::vector<HiddenChange> table = {
-      {"unsigned_criterion",
-       "bonds under compression break as under tension",
-       false,
-       {{"case.bond.criterion", "unsigned"}}},
-      {"weak_in_shear",
-       "bonds are weaker in shear than in tension",
-       false,
-       {{"case.bond.shear_strength_MPa", "", 0.4}}},
-      {"cohesion",
-       "a tenth of the cohesion energy density of both phases",
-       false,
-       {{"case.material.am.ced_J_m3", "", 0.1}, {"case.material.cbd.ced_J_m3", "", 0.1}}},
-      {"thin_bonds",
-       "bonds of 0.7 of the primaries' radius",
-       false,
-       {{"case.bond.radius_ratio", "", 0.7}}},
-      {"narrow_sizes",
-       "secondary particles of nearly one size",
-       false,
-       {{"recipe.particles.sigma_ln", "", 0.4}}},
-      {"denser_coating",
-       "an initial porosity lower than the recipe says",
-       false,
-       {{"recipe.coating.porosity_total_percent", "", 0.9}}},
-      {"more_binder",
-       "three times the carbon and binder that the recipe says",
-       false,
-       {{"recipe.composition.am_weight_percent", "88"},
-        {"recipe.composition.carbon_weight_percent", "6"},
-        {"recipe.composition.binder_weight_percent", "6"}}},
-      {"displacement_scale", "displacements shown are 8 % too large", false, {}, 1.08},
-      {"finer_primaries",
-       "bodies of smaller primaries on a closer lattice",
-       true,
-       {{"recipe.particles.primary_diameter_um", "", 0.88},
-        {"recipe.particles.lattice_um", "", 0.88}}},
-      {"half_time_step",
-       "half the time step",
-       true,
-       {{"case.numerics.timestep_fraction", "", 0.5}}},
-      {"larger_cell",
-       "a cell of 1.3 times the sides",
-       true,
-       {{"recipe.cell.x_um", "", 1.3}, {"recipe.cell.y_um", "", 1.3}}},
-      {"half_speed",
-       "the platen at half the speed",
-       true,
-       {{"case.platen.speed_m_s", "", 0.5},
-        {"case.platen.touch_speed_m_s", "", 0.5},
-        {"case.platen.release_speed_m_s", "", 0.5}}},
+      set("unsigned_criterion", "bonds under compression break as under tension",
+          {{"case.bond.criterion", "unsigned"}}),
+      scaled("weak_in_shear", "bonds are weaker in shear than in tension",
+             {"case.bond.shear_strength_MPa"}, 0.4),
+      scaled("cohesion", "a tenth of the cohesion energy density of both phases",
+             {"case.material.am.ced_J_m3", "case.material.cbd.ced_J_m3"}, 0.1),
+      scaled("thin_bonds", "bonds of 0.7 of the primaries' radius", {"case.bond.radius_ratio"},
+             0.7),
+      scaled("narrow_sizes", "secondary particles of nearly one size",
+             {"recipe.particles.sigma_ln"}, 0.4),
+      scaled("coarse_sizes", "secondary particles larger than the recipe says",
+             {"recipe.particles.median_um"}, 1.3),
+      scaled("irregular_bodies", "bodies of a rougher outline", {"recipe.particles.irregularity"},
+             3.0),
+      scaled("denser_coating", "an initial porosity lower than the recipe says",
+             {"recipe.coating.porosity_total_percent"}, 0.9),
+      set("more_binder", "three times the carbon and binder that the recipe says",
+          {{"recipe.composition.am_weight_percent", "88"},
+           {"recipe.composition.carbon_weight_percent", "6"},
+           {"recipe.composition.binder_weight_percent", "6"}}),
+      set("binder_gradient", "carbon-binder domain at the surface",
+          {{"recipe.effects.cbd_gradient.slope", "0.8"}}),
+      scaled("dense_binder", "fewer nanopores than the recipe says",
+             {"recipe.cbd.nanoporosity_percent"}, 0.6),
+      scaled("large_binder", "larger spheres of carbon-binder domain", {"recipe.cbd.diameter_um"},
+             1.4),
+      scaled("compressible_binder", "carbon-binder domain that gives way sideways less",
+             {"case.material.cbd.poisson"}, 0.4),
+      scaled("soft_foil", "a collector as soft as a polymer",
+             {"case.material.collector.youngs_modulus_GPa"}, 0.05),
+      shown("displacement_scale", "displacements shown are 8 % too large",
+            &HiddenChange::displacement_factor, 1.08),
+      shown("pressure_offset", "the press shows 4 MPa too much", &HiddenChange::pressure_offset_MPa,
+            4.0),
+      shown("frame_hysteresis", "the frame springs back late", &HiddenChange::release_shift_um,
+            0.3),
+      shown("drift", "the displacement drifts while it is recorded", &HiddenChange::drift_um, 0.4),
+      numerics(scaled("finer_primaries", "bodies of smaller primaries on a closer lattice",
+                      {"recipe.particles.primary_diameter_um", "recipe.particles.lattice_um"},
+                      0.88)),
+      numerics(
+          scaled("half_time_step", "half the time step", {"case.numerics.timestep_fraction"}, 0.5)),
+      numerics(scaled("larger_cell", "a cell of 1.3 times the sides",
+                      {"recipe.cell.x_um", "recipe.cell.y_um"}, 1.3)),
+      numerics(scaled(
+          "half_speed", "the platen at half the speed",
+          {"case.platen.speed_m_s", "case.platen.touch_speed_m_s", "case.platen.release_speed_m_s"},
+          0.5)),
   };
   return table;
 }

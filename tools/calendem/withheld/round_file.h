@@ -41,6 +41,8 @@ struct Round {
   std::string file, name;
   BankSpec bank;
   int null_packings = 12, null_draws = 100, amplitudes = 3, samples = 1;
+  bool disc_for_each_pressure = false; ///< as on a press: packings of its own for each pressure
+  bool paired_runs = false; ///< truths are run without their effects too: their gap is known then
   /// Each a list of names: effects of the bank, hidden changes, "noise".
   std::vector<std::vector<std::string>> open, pairs, faults, other_numerics;
   MeasurementNoise noise;
@@ -67,9 +69,12 @@ struct ChangedKey {
 
 struct HiddenChange {
   std::string name, what;
+  std::vector<ChangedKey> keys = {};
   bool numerics = false; ///< the physics is the same: the right answer is not changed by it
-  std::vector<ChangedKey> keys;
   double displacement_factor = 1.0; ///< of what the press shows
+  double pressure_offset_MPa = 0.0; ///< shown above the true pressure
+  double release_shift_um = 0.0;    ///< of displacements shown during the release
+  double drift_um = 0.0;            ///< of displacements, from the first row of a curve to its last
 };
 
 const std::vector<HiddenChange> &hidden_changes();

@@ -6,7 +6,9 @@
 #include "base/provenance.h"
 #include "report/page.h"
 #include "withheld/sealing.h"
+#include "withheld/true_gap.h"
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -38,11 +40,12 @@ double signal_to_noise(const Json &gap, const std::string &effect, double amplit
   return 0.0;
 }
 
-std::vector<bool> covered_parameters(const Json &truth, const Json &gap) {
+std::vector<bool> covered_parameters(const Json &truth, const Json &gap, const char *low,
+                                     const char *high) {
   std::vector<bool> out;
   for (const Json &p : gap.at("parameters")) {
     const double v = truth.at("parameters").at(p.at("parameter").get<std::string>());
-    out.push_back(v >= p.at("low90").get<double>() && v <= p.at("high90").get<double>());
+    out.push_back(v >= p.at(low).get<double>() && v <= p.at(high).get<double>());
   }
   return out;
 }
@@ -78,12 +81,17 @@ ScoredCase case_of(const Json &truth, const Json &gap) {
   c.truth = truth.at("answer");
   const Json &which = gap.at("which");
   c.claim = which.at("claim");
+  c.headline = which.value("answer", "");
+  c.parameters = truth.at("parameters").get<std::map<std::string, double>>();
   c.probability = which.at("probability").get<std::map<std::string, double>>();
   c.set95 = which.at("set95").get<std::vector<std::string>>();
   c.next_named =
       which.contains("next_measurement") && which["next_measurement"].value("what", "") != "";
   for (const Json &row : gap.at("where"))
-    c.located = c.located || row.at("significant").get<bool>();
+    if (row.at("significant").get<bool>())
+      c.places.insert(fmt::format("{}|{}|{}", row.at("condition").get<std::string>(),
+                                  row.at("stage").get<std::string>(),
+                                  row.at("observable").get<std::string>()));
   if (const Json &effects = truth.at("effects"); effects.size() == 1) {
     const std::string name = effects.begin().key();
     const double value = effects.begin().value();
@@ -98,7 +106,8 @@ void add_cases(const Json &truth, const Json &gap, const Json &without, const Js
                const Json &shrink, std::vector<ScoredCase> &out) {
   ScoredCase c = case_of(truth, gap);
   add_shrinkage(shrink, c);
-  c.covered = covered_parameters(truth, gap);
+  c.covered = covered_parameters(truth, gap, "low90", "high90");
+  c.covered_by_average = covered_parameters(truth, gap, "low95", "high95");
   c.covered_amplitude = covered_amplitudes(truth, gap);
   c.baselines = baselines.at("named").get<std::map<std::string, std::string>>();
   out.push_back(c);
@@ -128,6 +137,9 @@ std::vector<ScoredCase> open_round(const std::string &folder, const std::string 
     must_be(commitment(one.at("salt"), truth), committed.value(id, ""), "the truth of case " + id);
     must_be(sha256_of_files(folder + "/handed_out/" + id), truth.at("handed_out_sha256"),
             "what was handed out of case " + id);
+    if (const std::string sealed_too = truth.value("without_cause_sha256", ""); !sealed_too.empty())
+      must_be(sha256_of_files(folder + "/sealed/without_cause/" + id), sealed_too,
+              "what case " + id + " is without its cause");
     Json answer[4] = {{}, {}, {}, Json::object()};
     const char *const files[] = {"gap.json", "gap_without.json", "baselines.json", "shrink.json"};
     for (int k = 0; k < 4; ++k) {
@@ -143,10 +155,36 @@ std::vector<ScoredCase> open_round(const std::string &folder, const std::string 
   return out;
 }
 
-void score_round(const std::string &round, const std::string &answers, const std::string &folder) {
-  const std::vector<ScoredCase> cases = open_round(round, answers);
-  make_output_folder(folder);
-  write_scores(cases, json_of(round + "/sealed/truth.json").value("round", ""), folder);
+void add_true_gaps(const std::string &folder, const std::string &answers, const std::string &bank,
+                   const std::string &table, std::vector<ScoredCase> &cases) {
+  const Json made_with = json_of(answers + "/answers.json").at("provenance");
+  must_be(sha256(bytes_of(bank)), made_with.value("bank_sha256", ""), bank);
+  must_be(sha256(bytes_of(table)), made_with.value("bank_table_sha256", ""), table);
+  const BankTable learnt = read_bank_table(read_bank_spec(bank), table);
+  SharedModels models;
+  std::map<std::string, TrueGap> gaps;
+  for (ScoredCase &c : cases) {
+    const std::string pair = folder + "/sealed/without_cause/" + c.id;
+    if (!std::filesystem::exists(pair))
+      continue;
+    std::vector<double> base;
+    for (const BankParameter &p : learnt.spec.parameters)
+      base.push_back(c.parameters.at(p.name));
+    if (!gaps.count(c.id))
+      gaps[c.id] = true_gap(read_experiment(folder + "/handed_out/" + c.id + "/experiment.toml"),
+                            read_experiment(pair + "/experiment.toml"), base, learnt, models);
+    c.paired = true;
+    c.signal_to_noise = gaps[c.id].signal_to_noise;
+    c.true_places = gaps[c.id].places;
+  }
+}
+
+void score_round(const ScoreOptions &o) {
+  std::vector<ScoredCase> cases = open_round(o.round, o.answers);
+  if (std::filesystem::exists(o.round + "/sealed/without_cause"))
+    add_true_gaps(o.round, o.answers, o.bank, o.table, cases);
+  make_output_folder(o.folder);
+  write_scores(cases, json_of(o.round + "/sealed/truth.json").value("round", ""), o.folder);
 }
 
 extern const char *const kScoresHtml;
@@ -157,7 +195,9 @@ using OrderedJson = nlohmann::ordered_json;
 std::string verdict_of(const Metric &m) {
   switch (m.verdict) {
   case Metric::met:
-    return m.certain ? "met" : "met, but its interval reaches beyond";
+    return "met";
+  case Metric::not_shown:
+    return "the value meets it, its 90 % bound does not";
   case Metric::missed:
     return "missed";
   case Metric::not_measured:
@@ -199,7 +239,11 @@ OrderedJson scores_of(const std::vector<ScoredCase> &cases, const std::string &r
          {"most_probable", c.ranked(0)},
          {"probability_of_truth",
           number_or_null(c.probability.count(c.truth) ? c.probability.at(c.truth) : 0.0)},
+         {"headline", c.headline},
          {"signal_to_noise", c.signal_to_noise},
+         {"paired", c.paired},
+         {"places", c.places},
+         {"true_places", c.true_places},
          {"shrinkage_predicted", number_or_null(c.predicted_shrinkage)},
          {"shrinkage_rerun", number_or_null(c.shrinkage)},
          {"shrinkage_placebo", number_or_null(c.placebo_shrinkage)},

@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,16 +17,20 @@ namespace calendem {
 
 /// One answered case beside its truth.
 struct ScoredCase {
-  std::string id, block; ///< of the truth; left_out: the answer without the case's own effect
-  int cluster = 0;       ///< number of the truth: cases of one packing share it
-  std::string truth;     ///< what should be said
-  std::string claim;
+  std::string id, block;       ///< of the truth; left_out: the answer without the case's own effect
+  int cluster = 0;             ///< number of the truth: cases of one packing share it
+  std::string truth;           ///< what should be said
+  std::string claim, headline; ///< headline: gap.json's "answer"
   std::map<std::string, double> probability; ///< of hypotheses
   std::vector<std::string> set95;
-  bool located = false;         ///< some block lies beyond the threshold
+  std::set<std::string> places,
+      true_places;              ///< "condition|stage|observable": reported, by paired runs
+  bool paired = false;          ///< the keeper ran the same samples without the cause
   bool next_named = false;      ///< a measurement that would decide is named
-  double signal_to_noise = 0.0; ///< of a single effect; 0: not known
-  std::vector<bool> covered;    ///< base parameters inside their 90 % intervals
+  double signal_to_noise = 0.0; ///< by paired runs, else of a single effect; 0: not known
+  std::map<std::string, double> parameters; ///< of the base model, true
+  std::vector<bool> covered;                ///< base parameters inside their 90 % intervals
+  std::vector<bool> covered_by_average;     ///< ... 95 % intervals over all hypotheses
   std::vector<bool> covered_amplitude;
   /// Share by which the claimed effect shrinks the held-out gap: by the emulators, run again with
   /// its 90 % interval, and the placebo's. NaN: not run again, or there was no gap.
@@ -45,10 +50,11 @@ using Cases = std::vector<const ScoredCase *>;
 struct Metric {
   std::string name;
   double value = 0.0, low = 0.0, high = 0.0; ///< NaN: no case for it
+  double least = 0.0, most = 0.0;            ///< one-sided 90 % bounds
   int cases = 0, clusters = 0;
   std::string gate; ///< ">= 0.85"; empty: reported only
-  enum Verdict { none, met, missed, not_measured } verdict = none;
-  bool certain = false; ///< the whole interval meets the gate
+  /// Met: by the one-sided 90 % bound too; not_shown: by the value alone.
+  enum Verdict { none, met, not_shown, missed, not_measured } verdict = none;
 };
 
 /// Every gate and what is reported beside it, then the baselines.
@@ -74,12 +80,23 @@ Cases chosen_of(const std::vector<ScoredCase> &cases, const CaseTest &chosen);
 double log_score_of(const Cases &cases);
 /// Against always giving the round's own frequencies: the best that knows nothing of the data.
 double brier_skill_of(const Cases &cases);
+/// Expected calibration error: mean over cases of |how often the most probable hypothesis is right -
+/// its mean probability| in tenths of that probability.
+double calibration_error_of(const Cases &cases);
+/// Of the places reported against the true ones, all cases together: 2 common / (reported + true).
+double localisation_f1_of(const Cases &cases);
 /// Of the probability given to "unknown", where that is the truth against where it is not.
 double auroc_of_unknown(const Cases &cases);
 
-/// Signal-to-noise from which the gates of `where` and `which` count, and that of the detection
-/// limit: log-odds of 3 are half of a squared distance of 6.
-constexpr double kStrongEnough = 6.0, kDetectable = 2.449489742783178;
+/// Signal-to-noise from which the gates of `where` and `which` count, that from which an effect must
+/// be in the stated set and a cause outside the table must not be "nothing to see", and that of the
+/// detection limit: log-odds of 3 are half of a squared distance of 6.
+constexpr double kStrongEnough = 6.0, kVisible = 3.0, kDetectable = 2.449489742783178;
+
+/// Signal-to-noise and places of the cases whose samples the keeper ran without the cause too.
+/// Throws Failure(4) if bank or table are not those of the answers.
+void add_true_gaps(const std::string &folder, const std::string &answers, const std::string &bank,
+                   const std::string &table, std::vector<ScoredCase> &cases);
 
 /// Truths and answers of a round. Throws Failure: 4 if a truth, what was handed out or an answer
 /// is not what its hash says, 2 if files are missing.
@@ -96,7 +113,11 @@ void add_cases(const nlohmann::json &truth, const nlohmann::json &gap,
 void write_scores(const std::vector<ScoredCase> &cases, const std::string &round,
                   const std::string &folder);
 
-void score_round(const std::string &round, const std::string &answers, const std::string &folder);
+struct ScoreOptions {
+  std::string round, answers, folder;
+  std::string bank, table; ///< with which it was answered
+};
+void score_round(const ScoreOptions &options);
 
 } // namespace calendem
 

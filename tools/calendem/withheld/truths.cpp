@@ -22,7 +22,9 @@ public:
               double high = 1.0) {
     Truth t;
     t.block = block;
-    for (int k = 0; k < round_.samples; ++k) // far from the bank's own seeds, which count from 1
+    const std::size_t packings = std::size_t(round_.samples) *
+                                 (round_.disc_for_each_pressure ? round_.bank.pressures.size() : 1);
+    for (std::size_t k = 0; k < packings; ++k) // far from the bank's own seeds, which count from 1
       t.packings.push_back(static_cast<unsigned long>(1e6 + 4e9 * 0.99 * random_.uniform()));
     for (const BankParameter &p : round_.bank.parameters)
       t.base.push_back(prior_value(p.low, p.high, p.spread, random_.uniform()));
@@ -90,6 +92,28 @@ std::map<std::string, std::string> usual_values(const Round &round,
 
 } // namespace
 
+bool has_cause(const Truth &t) {
+  return !t.effects.empty() || std::any_of(t.hidden.begin(), t.hidden.end(), [](const auto &name) {
+    return !find_hidden(name)->numerics;
+  });
+}
+
+Truth without_cause(Truth t) {
+  t.effects.clear();
+  t.hidden.erase(std::remove_if(t.hidden.begin(), t.hidden.end(),
+                                [](const auto &name) { return !find_hidden(name)->numerics; }),
+                 t.hidden.end());
+  return t;
+}
+
+std::vector<Truth> with_pairs(const Round &round, std::vector<Truth> truths) {
+  const std::size_t drawn = truths.size();
+  for (std::size_t k = 0; k < drawn && round.paired_runs; ++k)
+    if (has_cause(truths[k]))
+      truths.push_back(without_cause(truths[k]));
+  return truths;
+}
+
 std::string right_answer(const Truth &t, const BankSpec &bank) {
   for (const std::string &name : t.hidden)
     if (!find_hidden(name)->numerics)
@@ -143,12 +167,17 @@ Study truth_study(const Round &round, const std::vector<Truth> &truths) {
     std::vector<std::string> changed;
     for (const auto &[key, value] : changed_keys(round, t, usual))
       changed.push_back(value);
-    for (const unsigned long packing : t.packings)
-      for (const double pressure : round.bank.pressures) {
-        rows.push_back(changed);
-        rows.back().push_back(fmt::format("{}", packing));
-        rows.back().push_back(fmt::format("{:.6g}", pressure * (1.0 + t.pressure_error)));
-      }
+    const std::vector<double> &pressures = round.bank.pressures;
+    double offset = 0.0; // that the press shows too much
+    for (const std::string &name : t.hidden)
+      offset += find_hidden(name)->pressure_offset_MPa;
+    for (std::size_t k = 0; k < std::size_t(round.samples) * pressures.size(); ++k) {
+      rows.push_back(changed);
+      rows.back().push_back(
+          fmt::format("{}", t.packings[round.disc_for_each_pressure ? k : k / pressures.size()]));
+      rows.back().push_back(fmt::format(
+          "{:.6g}", pressures[k % pressures.size()] * (1.0 + t.pressure_error) - offset));
+    }
   }
   Mistakes mistakes(round.file, 20);
   add_runs(study, rows, mistakes);

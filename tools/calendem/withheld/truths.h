@@ -14,12 +14,21 @@ struct Truth {
   std::string block;                                   ///< null, single, open, pair, fault, other
   std::vector<std::pair<std::string, double>> effects; ///< value of the effect's key
   std::vector<std::string> hidden;
-  double understated = 1.0;            ///< true over stated standard deviations
-  std::vector<unsigned long> packings; ///< seeds of the recipe, one for each sample
-  std::vector<double> base;            ///< of the bank's parameters
-  double pressure_error = 0.0;         ///< true over stated pressure, less 1
-  int draws = 1;                       ///< of noise
+  double understated = 1.0; ///< true over stated standard deviations
+  /// Seeds of the recipe: one for each sample, or, where every pressure has discs of its own, for
+  /// each sample and pressure, the pressures of a sample together.
+  std::vector<unsigned long> packings;
+  std::vector<double> base;    ///< of the bank's parameters
+  double pressure_error = 0.0; ///< true over stated pressure, less 1
+  int draws = 1;               ///< of noise
 };
+
+/// The same samples under the same press without effects and hidden changes of the physics.
+Truth without_cause(Truth truth);
+bool has_cause(const Truth &truth);
+/// All that is run: the truths and, in a round of paired runs, behind them those with a cause again
+/// without it, in their order.
+std::vector<Truth> with_pairs(const Round &round, std::vector<Truth> truths);
 
 /// What a diagnosis should say: none, effects joined by " + " in the bank's order, noise, unknown.
 std::string right_answer(const Truth &truth, const BankSpec &bank);
