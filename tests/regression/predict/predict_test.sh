@@ -61,6 +61,33 @@ refuses "the film is not of the bank's kind" calibrate "$cases/real/blb_nmc111_9
 sed 's/"hash": "[0-9a-f]*"/"hash": "0"/' model/model.json >changed.json
 refuses "has changed since the model was calibrated" design changed.json film.toml --porosity 30
 
+# A film of another kind is predicted by runs of its own, which are there the second time.
+cat >other.toml <<'END'
+name = "other"
+[coating]
+loading_mg_cm2 = 4
+porosity_total_percent = 50
+[particles]
+sigma_ln = 0.3
+[cell]
+x_um = 6
+y_um = 6
+END
+refuses "or predict it by runs of its own (--runs)" predict model/model.json other.toml
+refuses "one by one" predict model/model.json other.toml --runs 4
+refuses "without --vary" predict model/model.json other.toml --runs 4 --pressure 10,30 --press-percent 5
+by_runs() { calendem predict model/model.json other.toml --pressure 10,30 --runs 4 --jobs 2 -o own; }
+by_runs
+cp own/prediction.csv first.csv
+by_runs >again.log
+grep -q "8 runs, 8 of them there" again.log || fail "runs were made twice"
+cmp first.csv own/prediction.csv || fail "the same runs gave another prediction"
+grep -q '"runs": 4' own/prediction.json || fail "it is not said that runs predict"
+grep -q "by 4 runs of its own" own/prediction.html || fail "the page does not say that runs predict"
+awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
+  { p = $at["porosity_after_percent_median"]; if (!(p > 20 && p < 50) || (NR > 2 && p >= last)) exit 1; last = p }' \
+  first.csv || fail "own/prediction.csv: more pressure leaves less, below 50 %"
+
 # The blind predictions are what their page's commands make: four digits, the last of which another processor may round.
 calendem predict model/model.json "$cases/coatings/film.toml" --vary carbon_and_binder_each_percent=3,2.5,2 \
   --vary porosity_before_percent=40,42,44,46,48,50 --pressure 20,50,80,100,150,200,300 --press-percent 10 -o blind >/dev/null

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "predict/prediction.h"
+#include "predict/by_runs.h"
 #include "support/made_coatings.h"
+#include "support/test_folder.h"
+#include <fstream>
 #include <gtest/gtest.h>
 
 namespace {
@@ -44,6 +46,62 @@ TEST(Predicted, APressOfUncertainPressureWidens) {
     return b.high90 - b.low90;
   };
   EXPECT_GT(width(0.2), 1.5 * width(0.0));
+}
+
+// What an emulator says and what a run gives are corrected alike.
+TEST(GivenData, IsTheEmulatorAndWhatTheModelMisses) {
+  Calibration c = exact();
+  const Film film = made_film("measured", 46.0, 2.0);
+  c.films = {film};
+  const Material &material = c.draws.front().material;
+  const FilmBank &bank = made_film_bank();
+  const double expected =
+      bank.at(bank.at_pressures(FilmNumber::PorosityAfter, film, material), 80.0).mean;
+  c.data = {{0, "p080", FilmNumber::PorosityAfter, 80.0, 0.02, expected + 0.015, 0.003}};
+  c.draws.front().missed = {0.02, 0.5};
+  const Wanted wanted = {made_film("other", 44.0, 2.5), FilmNumber::PorosityAfter, {80.0, 300.0}};
+  const auto all = given_data(made_film_bank(), c, c.draws.front(), wanted);
+  const auto missed = missed_given_data(made_film_bank(), c, c.draws.front(), wanted);
+  const auto curve =
+      made_film_bank().at_pressures(wanted.number, wanted.film, c.draws.front().material);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Guess g = made_film_bank().at(curve, wanted.pressures[k]);
+    EXPECT_NEAR(all[k].mean, g.mean + missed[k].mean, 1e-12);
+    EXPECT_NEAR(all[k].variance, g.variance + missed[k].variance, 1e-12);
+  }
+  // half of what the model misses is shared by all films, and most of it is known
+  EXPECT_GT(missed[0].mean, 0.25 * 0.015);
+  EXPECT_LT(missed[0].mean, 0.5 * 0.015);
+  EXPECT_LT(missed[1].mean, missed[0].mean); // a factor 3.75 of pressure away
+}
+
+TEST(OwnRuns, EveryDrawHasItsMaterialItsPackingAndThePressures) {
+  Calibration c = exact();
+  c.draws.clear();
+  for (int k = 0; k < 100; ++k)
+    c.draws.push_back({{{150.0 + k, 2.0, 400.0}, k < 50 ? -1 : 0, 0.4}, {0.001, 0.5}});
+  const std::vector<Draw> draws = some_draws(c, 4);
+  ASSERT_EQ(draws.size(), 4u);
+  EXPECT_EQ(draws[0].material.parameters[0], 162.0);
+  EXPECT_EQ(draws[3].material.parameters[0], 237.0);
+  const auto file = calendem_test::test_folder() / "other.toml";
+  std::ofstream(file)
+      << "name = \"other\"\n[particles]\nsigma_ln = 0.3\n[cell]\nx_um = 7\ny_um = 7\n";
+  const Recipe recipe = read_recipe(file.string());
+  const FilmBank &bank = made_film_bank();
+  EXPECT_THROW(bank.film_of(recipe), Failure);
+  EXPECT_EQ(bank.described(recipe).recipe.front(), 47.97);
+  const Study study = own_runs(bank, draws, recipe, {10.0, 400.0});
+  ASSERT_EQ(study.runs.size(), 8u);
+  const StudyRun &last = study.runs.back();
+  EXPECT_EQ(last.recipe.seed, 4u);
+  EXPECT_EQ(last.recipe.cell_x, 7.0);
+  EXPECT_EQ(last.settings.number("platen.max_pressure_MPa"), 400.0);
+  EXPECT_EQ(last.settings.number("material.am.youngs_modulus_GPa"), 237.0);
+  EXPECT_EQ(last.settings.number("bond.shear_strength_MPa"), 400.0);
+  EXPECT_NEAR(last.settings.number("effects.nmc_plasticity.yield_pressure_GPa"),
+              key_value(bank, draws[3].material), 1e-3);
+  EXPECT_EQ(study.runs.front().settings.number("effects.nmc_plasticity.yield_pressure_GPa"), 0.0);
 }
 
 // The pressure that gives the middle of the target is the best, and a bound on cracks takes the high ones away.

@@ -2,6 +2,7 @@
 // From why to what to do: calibrate, predict, design.
 #include "base/provenance.h"
 #include "commands/commands.h"
+#include "predict/by_runs.h"
 #include "predict/pages.h"
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -64,10 +65,12 @@ struct PredictOptions {
   std::string pressures;
   double press_percent = 0.0;
   double porosity = 0.0, within = 1.0, cracked_below = 100.0;
+  int runs = 0; ///< of each film's own at each pressure; 0: the bank's emulators
+  StudyOptions study;
 };
 
 /// "20,50,80" or "20:300", which is 25 pressures at equal ratios.
-std::vector<double> pressures_of(const std::string &text, const FilmBank &bank) {
+std::vector<double> pressures_of(const std::string &text) {
   std::vector<double> out;
   const bool range = text.find(':') != std::string::npos;
   std::string part;
@@ -93,13 +96,17 @@ std::vector<double> pressures_of(const std::string &text, const FilmBank &bank) 
     throw Failure(kBadInput, fmt::format("--pressure is '{}'; a range is LOW:HIGH in MPa.", text));
   if (range)
     out = spread_pressures(out[0], out[1], 25);
-  for (const double p : out)
+  return out;
+}
+
+void check_covered(const std::vector<double> &pressures, const FilmBank &bank) {
+  for (const double p : pressures)
     if (!bank.covers(p))
       throw Failure(kBadInput,
-                    fmt::format("--pressure asks for {:g} MPa; the bank has {:g} to {:g}. Nothing "
-                                "is known outside; make a bank with more pressures_MPa.",
+                    fmt::format("--pressure asks for {:g} MPa; the bank has {:g} to {:g}. Predict "
+                                "it by runs of its own (--runs), or make a bank with more "
+                                "pressures_MPa.",
                                 p, bank.spec().pressures.front(), bank.spec().pressures.back()));
-  return out;
 }
 
 /// Every combination of "NAME=v,v,v" for the films.
@@ -145,7 +152,8 @@ Asked asked(const PredictOptions &o) {
   for (const std::string &file : o.recipes)
     out.films.push_back(out.model.bank.film_of(read_recipe(file)));
   out.films = varied(out.films, o.vary, out.model.bank);
-  out.pressures = pressures_of(o.pressures, out.model.bank);
+  out.pressures = pressures_of(o.pressures);
+  check_covered(out.pressures, out.model.bank);
   return out;
 }
 
@@ -159,12 +167,36 @@ nlohmann::ordered_json provenance(const PredictOptions &o) {
   return out;
 }
 
-void run_predict(const PredictOptions &o) {
-  const Asked a = asked(o);
+std::vector<PredictedFilm> by_emulators(const Asked &a, const PredictOptions &o) {
   std::vector<PredictedFilm> films;
   for (const Film &f : a.films)
     films.push_back(
         predicted(a.model.bank, a.model.calibration, f, a.pressures, o.press_percent / kPercent));
+  return films;
+}
+
+std::vector<PredictedFilm> by_runs(const Asked &a, const PredictOptions &o) {
+  if (!o.vary.empty() || o.press_percent > 0.0)
+    throw Failure(kBadInput, "--runs goes with recipes as they are, at the pressures asked for: "
+                             "without --vary and --press-percent.");
+  if (o.pressures.find(':') != std::string::npos)
+    throw Failure(kBadInput, "--runs needs pressures one by one: each is so many simulations. Give "
+                             "--pressure 80,150.");
+  std::vector<PredictedFilm> films;
+  for (const std::string &file : o.recipes) {
+    StudyOptions study = o.study;
+    study.folder = fmt::format("{}/runs/{}", o.folder, films.size() + 1);
+    fmt::print("predict: {}: {} runs, {} draws of the material at each of {} pressures\n", file,
+               o.runs * a.pressures.size(), o.runs, a.pressures.size());
+    films.push_back(predicted_by_runs(a.model.bank, a.model.calibration, read_recipe(file),
+                                      a.pressures, o.runs, study));
+  }
+  return films;
+}
+
+void run_predict(const PredictOptions &o) {
+  const Asked a = o.runs > 0 ? Asked{read_model(o.model), {}, pressures_of(o.pressures)} : asked(o);
+  const std::vector<PredictedFilm> films = o.runs > 0 ? by_runs(a, o) : by_emulators(a, o);
   nlohmann::ordered_json json = to_json(a.model.bank, films);
   json["provenance"] = provenance(o);
   make_output_folder(o.folder);
@@ -259,6 +291,21 @@ void add_predict_verb(CLI::App &app) {
                  "against pressure, with intervals");
   add_common_options(*verb, *o);
   verb->add_option("--pressure", o->pressures, "MPa: 20,50,80 or a range 20:300 (default)");
+  CLI::Option *runs =
+      verb->add_option("--runs", o->runs,
+                       "so many simulations of each recipe at each pressure, each with another "
+                       "draw of the material, instead of the bank's emulators: for electrodes and "
+                       "pressures that the bank does not have")
+          ->check(CLI::Range(kFewestOwnRuns, 400));
+  o->study.verb = "predict";
+  o->study.liggghts = liggghts_program();
+  verb->add_option("--jobs", o->study.jobs, "simulations at a time")
+      ->check(CLI::Range(1, 4096))
+      ->needs(runs);
+  verb->add_option("--ranks", o->study.ranks, "MPI ranks of each simulation")
+      ->check(CLI::Range(1, 4096))
+      ->needs(runs);
+  verb->add_option("--liggghts", o->study.liggghts, "program with the plugin, for --runs");
   verb->callback([o] { run_predict(*o); });
 }
 

@@ -222,9 +222,8 @@ std::vector<std::string> at_the_end(const FilmBank &bank, const Calibration &c) 
   return out;
 }
 
-std::vector<Guess> given_data(const FilmBank &bank, const Calibration &c, const Draw &draw,
-                              const Wanted &wanted) {
-  const std::vector<Guess> curve = bank.at_pressures(wanted.number, wanted.film, draw.material);
+std::vector<Guess> missed_given_data(const FilmBank &bank, const Calibration &c, const Draw &draw,
+                                     const Wanted &wanted) {
   const auto known = std::find_if(c.films.begin(), c.films.end(), [&](const Film &f) {
     return f.name == wanted.film.name && f.recipe == wanted.film.recipe;
   });
@@ -236,15 +235,22 @@ std::vector<Guess> given_data(const FilmBank &bank, const Calibration &c, const 
   std::vector<Guess> out;
   for (const double pressure : wanted.pressures) {
     const Spot here = {film, wanted.number, std::log(pressure)};
-    Guess g = bank.at(curve, pressure);
-    g.variance += error_covariance(c.error, draw.missed, here, here);
     Vector with(n);
     for (Eigen::Index k = 0; k < n; ++k)
       with[k] = error_covariance(c.error, draw.missed, spot_of(c.data[std::size_t(k)]), here);
-    g.mean += with.dot(weights);
-    g.variance -= with.dot(Vector(chol.solve(with)));
-    g.variance = std::max(g.variance, 0.0);
-    out.push_back(g);
+    out.push_back({with.dot(weights), error_covariance(c.error, draw.missed, here, here) -
+                                          with.dot(Vector(chol.solve(with)))});
+  }
+  return out;
+}
+
+std::vector<Guess> given_data(const FilmBank &bank, const Calibration &c, const Draw &draw,
+                              const Wanted &wanted) {
+  const std::vector<Guess> curve = bank.at_pressures(wanted.number, wanted.film, draw.material);
+  std::vector<Guess> out = missed_given_data(bank, c, draw, wanted);
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const Guess g = bank.at(curve, wanted.pressures[k]);
+    out[k] = {g.mean + out[k].mean, std::max(0.0, g.variance + out[k].variance)};
   }
   return out;
 }

@@ -78,6 +78,10 @@ struct Wanted {
   std::vector<double> pressures; ///< [MPa]
 };
 
+/// What the model misses of a film, given the data: mean and variance at each wanted pressure.
+std::vector<Guess> missed_given_data(const FilmBank &bank, const Calibration &calibration,
+                                     const Draw &draw, const Wanted &wanted);
+
 /// Given the data, at each wanted pressure: mean and variance of emulators and model error, not of a
 /// press.
 std::vector<Guess> given_data(const FilmBank &bank, const Calibration &calibration,

@@ -237,29 +237,41 @@ void FilmBank::learn_full_cell(const BankTable &table) {
   full_loading_ = recipe.loading;
 }
 
-Film FilmBank::film_of(const Recipe &recipe) const {
-  const Recipe bank = read_recipe(spec_.recipe_file);
-  std::map<std::string, std::string> wanted = bank.settings.all();
+Film FilmBank::described(const Recipe &recipe) const {
   Film out;
   out.name = recipe.settings.text("name");
   out.loading = recipe.loading;
   for (const BankParameter &p : film_) {
     double sum = 0.0;
+    for (const std::string &key : p.keys)
+      sum += recipe.settings.number(key.substr(key.find('.') + 1));
+    out.recipe.push_back(sum / double(p.keys.size()));
+  }
+  return out;
+}
+
+Film FilmBank::film_of(const Recipe &recipe) const {
+  const Recipe bank = read_recipe(spec_.recipe_file);
+  std::map<std::string, std::string> wanted = bank.settings.all();
+  for (const BankParameter &p : film_)
     for (const std::string &key : p.keys) {
       const std::string bare = key.substr(key.find('.') + 1);
-      sum += recipe.settings.number(bare);
       wanted[bare] = recipe.settings.text(bare);
       if (bare.rfind("composition.", 0) == 0)
         wanted["composition.am_weight_percent"] =
             recipe.settings.text("composition.am_weight_percent");
     }
-    out.recipe.push_back(sum / double(p.keys.size()));
-  }
   if (const auto differs = other_electrode(wanted, recipe.settings.all()); !differs.empty())
     throw Failure(kBadInput, fmt::format("{}: the film is not of the bank's kind; {}. Make a bank "
-                                         "of it (calendem bank; copy {} and change its recipe).",
+                                         "of it (calendem bank; copy {} and change its recipe), "
+                                         "or predict it by runs of its own (--runs).",
                                          recipe.file, fmt::join(differs, "; "), spec_.file));
-  return out;
+  return described(recipe);
+}
+
+double key_value(const FilmBank &bank, const Material &material) {
+  const std::string &name = bank.effects()[std::size_t(material.effect)].name;
+  return find_effect(name).parameter.value(material.amplitude);
 }
 
 std::vector<std::string> FilmBank::beyond(const Film &film) const {

@@ -54,6 +54,8 @@ public:
 
   /// Throws Failure(2) if its recipe is another electrode than the bank's but for the parameters.
   Film film_of(const Recipe &recipe) const;
+  /// The same of any electrode: what the bank's parameters are for it.
+  Film described(const Recipe &recipe) const;
   /// In what a film lies beyond the bank: "porosity before 55, the bank has 38 to 52".
   std::vector<std::string> beyond(const Film &film) const;
   bool covers(double pressure) const;
@@ -85,6 +87,9 @@ private:
   void learn(const BankTable &table);
   void learn_full_cell(const BankTable &table);
 };
+
+/// The amplitude of the material's effect in its key's unit; the material has one.
+double key_value(const FilmBank &bank, const Material &material);
 
 /// Of a run.
 double value_of(FilmNumber number, const SimulatedRun &run);

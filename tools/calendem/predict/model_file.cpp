@@ -132,11 +132,6 @@ Json emulators_of(const FilmBank &bank) {
   return out;
 }
 
-/// An effect's value in its key's unit.
-double key_value(const FilmBank &bank, const Draw &d) {
-  return find_effect(effect_name(bank, d.material.effect)).parameter.value(d.material.amplitude);
-}
-
 Json hypotheses_of(const FilmBank &bank, const Calibration &c) {
   Json out = Json::array();
   for (std::size_t h = 0; h < c.hypotheses.size(); ++h) {
@@ -147,7 +142,7 @@ Json hypotheses_of(const FilmBank &bank, const Calibration &c) {
     std::vector<double> values;
     for (const Draw &d : c.draws)
       if (d.material.effect == int(h) - 1 && h > 0)
-        values.push_back(key_value(bank, d));
+        values.push_back(key_value(bank, d.material));
     if (!values.empty()) {
       row["key"] = find_effect(w.name).parameter.keys.front();
       row.update(spread_of(values));
@@ -217,7 +212,7 @@ std::string case_of(const FilmBank &bank, const Calibration &c) {
     }
   if (effect >= 0)
     for (const std::string &key : find_effect(best->name).parameter.keys)
-      add(key, middle([&](const Draw &d) { return key_value(bank, d); }));
+      add(key, middle([&](const Draw &d) { return key_value(bank, d.material); }));
   std::string out = fmt::format(
       "# The most probable material of a calibration ({}, {:.0f} %): the middle of its draws, "
       "each\n"

@@ -272,6 +272,7 @@ Json to_json(const FilmBank &bank, const std::vector<PredictedFilm> &films) {
   for (const PredictedFilm &f : films) {
     Json row = film_json(bank, f.film);
     row["beyond"] = f.beyond;
+    row["by"] = f.runs == 0 ? Json("emulators") : Json{{"runs", f.runs}};
     row["predicted"] = Json::array();
     for (std::size_t k = 0; k < f.pressures.size(); ++k) {
       Json at = {{"pressure_MPa", f.pressures[k]}};
@@ -318,10 +319,18 @@ std::string prediction_page(const Calibration &c, const std::vector<PredictedFil
   for (const PredictedFilm &f : films)
     for (const std::string &text : f.beyond)
       beyond.push_back(f.film.name + ": " + text);
+  json own = json::array();
+  for (const PredictedFilm &f : films)
+    if (f.runs > 0)
+      own.push_back(
+          fmt::format("{}: by {} runs of its own at each pressure, each with another draw of the "
+                      "material, on another packing",
+                      f.film.name, f.runs));
   const bool cracks = std::any_of(c.data.begin(), c.data.end(),
                                   [](const Datum &d) { return d.number == FilmNumber::Cracked; });
   page.values = {{"rows", rows},
                  {"beyond_rows", beyond},
+                 {"own_rows", own},
                  {"not_measured",
                   cracks ? "Springback and modulus were" : "Springback, cracks and modulus were"}};
   return report::to_html(page);

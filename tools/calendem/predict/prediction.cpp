@@ -15,15 +15,15 @@ double share_below(const Guess &g, double value) {
 }
 
 /// By draws and pressures, with what an error of the press's pressure adds.
-std::vector<std::vector<Guess>> under_draws(const FilmBank &bank, const Calibration &c,
-                                            const Wanted &wanted, double pressure_sd) {
+Guesses under_draws(const FilmBank &bank, const Calibration &c, const Wanted &wanted,
+                    double pressure_sd) {
   constexpr double kStep = 0.05; // of ln p
   Wanted around = wanted;
   around.pressures.clear();
   for (const double p : wanted.pressures)
     for (const double step : {-kStep, 0.0, kStep})
       around.pressures.push_back(p * std::exp(step));
-  std::vector<std::vector<Guess>> out;
+  Guesses out;
   for (const Draw &draw : c.draws) {
     const std::vector<Guess> all = given_data(bank, c, draw, around);
     out.emplace_back();
@@ -37,7 +37,7 @@ std::vector<std::vector<Guess>> under_draws(const FilmBank &bank, const Calibrat
   return out;
 }
 
-std::vector<Band> bands_of(const std::vector<std::vector<Guess>> &draws, double low, double high) {
+std::vector<Band> bands_of(const Guesses &draws, double low, double high) {
   std::vector<Band> out;
   for (std::size_t k = 0; k < draws.front().size(); ++k) {
     Mixture m;
@@ -49,9 +49,8 @@ std::vector<Band> bands_of(const std::vector<std::vector<Guess>> &draws, double 
 }
 
 /// Porosity under load from that after release and the springback, which scatter independently.
-std::vector<std::vector<Guess>> under_load_of(const std::vector<std::vector<Guess>> &after,
-                                              const std::vector<std::vector<Guess>> &springback) {
-  std::vector<std::vector<Guess>> out = after;
+Guesses under_load_of(const Guesses &after, const Guesses &springback) {
+  Guesses out = after;
   for (std::size_t d = 0; d < after.size(); ++d)
     for (std::size_t k = 0; k < after[d].size(); ++k) {
       const double solid = 1.0 - after[d][k].mean, s = 1.0 + springback[d][k].mean;
@@ -87,12 +86,9 @@ Band band_of(const Mixture &m, double low, double high) {
   return {at(0.5), at(0.25), at(0.75), at(0.05), at(0.95)};
 }
 
-PredictedFilm predicted(const FilmBank &bank, const Calibration &c, const Film &film,
-                        const std::vector<double> &pressures, double pressure_sd) {
-  const auto of = [&](FilmNumber number) {
-    return under_draws(bank, c, {film, number, pressures}, pressure_sd);
-  };
-  const auto after = of(FilmNumber::PorosityAfter), springback = of(FilmNumber::Springback);
+PredictedFilm predicted_from(const Film &film, const std::vector<double> &pressures,
+                             const std::function<Guesses(FilmNumber)> &of) {
+  const Guesses after = of(FilmNumber::PorosityAfter), springback = of(FilmNumber::Springback);
   PredictedFilm out;
   out.film = film;
   out.pressures = pressures;
@@ -105,6 +101,14 @@ PredictedFilm predicted(const FilmBank &bank, const Calibration &c, const Film &
     for (double Band::*part :
          {&Band::median, &Band::low50, &Band::high50, &Band::low90, &Band::high90})
       b.*part = std::exp(b.*part);
+  return out;
+}
+
+PredictedFilm predicted(const FilmBank &bank, const Calibration &c, const Film &film,
+                        const std::vector<double> &pressures, double pressure_sd) {
+  PredictedFilm out = predicted_from(film, pressures, [&](FilmNumber number) {
+    return under_draws(bank, c, {film, number, pressures}, pressure_sd);
+  });
   out.beyond = bank.beyond(film);
   return out;
 }

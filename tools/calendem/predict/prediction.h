@@ -5,6 +5,7 @@
 #define CALENDEM_PREDICT_PREDICTION_H
 
 #include "predict/calibration.h"
+#include <functional>
 
 namespace calendem {
 
@@ -28,7 +29,14 @@ struct PredictedFilm {
   std::vector<Band> under_load, after, springback, cracked;
   std::vector<Band> modulus;       ///< of unloading [GPa]
   std::vector<std::string> beyond; ///< in what it lies outside the bank
+  int runs = 0;                    ///< of its own at each pressure; 0: by the bank's emulators
 };
+
+/// By draws, then pressures.
+using Guesses = std::vector<std::vector<Guess>>;
+/// Of normals of each number under each draw.
+PredictedFilm predicted_from(const Film &film, const std::vector<double> &pressures,
+                             const std::function<Guesses(FilmNumber)> &of);
 
 /// `pressure_sd`: of the press that will be used, of its logarithm.
 PredictedFilm predicted(const FilmBank &bank, const Calibration &calibration, const Film &film,
