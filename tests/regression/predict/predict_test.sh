@@ -88,6 +88,15 @@ awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
   { p = $at["porosity_after_percent_median"]; if (!(p > 20 && p < 50) || (NR > 2 && p >= last)) exit 1; last = p }' \
   first.csv || fail "own/prediction.csv: more pressure leaves less, below 50 %"
 
+# A proposal is run: it meets its target about as surely as was proposed, within the scatter of four runs of so small a cell.
+sed 's/^sigma_ln.*/sigma_ln = 0.487/' other.toml >small.toml
+calendem design model/model.json small.toml --porosity 38 --within 3 --pressure 20,25 --confirm 4 --jobs 2 -o confirmed | tee confirmed.log
+grep -q "run 4 times, each with another draw of the material on another packing: it meets the target with" confirmed.log ||
+  fail "the proposal was not run"
+grep -q '"confirmed": {' confirmed/design.json || fail "design.json does not hold what was run"
+sed '/<script type="application.json" id="data">/,$d' confirmed/design.html | grep -q "4 runs: .* %, porosity" || fail "the page does not show what was run"
+refuses "--confirm runs recipes as they are" design model/model.json small.toml --porosity 38 --confirm 4 --vary porosity_before_percent=44
+
 # The blind predictions are what their page's commands make: four digits, the last of which another processor may round.
 calendem predict model/model.json "$cases/coatings/film.toml" --vary carbon_and_binder_each_percent=3,2.5,2 \
   --vary porosity_before_percent=40,42,44,46,48,50 --pressure 20,50,80,100,150,200,300 --press-percent 10 -o blind >/dev/null

@@ -175,7 +175,18 @@ std::vector<PredictedFilm> by_emulators(const Asked &a, const PredictOptions &o)
   return films;
 }
 
-std::vector<PredictedFilm> by_runs(const Asked &a, const PredictOptions &o) {
+/// Of a recipe, by its place in the list.
+ByRuns run_film(const Asked &a, const PredictOptions &o, std::size_t recipe,
+                const std::vector<double> &pressures) {
+  StudyOptions study = o.study;
+  study.folder = fmt::format("{}/runs/{}", o.folder, recipe + 1);
+  fmt::print("{}: {}: {} runs, {} draws of the material at {} pressures\n", study.verb,
+             o.recipes[recipe], o.runs * pressures.size(), o.runs, pressures.size());
+  return by_runs(a.model.bank, a.model.calibration, read_recipe(o.recipes[recipe]), pressures,
+                 o.runs, study);
+}
+
+std::vector<PredictedFilm> films_by_runs(const Asked &a, const PredictOptions &o) {
   if (!o.vary.empty() || o.press_percent > 0.0)
     throw Failure(kBadInput, "--runs goes with recipes as they are, at the pressures asked for: "
                              "without --vary and --press-percent.");
@@ -183,20 +194,14 @@ std::vector<PredictedFilm> by_runs(const Asked &a, const PredictOptions &o) {
     throw Failure(kBadInput, "--runs needs pressures one by one: each is so many simulations. Give "
                              "--pressure 80,150.");
   std::vector<PredictedFilm> films;
-  for (const std::string &file : o.recipes) {
-    StudyOptions study = o.study;
-    study.folder = fmt::format("{}/runs/{}", o.folder, films.size() + 1);
-    fmt::print("predict: {}: {} runs, {} draws of the material at each of {} pressures\n", file,
-               o.runs * a.pressures.size(), o.runs, a.pressures.size());
-    films.push_back(predicted_by_runs(a.model.bank, a.model.calibration, read_recipe(file),
-                                      a.pressures, o.runs, study));
-  }
+  for (std::size_t k = 0; k < o.recipes.size(); ++k)
+    films.push_back(run_film(a, o, k, a.pressures).predicted);
   return films;
 }
 
 void run_predict(const PredictOptions &o) {
   const Asked a = o.runs > 0 ? Asked{read_model(o.model), {}, pressures_of(o.pressures)} : asked(o);
-  const std::vector<PredictedFilm> films = o.runs > 0 ? by_runs(a, o) : by_emulators(a, o);
+  const std::vector<PredictedFilm> films = o.runs > 0 ? films_by_runs(a, o) : by_emulators(a, o);
   nlohmann::ordered_json json = to_json(a.model.bank, films);
   json["provenance"] = provenance(o);
   make_output_folder(o.folder);
@@ -216,7 +221,29 @@ void run_predict(const PredictOptions &o) {
   fmt::print("page: {0}/prediction.html\ntable: {0}/prediction.csv\n", o.folder);
 }
 
+/// The proposal of a recipe, run.
+void confirm(const Asked &a, const PredictOptions &o, std::size_t recipe, const Target &target,
+             Design &d) {
+  const std::vector<double> pressure = {d.chances[d.best].pressure};
+  const ByRuns own = run_film(a, o, recipe, pressure);
+  d.confirmed = own.predicted;
+  d.confirmed_chance = chances_from(pressure, own.of, target).front();
+}
+
+void say_confirmed(const Design &d) {
+  const Band &after = d.confirmed->after[0], &cracked = d.confirmed->cracked[0];
+  fmt::print("  run {} times, each with another draw of the material on another packing: it meets "
+             "the target with {:.0f} %: porosity {:.1f} % ({:.1f} to {:.1f}), cracked particles "
+             "{:.0f} % ({:.0f} to {:.0f})\n",
+             d.confirmed->runs, kPercent * d.confirmed_chance.both, kPercent * after.median,
+             kPercent * after.low90, kPercent * after.high90, kPercent * cracked.median,
+             kPercent * cracked.low90, kPercent * cracked.high90);
+}
+
 void run_design(const PredictOptions &o) {
+  if (o.runs > 0 && (!o.vary.empty() || o.press_percent > 0.0))
+    throw Failure(kBadInput, "--confirm runs recipes as they are: without --vary and "
+                             "--press-percent.");
   const Asked a = asked(o);
   const Target target = {o.porosity / kPercent, o.within / kPercent, o.cracked_below / kPercent};
   std::vector<Design> designs;
@@ -230,6 +257,8 @@ void run_design(const PredictOptions &o) {
     for (std::size_t k = 1; k < d.chances.size(); ++k)
       if (d.chances[k].both > d.chances[d.best].both)
         d.best = k;
+    if (o.runs > 0)
+      confirm(a, o, designs.size(), target, d);
     designs.push_back(d);
   }
   nlohmann::ordered_json json = to_json(a.model.bank, target, designs);
@@ -248,6 +277,8 @@ void run_design(const PredictOptions &o) {
     if (target.cracked_below < 1.0)
       fmt::print("  the porosity with {:.0f} %, the cracked particles with {:.0f} %\n",
                  kPercent * best.porosity, kPercent * best.cracked);
+    if (d.confirmed)
+      say_confirmed(d);
     for (const std::string &text : d.predicted.beyond)
       fmt::print("  note: {}: extrapolated\n", text);
   }
@@ -264,6 +295,20 @@ void add_common_options(CLI::App &verb, PredictOptions &o) {
   verb.add_option("--press-percent", o.press_percent,
                   "standard deviation of the press's pressure [%]; default 0: as asked for")
       ->check(CLI::Range(0.0, 50.0));
+}
+
+void add_run_options(CLI::App &verb, PredictOptions &o, const char *name, const char *what) {
+  CLI::Option *runs = verb.add_option(name, o.runs, what)->check(CLI::Range(kFewestOwnRuns, 400));
+  o.study.verb = verb.get_name();
+  o.study.liggghts = liggghts_program();
+  verb.add_option("--jobs", o.study.jobs, "simulations at a time")
+      ->check(CLI::Range(1, 4096))
+      ->needs(runs);
+  verb.add_option("--ranks", o.study.ranks, "MPI ranks of each simulation")
+      ->check(CLI::Range(1, 4096))
+      ->needs(runs);
+  verb.add_option("--liggghts", o.study.liggghts, "program with the plugin, for these")
+      ->needs(runs);
 }
 
 } // namespace
@@ -291,21 +336,10 @@ void add_predict_verb(CLI::App &app) {
                  "against pressure, with intervals");
   add_common_options(*verb, *o);
   verb->add_option("--pressure", o->pressures, "MPa: 20,50,80 or a range 20:300 (default)");
-  CLI::Option *runs =
-      verb->add_option("--runs", o->runs,
-                       "so many simulations of each recipe at each pressure, each with another "
-                       "draw of the material, instead of the bank's emulators: for electrodes and "
-                       "pressures that the bank does not have")
-          ->check(CLI::Range(kFewestOwnRuns, 400));
-  o->study.verb = "predict";
-  o->study.liggghts = liggghts_program();
-  verb->add_option("--jobs", o->study.jobs, "simulations at a time")
-      ->check(CLI::Range(1, 4096))
-      ->needs(runs);
-  verb->add_option("--ranks", o->study.ranks, "MPI ranks of each simulation")
-      ->check(CLI::Range(1, 4096))
-      ->needs(runs);
-  verb->add_option("--liggghts", o->study.liggghts, "program with the plugin, for --runs");
+  add_run_options(*verb, *o, "--runs",
+                  "so many simulations of each recipe at each pressure, each with another draw of "
+                  "the material, instead of the bank's emulators: for electrodes and pressures "
+                  "that the bank does not have");
   verb->callback([o] { run_predict(*o); });
 }
 
@@ -323,6 +357,9 @@ void add_design_verb(CLI::App &app) {
   verb->add_option("--cracked-below", o->cracked_below, "cracked particles [%]; default: any")
       ->check(CLI::Range(0.1, 100.0));
   verb->add_option("--pressure", o->pressures, "MPa to choose from: a list or a range");
+  add_run_options(*verb, *o, "--confirm",
+                  "so many simulations of each recipe at the pressure proposed, each with another "
+                  "draw of the material on another packing");
   verb->callback([o] { run_design(*o); });
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 
 namespace calendem {
 namespace {
@@ -78,9 +79,8 @@ Study own_runs(const FilmBank &bank, const std::vector<Draw> &draws, const Recip
   return bank_study(spec, points);
 }
 
-PredictedFilm predicted_by_runs(const FilmBank &bank, const Calibration &c, const Recipe &recipe,
-                                const std::vector<double> &pressures, int runs,
-                                const StudyOptions &options) {
+ByRuns by_runs(const FilmBank &bank, const Calibration &c, const Recipe &recipe,
+               const std::vector<double> &pressures, int runs, const StudyOptions &options) {
   const std::vector<Draw> draws = some_draws(c, runs);
   const Study study = own_runs(bank, draws, recipe, pressures);
   make(study, options);
@@ -90,16 +90,19 @@ PredictedFilm predicted_by_runs(const FilmBank &bank, const Calibration &c, cons
                   fmt::format("{}: {} of {} draws have all their runs, {} are needed; see {}/runs.",
                               recipe.file, own.draws.size(), runs, kFewestOwnRuns, options.folder));
   const Film film = bank.described(recipe);
-  PredictedFilm out = predicted_from(film, pressures, [&](FilmNumber number) {
-    Guesses all;
+  std::map<FilmNumber, Guesses> all;
+  for (const FilmNumber number : {FilmNumber::PorosityAfter, FilmNumber::Springback,
+                                  FilmNumber::Cracked, FilmNumber::LogModulus})
     for (std::size_t d = 0; d < own.draws.size(); ++d) {
-      all.push_back(missed_given_data(bank, c, own.draws[d], {film, number, pressures}));
+      std::vector<Guess> row = missed_given_data(bank, c, own.draws[d], {film, number, pressures});
       for (std::size_t k = 0; k < pressures.size(); ++k)
-        all.back()[k].mean += value_of(number, own.runs[d][k]);
+        row[k].mean += value_of(number, own.runs[d][k]);
+      all[number].push_back(row);
     }
-    return all;
-  });
-  out.runs = int(own.draws.size());
+  ByRuns out;
+  out.of = [all](FilmNumber number) { return all.at(number); };
+  out.predicted = predicted_from(film, pressures, out.of);
+  out.predicted.runs = int(own.draws.size());
   return out;
 }
 

@@ -18,12 +18,17 @@ std::vector<Draw> some_draws(const Calibration &calibration, int runs);
 Study own_runs(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
                const std::vector<double> &pressures);
 
+/// A film by runs of its own.
+struct ByRuns {
+  PredictedFilm predicted;
+  GuessesOf of; ///< at its pressures
+};
+
 /// Makes the runs in `options.folder`; the same call goes on where it was. To what a run gives, the
 /// model error is added as the calibration left it; packings and parameters scatter the runs
 /// themselves. Throws Failure(3) where fewer than kFewestOwnRuns draws have all their runs.
-PredictedFilm predicted_by_runs(const FilmBank &bank, const Calibration &calibration,
-                                const Recipe &recipe, const std::vector<double> &pressures,
-                                int runs, const StudyOptions &options);
+ByRuns by_runs(const FilmBank &bank, const Calibration &calibration, const Recipe &recipe,
+               const std::vector<double> &pressures, int runs, const StudyOptions &options);
 
 } // namespace calendem
 

@@ -346,6 +346,11 @@ Json to_json(const FilmBank &bank, const Target &t, const std::vector<Design> &d
                    {"porosity_after_percent", band_json(d.predicted.after[d.best], kPercent)},
                    {"cracked_percent", band_json(d.predicted.cracked[d.best], kPercent)},
                    {"springback_percent", band_json(d.predicted.springback[d.best], kPercent)}};
+    if (d.confirmed)
+      row["confirmed"] = {{"runs", d.confirmed->runs},
+                          {"probability", d.confirmed_chance.both},
+                          {"porosity_after_percent", band_json(d.confirmed->after[0], kPercent)},
+                          {"cracked_percent", band_json(d.confirmed->cracked[0], kPercent)}};
     row["chances"] = Json::array();
     for (const Chance &c : d.chances)
       row["chances"].push_back({{"pressure_MPa", c.pressure},
@@ -392,14 +397,21 @@ std::string design_page(const Target &t, const std::vector<Design> &designs, con
                                              kPercent * after.low90, kPercent * after.high90)},
                     {"cracked", fmt::format("{:.0f} ({:.0f}–{:.0f})", kPercent * cracked.median,
                                             kPercent * cracked.low90, kPercent * cracked.high90)}});
+    if (d.confirmed)
+      rows.back()["confirmed"] = fmt::format(
+          "{} runs: {:.0f} %, porosity {:.1f} ({:.1f}–{:.1f})", d.confirmed->runs,
+          kPercent * d.confirmed_chance.both, kPercent * d.confirmed->after[0].median,
+          kPercent * d.confirmed->after[0].low90, kPercent * d.confirmed->after[0].high90);
   }
   page.charts = {chance, pareto};
-  page.values = {{"rows", rows},
-                 {"porosity", fmt::format("{:g}", kPercent * t.porosity)},
-                 {"within", fmt::format("{:g}", kPercent * t.within)},
-                 {"cracked_below", t.cracked_below < 1.0
-                                       ? json(fmt::format("{:g}", kPercent * t.cracked_below))
-                                       : json()}};
+  page.values = {
+      {"rows", rows},
+      {"any_confirmed", std::any_of(designs.begin(), designs.end(),
+                                    [](const Design &d) { return d.confirmed.has_value(); })},
+      {"porosity", fmt::format("{:g}", kPercent * t.porosity)},
+      {"within", fmt::format("{:g}", kPercent * t.within)},
+      {"cracked_below",
+       t.cracked_below < 1.0 ? json(fmt::format("{:g}", kPercent * t.cracked_below)) : json()}};
   return report::to_html(page);
 }
 

@@ -4,6 +4,7 @@
 #define CALENDEM_PREDICT_PAGES_H
 
 #include "predict/model_file.h"
+#include <optional>
 
 namespace calendem {
 
@@ -21,8 +22,10 @@ std::string prediction_page(const Calibration &calibration, const std::vector<Pr
 struct Design {
   Film film;
   std::vector<Chance> chances;
-  PredictedFilm predicted; ///< at the same pressures
-  std::size_t best = 0;    ///< the pressure with the largest probability of both
+  PredictedFilm predicted;                ///< at the same pressures
+  std::size_t best = 0;                   ///< the pressure with the largest probability of both
+  std::optional<PredictedFilm> confirmed; ///< by runs of its own at that pressure
+  Chance confirmed_chance;
 };
 nlohmann::ordered_json to_json(const FilmBank &bank, const Target &target,
                                const std::vector<Design> &designs);

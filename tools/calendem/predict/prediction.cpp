@@ -87,7 +87,7 @@ Band band_of(const Mixture &m, double low, double high) {
 }
 
 PredictedFilm predicted_from(const Film &film, const std::vector<double> &pressures,
-                             const std::function<Guesses(FilmNumber)> &of) {
+                             const GuessesOf &of) {
   const Guesses after = of(FilmNumber::PorosityAfter), springback = of(FilmNumber::Springback);
   PredictedFilm out;
   out.film = film;
@@ -121,12 +121,9 @@ Band porosity_band(const FilmBank &bank, const Calibration &c, const Film &film,
   return bands_of(draws, 0.0, 1.0).front();
 }
 
-std::vector<Chance> chances(const FilmBank &bank, const Calibration &c, const Film &film,
-                            const std::vector<double> &pressures, double pressure_sd,
-                            const Target &target) {
-  const auto after =
-      under_draws(bank, c, {film, FilmNumber::PorosityAfter, pressures}, pressure_sd);
-  const auto cracked = under_draws(bank, c, {film, FilmNumber::Cracked, pressures}, pressure_sd);
+std::vector<Chance> chances_from(const std::vector<double> &pressures, const GuessesOf &of,
+                                 const Target &target) {
+  const Guesses after = of(FilmNumber::PorosityAfter), cracked = of(FilmNumber::Cracked);
   std::vector<Chance> out;
   for (std::size_t k = 0; k < pressures.size(); ++k) {
     Chance chance;
@@ -143,6 +140,17 @@ std::vector<Chance> chances(const FilmBank &bank, const Calibration &c, const Fi
     out.push_back(chance);
   }
   return out;
+}
+
+std::vector<Chance> chances(const FilmBank &bank, const Calibration &c, const Film &film,
+                            const std::vector<double> &pressures, double pressure_sd,
+                            const Target &target) {
+  return chances_from(
+      pressures,
+      [&](FilmNumber number) {
+        return under_draws(bank, c, {film, number, pressures}, pressure_sd);
+      },
+      target);
 }
 
 std::vector<double> spread_pressures(double low, double high, int count) {

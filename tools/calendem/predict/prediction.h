@@ -34,9 +34,10 @@ struct PredictedFilm {
 
 /// By draws, then pressures.
 using Guesses = std::vector<std::vector<Guess>>;
-/// Of normals of each number under each draw.
+/// Normals of a number under each draw.
+using GuessesOf = std::function<Guesses(FilmNumber)>;
 PredictedFilm predicted_from(const Film &film, const std::vector<double> &pressures,
-                             const std::function<Guesses(FilmNumber)> &of);
+                             const GuessesOf &of);
 
 /// `pressure_sd`: of the press that will be used, of its logarithm.
 PredictedFilm predicted(const FilmBank &bank, const Calibration &calibration, const Film &film,
@@ -59,6 +60,8 @@ struct Chance {
 };
 
 /// Of each pressure to meet the target.
+std::vector<Chance> chances_from(const std::vector<double> &pressures, const GuessesOf &of,
+                                 const Target &target);
 std::vector<Chance> chances(const FilmBank &bank, const Calibration &calibration, const Film &film,
                             const std::vector<double> &pressures, double pressure_sd,
                             const Target &target);
