@@ -51,6 +51,44 @@ TEST(ErrorTerms, ASpecimensThicknessIsThatOfMicrometres) {
   EXPECT_NEAR(data.covariance(1, 1), 0.03 * 0.03 + std::pow(0.02 * usual, 2), 1e-9);
 }
 
+// A press that notices the film 0.7 um late shows all of a curve 0.7 um short, and no other curve.
+TEST(ErrorTerms, TheFirstTouchIsCommonToTheWholeCurve) {
+  const auto folder = test_folder();
+  Experiment e = two_discs();
+  e.on_press = true;
+  for (Condition &c : e.conditions) {
+    c.curve = (folder / (c.id + ".csv")).string();
+    c.curve_sd_um = 0.1;
+    std::ofstream out(c.curve);
+    out << "displacement_um,pressure_MPa,stage\n";
+    for (int p = 1; p <= 30; ++p)
+      out << 0.1 * p << "," << p << ",loading\n";
+  }
+  const auto remarks = [&] {
+    const auto said = data_of(e, made_bank(), {}).not_said;
+    return std::count_if(said.begin(), said.end(), [](const std::string &s) {
+      return s.find("first touch counts as exactly known") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(remarks(), 2);
+  const auto exact = data_of(e, made_bank(), {}).experiment;
+  for (Condition &c : e.conditions)
+    c.curve_zero_um = 0.7;
+  EXPECT_EQ(remarks(), 0);
+  const auto data = data_of(e, made_bank(), {}).experiment;
+  const inference::Matrix more = data.covariance - exact.covariance;
+  int points = 0;
+  for (std::size_t i = 0; i < data.of.size(); ++i)
+    for (std::size_t j = 0; j < data.of.size(); ++j) {
+      const bool same_curve = data.of[i].name.rfind("displacement", 0) == 0 &&
+                              data.of[j].name.rfind("displacement", 0) == 0 &&
+                              data.of[i].condition == data.of[j].condition;
+      points += same_curve;
+      EXPECT_NEAR(more(Eigen::Index(i), Eigen::Index(j)), same_curve ? 0.7 * 0.7 : 0.0, 1e-9);
+    }
+  EXPECT_GT(points, 20);
+}
+
 TEST(ErrorTerms, NumericsAreCommonToAllThatAPressShowsAndNotToASimulation) {
   BankTable bank = made_bank();
   bank.spec.numerics = {{"speed", 1.0}, {"cell", 2.0}};

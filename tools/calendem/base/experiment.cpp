@@ -69,6 +69,8 @@ const std::vector<Key> &condition_keys() {
       {"dwell_s", "", "0", 0, 1e6, "s", "time at the target"},
       {"curve_sd_um", "", "0", 0, 100, "um", "of the curve's displacements, independent"},
       {"curve_drift_um", "", "0", 0, 100, "um", "of the displacement at the curve's end (sd)"},
+      {"curve_zero_um", "", "0", 0, 100, "um",
+       "of the first touch, from which displacements count (sd)"},
       {"specimen", "", "-", 0, 0, "",
        "the piece that was pressed, where conditions share one; default: one of its own", "", true},
   };

@@ -32,6 +32,7 @@ struct Condition {
   std::string curve;                       ///< absolute path of a CSV file, empty if none
   double curve_sd_um = 0.0;                ///< of each displacement of the curve; 0: not given
   double curve_drift_um = 0.0;             ///< sd at the curve's end, from 0 at its beginning
+  double curve_zero_um = 0.0;              ///< sd of where the platen first touches
   std::string labels_before, labels_after; ///< absolute paths of label images, or empty
   double dwell_s = 0.0;
 };

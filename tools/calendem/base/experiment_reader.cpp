@@ -118,7 +118,8 @@ private:
     c.dwell_s = number(*t, condition_keys()[5]);
     c.curve_sd_um = number(*t, condition_keys()[6]);
     c.curve_drift_um = number(*t, condition_keys()[7]);
-    c.specimen = text(*t, condition_keys()[8]);
+    c.curve_zero_um = number(*t, condition_keys()[8]);
+    c.specimen = text(*t, condition_keys()[9]);
     if (c.specimen.empty())
       c.specimen = c.id;
     for (const Quantity &q : quantities())

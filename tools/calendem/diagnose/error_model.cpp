@@ -52,7 +52,7 @@ Observable mean_of(const Experiment &e, const std::vector<CoveredCondition> &gro
                    const Observable &like, std::vector<std::string> &not_said) {
   std::vector<double> values, pressures;
   std::vector<std::string> ids;
-  double own = 0.0, loading = 0.0, drift = 0.0;
+  double own = 0.0, loading = 0.0, drift = 0.0, zero = 0.0;
   for (const CoveredCondition &c : group)
     if (const Observable *o = find(c, like)) {
       values.push_back(o->measured);
@@ -61,6 +61,7 @@ Observable mean_of(const Experiment &e, const std::vector<CoveredCondition> &gro
       own += o->sd * o->sd;
       loading += o->by_loading;
       drift += o->by_drift;
+      zero += o->by_zero;
     }
   const double n = double(values.size());
   const double stated = std::hypot(std::sqrt(own / n), of_specimen(e, like));
@@ -79,6 +80,7 @@ Observable mean_of(const Experiment &e, const std::vector<CoveredCondition> &gro
   out.measured = mean.value;
   out.by_loading = loading / n / std::sqrt(mean.count);
   out.by_drift = drift / n / std::sqrt(mean.count);
+  out.by_zero = zero / n / std::sqrt(mean.count);
   // what specimens are allowed to differ by is a term of its own; more than that is the reading's
   const double more = mean.sd * mean.sd - stated * stated;
   out.sd = std::sqrt(std::max(own / n, own / n + more) / mean.count);
@@ -220,10 +222,13 @@ std::vector<ErrorTerm> error_terms(const Experiment &e, const BankSpec &bank,
       by_specimen(all, 0.01 * e.specimen_thickness_percent *
                            few.cwiseProduct(usual.cwiseProduct(in_um))));
   for (std::size_t k = 0; k < all.size(); ++k)
-    add("drift of the curve of " + all[k].condition.id,
-        each(all, [&](const auto &c, const auto &o) {
-          return &c == &all[k] && !o.curve.empty() ? o.by_drift : 0.0;
-        }));
+    for (const auto &[name, size] : {std::pair("first touch of ", &Observable::by_zero),
+                                     std::pair("drift of the curve of ", &Observable::by_drift)}) {
+      const auto by = size;
+      add(name + all[k].condition.id, each(all, [&, by](const auto &c, const auto &o) {
+            return &c == &all[k] && !o.curve.empty() ? o.*by : 0.0;
+          }));
+    }
   if (e.on_press)
     for (const Numerics &n : bank.numerics)
       add("numerics: " + n.name, 0.01 * n.porosity_points * density);

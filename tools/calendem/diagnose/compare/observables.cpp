@@ -212,6 +212,11 @@ void along_curve(const Experiment &e, const Condition &c, std::vector<Observable
   const double solid = loading ? solid_thickness_um(e, loading->value) : 1.0;
   if (!loading)
     not_said.push_back(without_loading(c, "displacements are"));
+  if (e.on_press && !(c.curve_zero_um > 0.0))
+    not_said.push_back(
+        fmt::format("{}: the first touch counts as exactly known. Say how well it is "
+                    "(curve_zero_um): on a rough film rather a micrometre.",
+                    c.id));
   const double largest = curve.loading.pressure.back();
   const auto add = [&](const MeasuredBranch &measured, Branch branch) {
     for (Observable &o : points_of_curve(e, c, largest, branch)) {
@@ -219,6 +224,7 @@ void along_curve(const Experiment &e, const Condition &c, std::vector<Observable
       o.sd = c.curve_sd_um / solid;
       o.by_loading = loading ? -o.measured * loading->sd / loading->value : 0.0;
       o.by_drift = c.curve_drift_um / solid * along(o.coordinate, branch);
+      o.by_zero = c.curve_zero_um / solid;
       if (branch == Branch::Loading || std::isfinite(o.measured))
         out.push_back(o);
     }

@@ -32,6 +32,8 @@ struct Observable {
   Derivative per_porosity = {}, per_initial_porosity = {};
   /// Change by one standard deviation of the instrument's drift: the same in all of a curve.
   double by_drift = 0.0;
+  /// Change by one standard deviation of the first touch: the same in all of a curve.
+  double by_zero = 0.0;
 };
 
 /// Stage of what is seen of a sample that is not pressed yet: of its recipe, not of the model.
