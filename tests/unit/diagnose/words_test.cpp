@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/diagnose.h"
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace {
@@ -136,7 +137,7 @@ TEST(PutInWords, AmplitudesBecomeValuesOfTheKeyWithTheSmallerEndFirst) {
                                         {"low90", 0.2},
                                         {"high90", 0.5}}});
   gap["confounding"]["detection_limit"] =
-      Json::array({{{"effect", "nmc_plasticity"}, {"amplitude", nullptr}, {"rival", "none"}},
+      Json::array({{{"effect", "nmc_plasticity"}, {"amplitude", NAN}, {"rival", "none"}},
                    {{"effect", "friction"}, {"amplitude", 0.199}, {"rival", "none"}}});
   gap["which"]["effects"] = Json::array();
   for (const double inclusion : {0.3, 0.9})

@@ -3,6 +3,7 @@
 #include "diagnose/compare/gap_page.h"
 #include "diagnose/diagnose.h"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace calendem {
@@ -278,7 +279,8 @@ void add_units(const ExperimentData &data, Json &gap) {
 
 /// The key's value at an amplitude; null where there is no amplitude.
 Json value_at(const EffectParameter &p, const Json &amplitude) {
-  return amplitude.is_number() ? Json(p.value(amplitude.get<double>())) : Json();
+  const bool known = amplitude.is_number() && std::isfinite(amplitude.get<double>());
+  return known ? Json(p.value(amplitude.get<double>())) : Json();
 }
 
 bool is_poor(const Json &gap, const std::string &effect, double &error, int &runs) {
