@@ -34,7 +34,8 @@ RehearsalOptions part_of_shipped(int packings, const std::filesystem::path &fold
 }
 
 // Seven packings with three base points and one run of friction each; friction is what shows most
-// in a bank: it is the most probable wherever it is strong enough to be distinguished from none.
+// in a bank. Strong enough to be distinguished from none it is the most probable, or something
+// unknown is that acts like it; at three times that strength it is the most probable.
 TEST(Rehearsal, EveryPackingIsLeftOutOnce) {
   const auto folder = calendem_test::test_folder();
   RehearsalOptions o = part_of_shipped(7, folder);
@@ -45,18 +46,19 @@ TEST(Rehearsal, EveryPackingIsLeftOutOnce) {
   const auto left_out = t.numbers("left_out"), amplitude = t.numbers("amplitude"),
              limit = t.numbers("limit_against_none"), truths = t.numbers("truths_probability"),
              unknowns = t.numbers("unknowns_probability");
-  int strong = 0, named = 0;
+  int strong = 0;
   for (std::size_t k = 0; k < t.rows(); ++k) {
     if (left_out[k] == 1.0) {
       EXPECT_EQ(truths[k], unknowns[k]);
       EXPECT_NE(first[k], "friction");
     } else if (effect[k] == "friction" && amplitude[k] >= limit[k]) {
       ++strong;
-      named += first[k] == "friction";
+      EXPECT_TRUE(first[k] == "friction" ||
+                  (first[k] == "unknown" && amplitude[k] < 3.0 * limit[k]))
+          << first[k] << " instead of a friction of " << amplitude[k];
     }
   }
   EXPECT_GE(strong, 5);
-  EXPECT_EQ(named, strong);
   o.folder = (folder / "two").string();
   o.jobs = 2;
   rehearse(o);
@@ -75,8 +77,7 @@ TEST(Rehearsal, DrawnSamplesAreWhatTheBankPredicts) {
   const CsvTable one = CsvTable::parse(text_of_file(o.folder + "/rehearsal.csv"));
   ASSERT_EQ(one.rows(), 2u * 7u);
   const auto effect = one.texts("effect");
-  const auto left_out = one.numbers("left_out"), amplitude = one.numbers("amplitude"),
-             limit = one.numbers("limit_against_none");
+  const auto left_out = one.numbers("left_out"), amplitude = one.numbers("amplitude");
   for (std::size_t k = 0; k < one.rows(); ++k) {
     EXPECT_EQ(one.numbers("packing")[k], double(k / 7 + 1));
     EXPECT_EQ(effect[k].empty(), k % 7 == 0);
@@ -92,14 +93,17 @@ TEST(Rehearsal, DrawnSamplesAreWhatTheBankPredicts) {
   rehearse(o);
   EXPECT_EQ(text_of_file(o.folder + "/rehearsal.csv"),
             text_of_file((folder / "one/rehearsal.csv").string()));
-  o.cells = 100.0;
   o.draws = 1;
-  rehearse(o);
-  const CsvTable large = CsvTable::parse(text_of_file(o.folder + "/rehearsal.csv"));
+  const auto drawn_of = [&](double cells) { // of its rows
+    o.cells = cells;
+    rehearse(o);
+    return CsvTable::parse(text_of_file(o.folder + "/rehearsal.csv"));
+  };
+  const CsvTable large = drawn_of(100.0), small = drawn_of(0.02); // its packings dominate
   ASSERT_EQ(large.rows(), 7u);
   for (std::size_t k = 0; k < large.rows(); ++k)
     if (effect[k] == "thickness_zero") // the others' are below their priors in both
-      EXPECT_LT(large.numbers("limit_against_none")[k], limit[k]);
+      EXPECT_LT(large.numbers("limit_against_none")[k], small.numbers("limit_against_none")[k]);
 }
 
 TEST(Rehearsal, TwoPackingsAreTooFew) {
