@@ -97,8 +97,14 @@ ByRuns by_runs(const FilmBank &bank, const Calibration &c, const Recipe &recipe,
       std::vector<Guess> row = missed_given_data(bank, c, own.draws[d], {film, number, pressures});
       for (std::size_t k = 0; k < pressures.size(); ++k)
         row[k].mean += value_of(number, own.runs[d][k]);
-      all[number].push_back(row);
+      if (std::all_of(row.begin(), row.end(), [](const Guess &g) { return std::isfinite(g.mean); }))
+        all[number].push_back(row); // a release may lack the rows of the modulus
     }
+  for (const auto number : {FilmNumber::PorosityAfter, FilmNumber::LogModulus})
+    if (all[number].empty())
+      throw Failure(kSimulationFailed,
+                    fmt::format("{}: no run says what is predicted; see {}/runs.", recipe.file,
+                                options.folder));
   ByRuns out;
   out.of = [all](FilmNumber number) { return all.at(number); };
   out.predicted = predicted_from(film, pressures, out.of);

@@ -238,8 +238,9 @@ std::vector<Guess> missed_given_data(const FilmBank &bank, const Calibration &c,
     Vector with(n);
     for (Eigen::Index k = 0; k < n; ++k)
       with[k] = error_covariance(c.error, draw.missed, spot_of(c.data[std::size_t(k)]), here);
-    out.push_back({with.dot(weights), error_covariance(c.error, draw.missed, here, here) -
-                                          with.dot(Vector(chol.solve(with)))});
+    const double left =
+        error_covariance(c.error, draw.missed, here, here) - with.dot(Vector(chol.solve(with)));
+    out.push_back({with.dot(weights), std::max(0.0, left)});
   }
   return out;
 }
@@ -250,7 +251,7 @@ std::vector<Guess> given_data(const FilmBank &bank, const Calibration &c, const 
   std::vector<Guess> out = missed_given_data(bank, c, draw, wanted);
   for (std::size_t k = 0; k < out.size(); ++k) {
     const Guess g = bank.at(curve, wanted.pressures[k]);
-    out[k] = {g.mean + out[k].mean, std::max(0.0, g.variance + out[k].variance)};
+    out[k] = {g.mean + out[k].mean, g.variance + out[k].variance};
   }
   return out;
 }
