@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/compare/gap.h"
-#include "diagnose/compare/gap_page.h"
 #include "diagnose/compare/observables.h"
 #include "support/page.h"
 #include "support/test_folder.h"

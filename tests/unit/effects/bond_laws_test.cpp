@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Requirement: the rows of laws of bond strength and the keywords of fix bond/bpm are the same,
 // with the same numbers in the same ranges.
-#include "base/effects.h"
+#include "base/registry.h"
 #include "liggghts/bond_strengths.h"
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The table of effects against the case's keys and the files it names.
 #include "base/case.h"
-#include "base/effects.h"
 #include "base/messages.h"
 #include "base/recipe.h"
+#include "base/registry.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

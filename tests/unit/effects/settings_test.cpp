@@ -2,7 +2,7 @@
 // The rows of settings and contact laws: what they need to be scripts and keys.
 #include "base/case.h"
 #include "base/provenance.h"
-#include "commands/generated_files.h"
+#include "commands/commands.h"
 #include "support/test_folder.h"
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "diagnose/inference/change.h"
+#include "diagnose/inference/diagnosis.h"
 #include "synthetic_bank.h"
 #include <gtest/gtest.h>
 

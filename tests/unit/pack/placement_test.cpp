@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "electrode/pack/placement.h"
+#include "electrode/pack/packing_state.h"
 #include "support.h"
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "electrode/pack/sizes.h"
+#include "electrode/pack/body.h"
 #include "support.h"
 #include <numeric>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "predict/left_out.h"
+#include "predict/prediction.h"
 #include "support/made_coatings.h"
 #include <gtest/gtest.h>
 

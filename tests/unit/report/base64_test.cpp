@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "base/encoding.h"
+#include "base/provenance.h"
 
 #include <string>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "base/curve.h"
+#include "base/run_folder.h"
 
 #include <cmath>
 

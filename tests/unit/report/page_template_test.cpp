@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/page_template.h"
+#include "report/page.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/raster.h"
+#include "report/pictures.h"
 
 #include <gtest/gtest.h>
 

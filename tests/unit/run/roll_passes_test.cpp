@@ -5,7 +5,7 @@
 #include "base/provenance.h"
 #include "physics/roll_nip.h"
 #include "simulate/collect.h"
-#include "simulate/line_load.h"
+#include "simulate/rolling.h"
 #include "support/test_folder.h"
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // The slurry of a recipe: volumes and densities by hand, spheres that keep its mass, mixing,
 // checks.
 #include "electrode/pack/body.h"
-#include "electrode/pack/placement.h"
+#include "electrode/pack/packing_state.h"
 #include "electrode/slurry/film_files.h"
 #include "physics/pi.h"
 #include "support/test_folder.h"

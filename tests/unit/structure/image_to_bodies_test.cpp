@@ -3,6 +3,7 @@
 #include "electrode/pack/measured_bodies.h"
 #include "electrode/tomogram.h"
 #include "support.h"
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace {

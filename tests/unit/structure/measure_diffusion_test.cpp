@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Diffusion and tortuosity against closed forms.
 #include "measure/diffusion.h"
-#include "measure/multigrid.h"
 #include "measure_support.h"
 #include <Eigen/IterativeLinearSolvers>
 #include <random>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Area of spheres and planes from voxels.
-#include "electrode/structure/particle_mask.h"
+#include "electrode/structure/measured_shape.h"
 #include "measure/phases.h"
 #include "measure_support.h"
 

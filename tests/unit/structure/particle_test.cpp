@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // From labels to volumes, surfaces and distances of single particles.
 #include "electrode/structure/measured_shape.h"
-#include "electrode/structure/particle_mask.h"
 #include "support.h"
 
 namespace {

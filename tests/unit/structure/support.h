@@ -5,13 +5,14 @@
 
 #include "base/messages.h"
 #include "electrode/structure/label_image.h"
+#include "physics/pi.h"
 #include "support/test_folder.h"
 #include <fstream>
 #include <iterator>
 
 namespace calendem_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using calendem::kPi;
 
 inline calendem::LabelImage empty_image(int nx, int ny, int nz, double voxel) {
   calendem::LabelImage image;

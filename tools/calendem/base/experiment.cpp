@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/experiment.h"
 #include "base/csv_table.h"
-#include "base/experiment_keys.h"
 #include "physics/pi.h"
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// An experiment file: what was measured on a calendered electrode, with its uncertainty, and how it
-// was calendered. Keys, units and ranges are the tables of experiment_keys.cpp, shown by `calendem
-// validate --help`; experiment_reader.cpp reads the file, experiment_checks.cpp what hangs together
-// in it.
+// What was measured on a calendered electrode, with its uncertainty, and how it was calendered. A
+// new measured value is a row of quantities() and a field of Condition; experiment_reader.cpp reads
+// the file.
 #ifndef CALENDEM_BASE_EXPERIMENT_H
 #define CALENDEM_BASE_EXPERIMENT_H
 
+#include "base/messages.h"
 #include "base/recipe.h"
+#include "base/registry.h"
 #include <optional>
 #include <string>
 #include <vector>
@@ -68,6 +69,25 @@ double foil_mg_cm2(const Experiment &e);
 
 /// Every key with unit, range and meaning, for --help.
 std::string list_of_experiment_keys();
+
+/// A number, or { value, sd }, of a condition.
+struct Quantity {
+  Key key;
+  std::optional<Measured> Condition::*field;
+};
+
+const std::vector<Key> &head_keys();      ///< of [experiment]
+const std::vector<Key> &condition_keys(); ///< of [[condition]], without the measured values
+const std::vector<Quantity> &quantities();
+
+/// Foil and sample are known where masses and thicknesses hold them, and leave a coating.
+void check_foil(const Experiment &experiment, const Condition &condition, const std::string &who,
+                int line, Mistakes &mistakes);
+
+/// A CSV file whose displacements, pressures and stages can be those of the condition; `line` is
+/// that of its key.
+void check_curve(const Experiment &experiment, const Condition &condition, int line,
+                 Mistakes &mistakes);
 
 } // namespace calendem
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "base/experiment_keys.h"
+#include "base/experiment.h"
 #include "base/table_reader.h"
-#include "base/toml_file.h"
+#include "base/toml_reader.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

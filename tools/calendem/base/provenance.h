@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// SHA-256 (FIPS 180-4) and Base64 (RFC 4648, with padding) by OpenSSL's libcrypto.
 // Where a result comes from (version, inputs, seeds), and the files and folders it goes into.
 #ifndef CALENDEM_BASE_PROVENANCE_H
 #define CALENDEM_BASE_PROVENANCE_H
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
 namespace calendem {
+
+std::string sha256(const std::string &bytes);
+std::string sha256_of_file(const std::string &file); ///< empty when the file cannot be read
+
+std::string base64(const unsigned char *bytes, std::size_t count);
 
 /// 64-bit FNV-1a of a file's bytes as 16 hex digits; empty if it cannot be read.
 std::string hash_of_file(const std::string &file);

@@ -4,8 +4,8 @@
 #ifndef CALENDEM_BASE_TABLE_READER_H
 #define CALENDEM_BASE_TABLE_READER_H
 
-#include "base/key.h"
-#include "base/toml_file.h"
+#include "base/registry.h"
+#include "base/toml_reader.h"
 #include <filesystem>
 
 namespace calendem {

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The verbs of the command line: each adds its options to the program and does its work when it is
-// parsed. What goes wrong is thrown as Failure (base/messages.h) with the exit status.
+// parsed; what goes wrong is thrown as Failure (base/messages.h) with the exit status. And the files
+// made from the rows of the registry: parts of the input scripts, so that plain LIGGGHTS can run
+// them, and pages of docs/reference.
 #ifndef CALENDEM_COMMANDS_COMMANDS_H
 #define CALENDEM_COMMANDS_COMMANDS_H
+
+#include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -34,6 +39,15 @@ void add_validate_verb(CLI::App &app); ///< validate FILE...
 struct StudyOptions;
 /// The options of all verbs that make a study. `options` must outlive `verb`.
 void add_study_options(CLI::App &verb, StudyOptions &options);
+
+struct GeneratedFile {
+  std::string path; ///< from the repository's top
+  std::string text;
+};
+
+std::vector<GeneratedFile> generated_files();
+
+std::vector<GeneratedFile> reference_pages();
 
 } // namespace calendem
 

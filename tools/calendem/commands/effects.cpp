@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "base/effects.h"
 #include "base/messages.h"
 #include "base/provenance.h"
+#include "base/registry.h"
 #include "commands/commands.h"
-#include "commands/generated_files.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fmt/format.h>

@@ -2,8 +2,8 @@
 // From why to what to do: calibrate, predict, design.
 #include "base/provenance.h"
 #include "commands/commands.h"
-#include "predict/by_runs.h"
 #include "predict/pages.h"
+#include "predict/prediction.h"
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "base/effects.h"
-#include "base/experiment_keys.h"
-#include "base/key.h"
+#include "base/experiment.h"
 #include "base/recipe.h"
-#include "commands/generated_files.h"
+#include "base/registry.h"
+#include "commands/commands.h"
 #include "electrode/slurry/dry.h"
 #include "electrode/tomogram.h"
 #include "registry/settings.h"

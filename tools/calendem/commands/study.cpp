@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "simulate/study.h"
-#include "base/child.h"
+#include "base/liggghts_job.h"
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "commands/commands.h"
 #include "diagnose/bank/bank_table.h"
 #include "report/study_page.h"
+#include "simulate/sample.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <map>
 #include <optional>
 
 namespace calendem {
@@ -167,6 +169,28 @@ void add_study_verb(CLI::App &app) {
     if (whole)
       draw_study(study.columns, o.folder);
   });
+}
+
+void add_sample_verb(CLI::App &app) {
+  struct Arguments {
+    std::vector<std::string> runs;
+    OneFor shared = OneFor::Gap;
+    std::string folder;
+  };
+  auto a = std::make_shared<Arguments>();
+  CLI::App *verb = app.add_subcommand(
+      "sample", "Runs of cells of different loading as one sample that lies under one press");
+  verb->footer("gap: a rigid platen or roll; the runs have platen.control = \"thickness\" and the "
+               "same thickness_um.\npressure: a press that gives way with every cell; the runs "
+               "have the same max_pressure_MPa.\nA study makes the runs: [[vary]] keys = "
+               "[\"recipe.coating.loading_mg_cm2\"], normal = {mean, sd, cells}.");
+  verb->add_option("DIR", a->runs, "directories made by calendem run, a cell each")->required();
+  verb->add_option("--one", a->shared, "what all cells share")
+      ->required()
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, OneFor>{{"gap", OneFor::Gap}, {"pressure", OneFor::Pressure}}));
+  verb->add_option("-o,--output", a->folder, "folder of the sample")->required();
+  verb->callback([a] { make_sample(a->runs, a->shared, a->folder); });
 }
 
 } // namespace calendem

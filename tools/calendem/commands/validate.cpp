@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/case.h"
 #include "base/experiment.h"
-#include "base/toml_file.h"
+#include "base/toml_reader.h"
 #include "commands/commands.h"
 #include "diagnose/bank/bank_table.h"
 #include "electrode/pack/from_structure.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/bank_points.h"
-#include "base/effects.h"
+#include "base/registry.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #ifndef CALENDEM_DIAGNOSE_PAGE_H
 #define CALENDEM_DIAGNOSE_PAGE_H
 
-#include "report/chart.h"
+#include "report/page.h"
 #include <nlohmann/json.hpp>
 #include <string>
 

@@ -1,18 +1,52 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// All of a run in memory, as `calendem report` and `calendem measure` need it.
+// All of a run in memory, as `calendem report` and `calendem measure` need it, with the frames of its
+// VTK time series. Lengths in um.
 #ifndef CALENDEM_MEASURE_RUN_DIRECTORY_H
 #define CALENDEM_MEASURE_RUN_DIRECTORY_H
 
+#include "base/messages.h"
+#include "base/run_folder.h"
+#include <array>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
-#include "base/run_folder.h"
-#include "measure/frames.h"
-
 namespace calendem {
+
+using Point = std::array<double, 3>;
+
+struct FrameFile {
+  double time_us;
+  std::string path;
+};
+
+struct ParticleFrame {
+  std::vector<Point> centre;
+  std::vector<double> radius;
+  std::vector<int> body; ///< 0 = CBD
+};
+
+struct BondFrame {
+  std::vector<Point> from, to;
+  std::vector<bool> intact;
+  std::vector<int> body;
+  std::vector<std::pair<int, int>> tags; ///< of its primaries, lower first; empty: not in the file
+};
+
+struct PlatenFrame {
+  std::vector<std::vector<Point>> outlines; ///< closed polygons: collector, platen
+};
+
+/// Frames listed in a .pvd file, by time. Whatever cannot be read is added to `mistakes`.
+std::vector<FrameFile> read_series(const std::string &pvd, Mistakes &mistakes);
+ParticleFrame read_particles(const std::string &file, Mistakes &mistakes);
+BondFrame read_bonds(const std::string &file, Mistakes &mistakes);
+PlatenFrame read_platen(const std::string &file, Mistakes &mistakes);
+
+/// The frame closest to `time_us`; `frames` must not be empty.
+const FrameFile &closest(const std::vector<FrameFile> &frames, double time_us);
 
 /// A row of structure.csv.
 struct StructureRow {

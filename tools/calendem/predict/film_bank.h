@@ -6,7 +6,7 @@
 
 #include "diagnose/bank/bank_table.h"
 #include "diagnose/inference/gaussian_process.h"
-#include "diagnose/inference/prior.h"
+#include "diagnose/inference/quantities.h"
 #include <array>
 
 namespace calendem {

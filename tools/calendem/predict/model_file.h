@@ -4,7 +4,7 @@
 #ifndef CALENDEM_PREDICT_MODEL_FILE_H
 #define CALENDEM_PREDICT_MODEL_FILE_H
 
-#include "predict/left_out.h"
+#include "predict/prediction.h"
 #include <nlohmann/json.hpp>
 
 namespace calendem {

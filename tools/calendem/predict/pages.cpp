@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "predict/pages.h"
-#include "diagnose/compare/gap_page.h"
+#include "diagnose/compare/gap.h"
 #include "report/page.h"
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "predict/prediction.h"
+#include "base/liggghts_job.h"
+#include "base/messages.h"
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
+#include <fmt/format.h>
+#include <map>
 
 namespace calendem {
+
 namespace {
 
 double share_below(const Guess &g, double value) {
@@ -157,6 +162,210 @@ std::vector<double> spread_pressures(double low, double high, int count) {
   std::vector<double> out;
   for (int k = 0; k < count; ++k)
     out.push_back(low * std::pow(high / low, double(k) / (count - 1)));
+  return out;
+}
+
+using inference::Vector;
+namespace {
+
+double heckel(const std::vector<double> &c, double before, double pressure) {
+  return before * std::exp(-pressure / c[0] - c[1]);
+}
+
+double meyer(const std::vector<double> &c, double before, double pressure) {
+  return c[0] + (before - c[0]) * std::exp(-pressure / c[1]);
+}
+
+double squares(const RuleOfThumb &rule, const std::vector<double> &constants,
+               const std::vector<Pressed> &data) {
+  double sum = 0.0;
+  for (const Pressed &d : data)
+    sum += std::pow(rule.porosity(constants, d.before, d.pressure) - d.after, 2);
+  return sum;
+}
+
+/// From that start, in the logarithms of the constants.
+void fit(RuleOfThumb &rule, const std::vector<Pressed> &data) {
+  const auto constants = [&](const Vector &at) {
+    std::vector<double> out;
+    for (const double x : at)
+      out.push_back(std::exp(x));
+    return out;
+  };
+  Vector start{Eigen::Index(rule.constants.size())};
+  for (std::size_t k = 0; k < rule.constants.size(); ++k)
+    start[Eigen::Index(k)] = std::log(rule.constants[k]);
+  const double scale = 1e4; // squared points
+  rule.constants =
+      constants(inference::minimise(inference::with_differences([&](const Vector &at) {
+                                      return scale * squares(rule, constants(at), data);
+                                    }),
+                                    start)
+                    .at);
+}
+
+Calibration without(const Calibration &all, int film) {
+  Calibration out = all;
+  out.data.clear();
+  for (const Datum &d : all.data)
+    if (d.film != film)
+      out.data.push_back(d);
+  out.films[std::size_t(film)].name += " (left out)"; // no film of the data has this name
+  return out;
+}
+
+std::vector<Pressed> pressed_of(const FilmBank &bank, const Calibration &c, int but) {
+  std::vector<Pressed> out;
+  for (const Datum &d : c.data)
+    if (d.film != but && d.number == FilmNumber::PorosityAfter)
+      out.push_back({porosity_before(bank, c.films[std::size_t(d.film)]), d.pressure, d.measured});
+  return out;
+}
+
+} // namespace
+
+double porosity_before(const FilmBank &bank, const Film &film) {
+  for (std::size_t k = 0; k < bank.film().size(); ++k)
+    if (bank.film()[k].keys.front() == "recipe.coating.porosity_total_percent")
+      return 0.01 * film.recipe[k];
+  return read_recipe(bank.spec().recipe_file).porosity_total;
+}
+
+std::vector<RuleOfThumb> rules_of_thumb(const std::vector<Pressed> &data) {
+  std::vector<RuleOfThumb> out = {{"Heckel", {300.0, 0.3}, heckel}, {"Meyer", {0.2, 50.0}, meyer}};
+  for (RuleOfThumb &rule : out)
+    fit(rule, data);
+  return out;
+}
+
+std::vector<LeftOut> left_out(const FilmBank &bank, const Calibration &all,
+                              const CalibrationSettings &settings) {
+  std::vector<LeftOut> out;
+  for (int film = 0; film < int(all.films.size()) && all.films.size() > 1; ++film) {
+    Calibration others = without(all, film);
+    if (others.data.empty() || others.data.size() == all.data.size())
+      continue;
+    calibrate(bank, settings, others);
+    const auto rules = rules_of_thumb(pressed_of(bank, all, film));
+    for (const Datum &d : all.data) {
+      if (d.film != film || d.number != FilmNumber::PorosityAfter)
+        continue;
+      const Film &f = all.films[std::size_t(film)];
+      LeftOut row = {f.name,
+                     d.condition,
+                     d.pressure,
+                     d.measured,
+                     porosity_band(bank, others, f, d.pressure, d.pressure_sd, d.sd),
+                     {}};
+      for (const RuleOfThumb &rule : rules)
+        row.rules[rule.name] = rule.porosity(rule.constants, porosity_before(bank, f), d.pressure);
+      out.push_back(row);
+    }
+  }
+  return out;
+}
+
+namespace {
+
+double four_digits(double value) { return std::stod(fmt::format("{:.4g}", value)); }
+
+/// The draws all of whose runs are usable, and these: draws x pressures.
+struct OwnRuns {
+  std::vector<Draw> draws;
+  std::vector<std::vector<SimulatedRun>> runs;
+};
+
+OwnRuns usable(const std::vector<Draw> &draws, const std::vector<std::string> &folders) {
+  const std::size_t pressures = folders.size() / draws.size();
+  OwnRuns out;
+  for (std::size_t d = 0; d < draws.size(); ++d) {
+    const auto first = folders.begin() + std::ptrdiff_t(d * pressures),
+               end = first + std::ptrdiff_t(pressures);
+    if (std::find(first, end, "") != end)
+      continue;
+    out.draws.push_back(draws[d]);
+    out.runs.emplace_back();
+    for (auto folder = first; folder != end; ++folder)
+      out.runs.back().push_back(read_simulated_run(*folder));
+  }
+  return out;
+}
+
+void make(const Study &study, const StudyOptions &options) {
+  try {
+    make_study(study, options);
+  } catch (const Failure &f) {
+    if (f.exit_status() == kBadInput || stop_requested() != 0)
+      throw;
+    fmt::print("predict: {}\nDraws with such runs are left out.\n", f.what());
+  }
+}
+
+} // namespace
+
+std::vector<Draw> some_draws(const Calibration &c, int runs) {
+  std::vector<Draw> out;
+  for (int k = 0; k < runs; ++k)
+    out.push_back(c.draws[std::size_t((k + 0.5) / runs * double(c.draws.size()))]);
+  return out;
+}
+
+Study own_runs(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
+               const std::vector<double> &pressures) {
+  BankSpec spec = bank.spec();
+  spec.name = recipe.settings.text("name") + ", by runs";
+  spec.recipe_file = recipe.file;
+  spec.pressures = pressures;
+  std::vector<BankParameter> of_material;
+  for (const BankParameter &p : spec.parameters)
+    if (p.keys.front().rfind("case.", 0) == 0)
+      of_material.push_back(p);
+  spec.parameters = of_material;
+  std::vector<BankPoint> points;
+  for (const Draw &draw : draws) {
+    BankPoint p;
+    p.packing = int(points.size()) + 1;
+    for (const double value : draw.material.parameters)
+      p.base.push_back(four_digits(value));
+    if (draw.material.effect >= 0) {
+      p.effect = bank.effects()[std::size_t(draw.material.effect)].name;
+      p.value = four_digits(key_value(bank, draw.material));
+    }
+    points.push_back(p);
+  }
+  return bank_study(spec, points);
+}
+
+ByRuns by_runs(const FilmBank &bank, const Calibration &c, const Recipe &recipe,
+               const std::vector<double> &pressures, int runs, const StudyOptions &options) {
+  const std::vector<Draw> draws = some_draws(c, runs);
+  const Study study = own_runs(bank, draws, recipe, pressures);
+  make(study, options);
+  const OwnRuns own = usable(draws, finished_runs(study, options));
+  if (int(own.draws.size()) < kFewestOwnRuns)
+    throw Failure(kSimulationFailed,
+                  fmt::format("{}: {} of {} draws have all their runs, {} are needed; see {}/runs.",
+                              recipe.file, own.draws.size(), runs, kFewestOwnRuns, options.folder));
+  const Film film = bank.described(recipe);
+  std::map<FilmNumber, Guesses> all;
+  for (const FilmNumber number : {FilmNumber::PorosityAfter, FilmNumber::Springback,
+                                  FilmNumber::Cracked, FilmNumber::LogModulus})
+    for (std::size_t d = 0; d < own.draws.size(); ++d) {
+      std::vector<Guess> row = missed_given_data(bank, c, own.draws[d], {film, number, pressures});
+      for (std::size_t k = 0; k < pressures.size(); ++k)
+        row[k].mean += value_of(number, own.runs[d][k]);
+      if (std::all_of(row.begin(), row.end(), [](const Guess &g) { return std::isfinite(g.mean); }))
+        all[number].push_back(row); // a release may lack the rows of the modulus
+    }
+  for (const auto number : {FilmNumber::PorosityAfter, FilmNumber::LogModulus})
+    if (all[number].empty())
+      throw Failure(kSimulationFailed,
+                    fmt::format("{}: no run says what is predicted; see {}/runs.", recipe.file,
+                                options.folder));
+  ByRuns out;
+  out.of = [all](FilmNumber number) { return all.at(number); };
+  out.predicted = predicted_from(film, pressures, out.of);
+  out.predicted.runs = int(own.draws.size());
   return out;
 }
 

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A film that was not measured: its numbers against pressure with the bands that hold half and 90 %,
-// and which pressures meet what is wanted of it.
+// and which pressures meet what is wanted of it; by runs of its own where the bank does not have it,
+// each with the material of one draw of the calibration on a packing of its own. And how far such
+// predictions hold: every film left out in turn, beside two rules of thumb fitted on the same data.
 #ifndef CALENDEM_PREDICT_PREDICTION_H
 #define CALENDEM_PREDICT_PREDICTION_H
 
 #include "predict/calibration.h"
+#include "simulate/study.h"
 #include <functional>
+#include <map>
 
 namespace calendem {
 
@@ -68,6 +72,59 @@ std::vector<Chance> chances(const FilmBank &bank, const Calibration &calibration
 
 /// Points at equal ratios from `low` to `high`.
 std::vector<double> spread_pressures(double low, double high, int count);
+
+/// A rule for porosity after calendering [0-1] from that before it and the pressure [MPa].
+struct RuleOfThumb {
+  std::string name;
+  std::vector<double> constants;
+  double (*porosity)(const std::vector<double> &constants, double before, double pressure);
+};
+
+/// Porosities of films and pressures.
+struct Pressed {
+  double before = 0.0, pressure = 0.0, after = 0.0;
+};
+
+/// Of a film, 0-1; the bank's own where it is no parameter.
+double porosity_before(const FilmBank &bank, const Film &film);
+
+/// Both with their constants from least squares.
+/// Heckel (Trans. Metall. Soc. AIME 221 (1961) 671): ln(before / after) = pressure / K + A.
+/// Meyer et al. (J. Mater. Process. Technol. 249 (2017) 172), who have line load and density in
+/// place of pressure and porosity: after = least + (before - least) exp(-pressure / c).
+std::vector<RuleOfThumb> rules_of_thumb(const std::vector<Pressed> &data);
+
+struct LeftOut {
+  std::string film, condition;
+  double pressure = 0.0, measured = 0.0; ///< MPa; porosity 0-1
+  Band predicted;                        ///< with measurement's and press's errors
+  std::map<std::string, double> rules;   ///< porosity by the name of the rule of thumb
+};
+
+/// Every porosity after calendering, predicted from the other films. Empty with one film.
+std::vector<LeftOut> left_out(const FilmBank &bank, const Calibration &calibration,
+                              const CalibrationSettings &settings);
+
+constexpr int kFewestOwnRuns = 4; // of a band
+
+/// `runs` draws at equal distances among the calibration's.
+std::vector<Draw> some_draws(const Calibration &calibration, int runs);
+
+/// The runs: for each draw one to each pressure. Any electrode; the bank's case.
+Study own_runs(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
+               const std::vector<double> &pressures);
+
+/// A film by runs of its own.
+struct ByRuns {
+  PredictedFilm predicted;
+  GuessesOf of; ///< at its pressures
+};
+
+/// Makes the runs in `options.folder`; the same call goes on where it was. To what a run gives, the
+/// model error is added as the calibration left it; packings and parameters scatter the runs
+/// themselves. Throws Failure(3) where fewer than kFewestOwnRuns draws have all their runs.
+ByRuns by_runs(const FilmBank &bank, const Calibration &calibration, const Recipe &recipe,
+               const std::vector<double> &pressures, int runs, const StudyOptions &options);
 
 } // namespace calendem
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "base/encoding.h"
+#include "base/provenance.h"
 #include "base/run_folder.h"
 #include "report/pictures.h"
 

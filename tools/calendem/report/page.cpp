@@ -1,8 +1,53 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/page.h"
-#include "report/page_template.h"
+#include <stdexcept>
+#include <vector>
 
 namespace calendem::report {
+
+NLOHMANN_JSON_SERIALIZE_ENUM(Mark,
+                             {{Mark::line, "line"}, {Mark::points, "points"}, {Mark::area, "area"}})
+NLOHMANN_JSON_SERIALIZE_ENUM(Symbol, {{Symbol::none, "none"},
+                                      {Symbol::circle, "circle"},
+                                      {Symbol::square, "square"},
+                                      {Symbol::triangle, "triangle"},
+                                      {Symbol::diamond, "diamond"}})
+NLOHMANN_JSON_SERIALIZE_ENUM(Hatch, {{Hatch::solid, "solid"},
+                                     {Hatch::rising, "rising"},
+                                     {Hatch::falling, "falling"},
+                                     {Hatch::dots, "dots"}})
+
+nlohmann::json to_json(const Chart &chart) {
+  nlohmann::json series = nlohmann::json::array(), limits = nlohmann::json::array();
+  for (const auto &s : chart.series) {
+    series.push_back({{"name", s.name},
+                      {"axis", s.right_axis ? chart.right_label : chart.y_label},
+                      {"right", s.right_axis},
+                      {"mark", s.mark},
+                      {"colour", s.colour},
+                      {"dash", s.dash},
+                      {"symbol", s.symbol},
+                      {"hatch", s.hatch},
+                      {"x", s.x},
+                      {"y", s.y}});
+    if (!s.base.empty())
+      series.back()["base"] = s.base;
+    if (!s.y_error.empty())
+      series.back()["y_error"] = s.y_error;
+  }
+  for (const auto &limit : chart.limits)
+    limits.push_back({{"y", limit.y}, {"label", limit.label}});
+  return {{"id", chart.id},
+          {"title", chart.title},
+          {"x_label", chart.x_label},
+          {"y_label", chart.y_label},
+          {"right_label", chart.right_label},
+          {"note", chart.note},
+          {"y_top", chart.y_top},
+          {"from_zero", chart.from_zero},
+          {"limits", limits},
+          {"series", series}};
+}
 
 nlohmann::ordered_json data_of(const Page &page) {
   nlohmann::ordered_json data = page.json;
@@ -30,6 +75,132 @@ std::string to_html(const Page &page) {
   if (!page.charts.empty())
     values["chart_scripts"] = {embedded::kD3, embedded::kChartScript};
   return fill_template(page.html, values);
+}
+
+namespace {
+
+using nlohmann::json;
+using Scopes = std::vector<const json *>;
+
+const json *find(const Scopes &scopes, const std::string &key) {
+  if (key == ".")
+    return scopes.back();
+  for (auto scope = scopes.rbegin(); scope != scopes.rend(); ++scope)
+    if ((*scope)->is_object() && (*scope)->contains(key))
+      return &(**scope)[key];
+  return nullptr;
+}
+
+std::string words(const json *value) {
+  if (value == nullptr || value->is_null())
+    return "";
+  return value->is_string() ? value->get<std::string>() : value->dump();
+}
+
+bool holds(const json *value) {
+  if (value == nullptr || value->is_null() || (value->is_boolean() && !value->get<bool>()))
+    return false;
+  if (value->is_string())
+    return !value->get<std::string>().empty();
+  return !(value->is_array() && value->empty());
+}
+
+/// End of the section `key` that was opened before `from`: position of its closing tag.
+std::string::size_type closing(const std::string &text, std::string::size_type from,
+                               const std::string &key) {
+  int depth = 1;
+  for (auto at = text.find("{{", from); at != std::string::npos; at = text.find("{{", at + 2)) {
+    if (text.compare(at, key.size() + 5, "{{/" + key + "}}") == 0 && --depth == 0)
+      return at;
+    if (text.compare(at, key.size() + 5, "{{#" + key + "}}") == 0 ||
+        text.compare(at, key.size() + 5, "{{^" + key + "}}") == 0)
+      ++depth;
+  }
+  throw std::logic_error("page template: section '" + key + "' is not closed");
+}
+
+void fill(const std::string &text, Scopes &scopes, std::string &out);
+
+void fill_section(char kind, const std::string &body, const json *value, Scopes &scopes,
+                  std::string &out) {
+  if (kind == '^') {
+    if (!holds(value))
+      fill(body, scopes, out);
+    return;
+  }
+  if (!holds(value))
+    return;
+  const auto once = [&](const json &element) {
+    scopes.push_back(&element);
+    fill(body, scopes, out);
+    scopes.pop_back();
+  };
+  if (!value->is_array())
+    return once(*value);
+  for (const auto &element : *value)
+    once(element);
+}
+
+void fill(const std::string &text, Scopes &scopes, std::string &out) {
+  std::string::size_type done = 0;
+  for (auto open = text.find("{{"); open != std::string::npos; open = text.find("{{", done)) {
+    out.append(text, done, open - done);
+    const bool raw = text.compare(open, 3, "{{{") == 0;
+    const auto end = text.find(raw ? "}}}" : "}}", open);
+    if (end == std::string::npos)
+      throw std::logic_error("page template: a tag is not closed");
+    std::string key = text.substr(open + (raw ? 3 : 2), end - open - (raw ? 3 : 2));
+    done = end + (raw ? 3 : 2);
+    if (raw) {
+      out += words(find(scopes, key));
+    } else if (key.front() == '#' || key.front() == '^') {
+      const char kind = key.front();
+      key.erase(0, 1);
+      const auto close = closing(text, done, key);
+      fill_section(kind, text.substr(done, close - done), find(scopes, key), scopes, out);
+      done = close + key.size() + 5;
+    } else {
+      out += escaped(words(find(scopes, key)));
+    }
+  }
+  out.append(text, done, std::string::npos);
+}
+
+} // namespace
+
+std::string escaped(const std::string &text) {
+  std::string out;
+  for (const char c : text)
+    switch (c) {
+    case '&':
+      out += "&amp;";
+      break;
+    case '<':
+      out += "&lt;";
+      break;
+    case '>':
+      out += "&gt;";
+      break;
+    case '"':
+      out += "&quot;";
+      break;
+    default:
+      out += c;
+    }
+  return out;
+}
+
+std::string fill_template(const std::string &text, const json &values) {
+  Scopes scopes{&values};
+  std::string out;
+  fill(text, scopes, out);
+  return out;
+}
+
+std::string in_script(std::string json) {
+  for (auto at = json.find('<'); at != std::string::npos; at = json.find('<', at))
+    json.replace(at, 1, "\\u003c"); // JSON has it in strings only
+  return json;
 }
 
 } // namespace calendem::report

@@ -5,7 +5,7 @@
 #define CALENDEM_REPORT_PLOTS_H
 
 #include "measure/run_directory.h"
-#include "report/chart.h"
+#include "report/page.h"
 #include <vector>
 
 namespace calendem::report {

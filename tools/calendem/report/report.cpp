@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/report.h"
-#include "base/encoding.h"
 #include "base/provenance.h"
 #include "measure/run_directory.h"
 #include "report/explorer.h"
-#include "report/page_template.h"
+#include "report/page.h"
 #include "report/pictures.h"
 #include "report/plots.h"
 #include "report/tables.h"

@@ -5,7 +5,7 @@
 #define CALENDEM_REPORT_STUDY_PAGE_H
 
 #include "base/csv_table.h"
-#include "report/chart.h"
+#include "report/page.h"
 #include <functional>
 #include <map>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/tables.h"
 #include "base/csv_table.h"
-#include "report/page_template.h"
+#include "report/page.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -3,7 +3,7 @@
 #include "base/case.h"
 #include "base/provenance.h"
 #include "physics/nanopore_collapse.h"
-#include "simulate/line_load.h"
+#include "simulate/rolling.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "simulate/making.h"
 #include "base/case.h"
-#include "base/child.h"
+#include "base/liggghts_job.h"
 #include "base/provenance.h"
 #include "base/run_folder.h"
 #include "electrode/pack/pack.h"

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "simulate/run.h"
 #include "base/case.h"
-#include "base/child.h"
 #include "base/liggghts_job.h"
 #include "base/provenance.h"
 #include "base/recipe.h"
 #include "base/run_folder.h"
 #include "simulate/collect.h"
-#include "simulate/line_load.h"
 #include "simulate/progress.h"
 #include "simulate/resume.h"
+#include "simulate/rolling.h"
 #include <chrono>
 #include <cmath>
 #include <filesystem>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "simulate/study.h"
-#include "base/child.h"
 #include "base/liggghts_job.h"
 #include "base/provenance.h"
 #include "base/run_folder.h"

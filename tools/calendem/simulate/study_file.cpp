@@ -3,7 +3,7 @@
 #include "base/case.h"
 #include "base/csv_table.h"
 #include "base/table_reader.h"
-#include "base/toml_file.h"
+#include "base/toml_reader.h"
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>

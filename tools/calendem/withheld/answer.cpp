@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/answer.h"
-#include "base/child.h"
 #include "base/gap_file.h"
+#include "base/liggghts_job.h"
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "diagnose/inference/scatter.h"

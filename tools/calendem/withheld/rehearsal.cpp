@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/rehearsal.h"
-#include "base/child.h"
+#include "base/liggghts_job.h"
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "base/random.h"

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// calendem withheld score: opens the truths and judges the answers.
+// calendem withheld score: opens the truths and judges the answers, beside the gap that each cause
+// really made: the keeper runs the same samples with it and without it.
 #ifndef CALENDEM_WITHHELD_SCORE_H
 #define CALENDEM_WITHHELD_SCORE_H
 
+#include "diagnose/diagnose.h"
 #include <cmath>
 #include <functional>
 #include <map>
@@ -12,6 +14,20 @@
 #include <vector>
 
 namespace calendem {
+
+struct TrueGap {
+  /// Length of the difference in the metric in which noise and free recalibration have covariance 1.
+  double signal_to_noise = 0.0;
+  /// "condition|stage|observable" where what recalibration leaves of the difference, without any
+  /// noise, is beyond the threshold of "where".
+  std::set<std::string> places;
+};
+
+/// `handed_out` and `without_cause` share all errors of measurement. Recalibration is linear about
+/// the true base parameters `base` (in the bank's order and units); the bank serves for what it
+/// absorbs and for the covariance only, not for the difference.
+TrueGap true_gap(const Experiment &handed_out, const Experiment &without_cause,
+                 const std::vector<double> &base, const BankTable &table, SharedModels &models);
 
 // How good the answers of a round are. Pure: cases in, numbers with intervals out.
 

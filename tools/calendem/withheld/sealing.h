@@ -3,7 +3,7 @@
 #ifndef CALENDEM_WITHHELD_SEALING_H
 #define CALENDEM_WITHHELD_SEALING_H
 
-#include "base/encoding.h"
+#include "base/provenance.h"
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>

@@ -35,7 +35,7 @@
 #ifndef CALENDEM_DIAGNOSE_BANK_BANK_SPEC_H
 #define CALENDEM_DIAGNOSE_BANK_BANK_SPEC_H
 
-#include "base/effects.h"
+#include "base/registry.h"
 #include <map>
 #include <string>
 #include <utility>

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Where simulation and press disagree: the residual of every observable that both have, beside
-// everything that makes it uncertain. Nothing is fitted here.
+// everything that makes it uncertain, and its page. Nothing is fitted here.
 #ifndef CALENDEM_DIAGNOSE_COMPARE_GAP_H
 #define CALENDEM_DIAGNOSE_COMPARE_GAP_H
 
 #include "base/experiment.h"
 #include "base/gap_file.h"
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -69,6 +70,18 @@ Gap find_gap(const Experiment &experiment, const std::vector<SimulatedRun> &runs
 /// gap.json and the page made from it.
 nlohmann::ordered_json to_json(const Gap &gap);
 std::string gap_page(const nlohmann::ordered_json &gap);
+
+/// For a page: {"conditions": [""], "rows": [{"observable", "cells": [{"text", "colour"}]}]} of
+/// rows "where" of gap.json, whose residual is simulation less experiment in "unit" and whose z
+/// is beyond `threshold`. Conditions in the order of `conditions`, the others by name.
+nlohmann::json heat_map(const nlohmann::json &where, double threshold,
+                        const std::vector<std::string> &conditions = {});
+
+/// A JSON number in that format; a dash where it is none.
+std::string shown(const nlohmann::json &number, const char *format);
+
+/// A unit of gap.json as a reader writes it.
+std::string shown_unit(const std::string &unit);
 
 } // namespace calendem
 

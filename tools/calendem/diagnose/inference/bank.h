@@ -3,8 +3,7 @@
 #ifndef CALENDEM_DIAGNOSE_INFERENCE_BANK_H
 #define CALENDEM_DIAGNOSE_INFERENCE_BANK_H
 
-#include "diagnose/inference/observable.h"
-#include "diagnose/inference/prior.h"
+#include "diagnose/inference/quantities.h"
 #include <functional>
 #include <utility>
 

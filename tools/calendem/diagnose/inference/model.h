@@ -3,8 +3,8 @@
 #ifndef CALENDEM_DIAGNOSE_INFERENCE_MODEL_H
 #define CALENDEM_DIAGNOSE_INFERENCE_MODEL_H
 
-#include "diagnose/inference/next_measurement.h"
 #include "diagnose/inference/scatter.h"
+#include "diagnose/inference/which.h"
 #include <map>
 #include <memory>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/pack/from_structure.h"
-#include "electrode/pack/placement.h"
-#include "electrode/pack/sizes.h"
-#include "electrode/structure/particle_mask.h"
+#include "electrode/pack/body.h"
+#include "electrode/pack/packing_state.h"
+#include "electrode/structure/measured_shape.h"
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>

@@ -6,7 +6,7 @@
 
 #include "base/recipe.h"
 #include "electrode/pack/body.h"
-#include "electrode/pack/placement.h"
+#include "electrode/pack/packing_state.h"
 #include "electrode/structure/existing_structure.h"
 
 namespace calendem {

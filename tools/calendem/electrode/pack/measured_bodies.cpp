@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/pack/measured_bodies.h"
 #include "base/provenance.h"
-#include "electrode/pack/sizes.h"
+#include "electrode/pack/body.h"
 #include "physics/pi.h"
 #include <algorithm>
 #include <fmt/format.h>

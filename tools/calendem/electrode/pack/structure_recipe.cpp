@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/pack/from_structure.h"
-#include "electrode/pack/placement.h"
+#include "electrode/pack/packing_state.h"
 #include "physics/pi.h"
 #include <algorithm>
 #include <cmath>

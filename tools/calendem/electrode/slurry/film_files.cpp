@@ -2,7 +2,7 @@
 #include "electrode/slurry/film_files.h"
 #include "base/random.h"
 #include "electrode/pack/electrode_files.h"
-#include "electrode/pack/placement.h"
+#include "electrode/pack/packing_state.h"
 #include "physics/pi.h"
 #include <algorithm>
 #include <cmath>

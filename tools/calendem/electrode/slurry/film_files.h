@@ -5,7 +5,7 @@
 #define CALENDEM_ELECTRODE_SLURRY_FILM_FILES_H
 
 #include "electrode/pack/description.h"
-#include "electrode/pack/placement.h"
+#include "electrode/pack/packing_state.h"
 #include "electrode/slurry/dry.h"
 #include <nlohmann/json_fwd.hpp>
 #include <string>

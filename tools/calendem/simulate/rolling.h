@@ -4,8 +4,8 @@
 // cell sees its own passage only, and what the load will be is known when it is over: the passage
 // is rehearsed, every time from the electrode as packed, until the load agrees. A rehearsal is a
 // run at a gap in every respect; the last one is the result.
-#ifndef CALENDEM_SIMULATE_LINE_LOAD_H
-#define CALENDEM_SIMULATE_LINE_LOAD_H
+#ifndef CALENDEM_SIMULATE_ROLLING_H
+#define CALENDEM_SIMULATE_ROLLING_H
 
 #include "simulate/collect.h"
 

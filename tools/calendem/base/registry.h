@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The messages when a key of a TOML file holds what it may not.
-#ifndef CALENDEM_BASE_KEY_H
-#define CALENDEM_BASE_KEY_H
+// What the registry knows, for messages: what a key may hold, and an effect by its name, as JSON.
+#ifndef CALENDEM_BASE_REGISTRY_H
+#define CALENDEM_BASE_REGISTRY_H
 
+#include "registry/effects.h"
 #include "registry/key.h"
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +28,17 @@ int edit_distance(const std::string &a, const std::string &b);
 /// The key that a user who wrote `name` most likely meant: the same last part in another table, the
 /// input scripts' name of it, else the closest spelling.
 std::string likely_meant(const std::string &name, const std::vector<Key> &keys);
+
+/// Throws Failure(2) with the names there are.
+const Effect &find_effect(const std::string &name);
+
+/// The first key that its parameter moves, of the case or of the recipe.
+const Key &key_of(const Effect &effect);
+
+/// Folder in tests/ that checks it.
+std::string folder_of_tests(const Effect &effect);
+
+nlohmann::json to_json(const Effect &effect);
 
 } // namespace calendem
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "commands/generated_files.h"
-#include "base/effects.h"
+#include "commands/commands.h"
+#include "base/registry.h"
 #include "registry/settings.h"
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
 
 namespace calendem {
+
 namespace {
 
 constexpr const char *kMade =
