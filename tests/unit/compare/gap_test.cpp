@@ -316,6 +316,12 @@ TEST(HeatMap, ConditionsStandOnceInTheOrderGiven) {
   EXPECT_EQ(second[1]["text"], "–");
 }
 
+TEST(Shown, WritesAMinusForPeople) {
+  EXPECT_EQ(shown(-0.46, "{:+.1f}"), "−0.5");
+  EXPECT_EQ(shown(0.46, "{:+.1f}"), "+0.5");
+  EXPECT_EQ(shown(nullptr, "{:.2f}"), "–");
+}
+
 TEST(GapPage, HoldsItsNumbers) {
   const nlohmann::json j = to_json(find_gap(paper(), {pressed_to(150, 0.2997, "a")}));
   const std::string page = gap_page(j);

@@ -51,7 +51,7 @@ json measurements_of(const json &which) {
                     {"cost", shown(m["cost"], "{:.3g}")},
                     {"expected", fmt::format("{:.0f} → {:.0f}", 100.0 * m["now"].get<double>(),
                                              100.0 * m["expected_probability"].get<double>())},
-                    {"per_cost", fmt::format("{:+.1f}", 100.0 * m["per_cost"].get<double>())}});
+                    {"per_cost", shown(100.0 * m["per_cost"].get<double>(), "{:+.1f}")}});
   for (const json &m : which["not_in_bank"])
     rows.push_back({{"what", m["what"]},
                     {"cost", shown(m["cost"], "{:.3g}")},

@@ -67,7 +67,7 @@ json observable_of(const json &o) {
   const double sd = o["sd"];
   const auto off = [&](const char *key) {
     const double by = (number(o, key) - number(o, "measured")) / sd;
-    return std::isfinite(by) ? fmt::format("{:+.1f}", by) : "–";
+    return std::isfinite(by) ? shown(by, "{:+.1f}") : "–";
   };
   return {{"condition", o["condition"]},
           {"name", o["name"]},

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "predict/prediction.h"
-#include "base/liggghts_job.h"
 #include "base/messages.h"
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
@@ -291,16 +290,6 @@ OwnRuns usable(const std::vector<Draw> &draws, const std::vector<std::string> &f
   return out;
 }
 
-void make(const Study &study, const StudyOptions &options) {
-  try {
-    make_study(study, options);
-  } catch (const Failure &f) {
-    if (f.exit_status() == kBadInput || stop_requested() != 0)
-      throw;
-    fmt::print("predict: {}\nDraws with such runs are left out.\n", f.what());
-  }
-}
-
 } // namespace
 
 std::vector<Draw> some_draws(const Calibration &c, int runs) {
@@ -340,8 +329,7 @@ ByRuns by_runs(const FilmBank &bank, const Calibration &c, const Recipe &recipe,
                const std::vector<double> &pressures, int runs, const StudyOptions &options) {
   const std::vector<Draw> draws = some_draws(c, runs);
   const Study study = own_runs(bank, draws, recipe, pressures);
-  make(study, options);
-  const OwnRuns own = usable(draws, finished_runs(study, options));
+  const OwnRuns own = usable(draws, make_what_runs(study, options, "Draws"));
   if (int(own.draws.size()) < kFewestOwnRuns)
     throw Failure(kSimulationFailed,
                   fmt::format("{}: {} of {} draws have all their runs, {} are needed; see {}/runs.",

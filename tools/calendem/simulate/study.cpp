@@ -64,6 +64,18 @@ void make_study(const Study &study, StudyOptions o) {
   stop_if_failed(making);
 }
 
+std::vector<std::string> make_what_runs(const Study &study, const StudyOptions &options,
+                                        const std::string &parts) {
+  try {
+    make_study(study, options);
+  } catch (const Failure &f) {
+    if (f.exit_status() == kBadInput || stop_requested() != 0)
+      throw;
+    fmt::print("study: {}\n{} with such runs are left out.\n", f.what(), parts);
+  }
+  return finished_runs(study, options);
+}
+
 namespace {
 
 const char *const kNumbers[] = {"max_pressure_MPa",

@@ -40,6 +40,11 @@ void make_study(const Study &study, StudyOptions options);
 /// Folders of the runs in their order; empty where a run is not done or its checks did not hold.
 std::vector<std::string> finished_runs(const Study &study, StudyOptions options);
 
+/// Makes the study and goes on where runs fail, saying that `parts` ("Draws") with such runs are
+/// left out; bad input and a stop are thrown. Returns finished_runs().
+std::vector<std::string> make_what_runs(const Study &study, const StudyOptions &options,
+                                        const std::string &parts);
+
 /// Header of study.csv: number, status, folders, the varied settings, then numbers of summary.json
 /// and, for every pressure of the study, displacement, thickness, broken fraction and total
 /// porosity at the compression's first crossing. Pressures MPa, lengths um.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/make.h"
-#include "base/liggghts_job.h"
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "base/random.h"
@@ -38,16 +37,6 @@ std::string secret_of(const MakeOptions &o) {
   const std::string secret = o.seed ? wanted : random_secret();
   write_file(file, secret);
   return secret;
-}
-
-void run_truths(const Study &study, const StudyOptions &options) {
-  try {
-    make_study(study, options);
-  } catch (const Failure &f) {
-    if (f.exit_status() == kBadInput || stop_requested() != 0)
-      throw;
-    fmt::print("withheld: {}\nTruths with such runs are left out.\n", f.what());
-  }
 }
 
 /// What the press shows of each truth; empty where a run is not usable.
@@ -140,9 +129,8 @@ void make_round(const MakeOptions &given) {
   options.folder = o.folder + "/sealed/study";
   options.liggghts = o.liggghts;
   options.jobs = o.jobs;
-  run_truths(study, options);
-  const auto shown = shown_runs(finished_runs(study, options), std::size_t(round.samples),
-                                round.bank.pressures.size());
+  const auto shown = shown_runs(make_what_runs(study, options, "Truths"),
+                                std::size_t(round.samples), round.bank.pressures.size());
   std::vector<PressedTruth> pressed;
   auto pair = shown.begin() + std::ptrdiff_t(truths.size());
   for (std::size_t k = 0; k < truths.size(); ++k) {

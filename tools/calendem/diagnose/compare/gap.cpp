@@ -334,7 +334,12 @@ void add(std::vector<std::string> &list, const std::string &name) {
 } // namespace
 
 std::string shown(const nlohmann::json &number, const char *format) {
-  return number.is_number() ? fmt::format(fmt::runtime(format), number.get<double>()) : "–";
+  if (!number.is_number())
+    return "–";
+  std::string text = fmt::format(fmt::runtime(format), number.get<double>());
+  if (text.front() == '-')
+    text.replace(0, 1, "−");
+  return text;
 }
 
 std::string shown_unit(const std::string &unit) { return unit == "um" ? "µm" : unit; }

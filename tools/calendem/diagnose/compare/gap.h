@@ -77,7 +77,7 @@ std::string gap_page(const nlohmann::ordered_json &gap);
 nlohmann::json heat_map(const nlohmann::json &where, double threshold,
                         const std::vector<std::string> &conditions = {});
 
-/// A JSON number in that format; a dash where it is none.
+/// A JSON number in that format, for people: with a minus, not a hyphen; a dash where it is none.
 std::string shown(const nlohmann::json &number, const char *format);
 
 /// A unit of gap.json as a reader writes it.
