@@ -75,7 +75,8 @@ y_um = 6
 END
 refuses "or predict it by runs of its own (--runs)" predict model/model.json other.toml
 refuses "one by one" predict model/model.json other.toml --runs 4
-refuses "without --vary" predict model/model.json other.toml --runs 4 --pressure 10,30 --press-percent 5
+refuses "without --vary" predict model/model.json other.toml --runs 4 --pressure 10,30 --vary porosity_before_percent=40
+refuses "two or more to --pressure" predict model/model.json other.toml --runs 4 --pressure 30 --press-percent 5
 by_runs() { calendem predict model/model.json other.toml --pressure 10,30 --runs 4 --jobs 2 -o own; }
 by_runs
 cp own/prediction.csv first.csv

@@ -34,7 +34,7 @@ case $case in
     runs_from "$work/moved" ;;
   deb)
     [ "${CALENDEM_HEAVY:-0}" = 1 ] || { echo "skipped: packaging.deb runs with tools/test --all"; exit 77; }
-    for tool in dpkg-deb dpkg-shlibdeps; do has $tool || { echo "skipped: no $tool"; exit 77; }; done
+    for tool in dpkg-deb dpkg-shlibdeps file; do has $tool || { echo "skipped: no $tool"; exit 77; }; done
     "$packaging/make-deb" --no-install-dependencies | tee "$work/log"
     deb=$(tail -n 1 "$work/log")
     dpkg-deb --field "$deb" Depends | tee "$work/depends"

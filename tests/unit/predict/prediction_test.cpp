@@ -48,6 +48,20 @@ TEST(Predicted, APressOfUncertainPressureWidens) {
   EXPECT_GT(width(0.2), 1.5 * width(0.0));
 }
 
+TEST(AddPressError, IsTheSlopeTimesTheErrorOfTheLogarithm) {
+  // Two draws of one slope, 0.04 to a factor of e below 50 MPa and 0.02 above.
+  const double e = std::exp(1.0);
+  const std::vector<double> pressures = {50.0 / e, 50.0, 50.0 * e};
+  Guesses draws = {{{0.34, 0.0}, {0.30, 1e-4}, {0.28, 0.0}},
+                   {{0.36, 0.0}, {0.32, 1e-4}, {0.30, 0.0}}};
+  add_press_error(draws, pressures, 0.1);
+  for (const std::vector<Guess> &d : draws) {
+    EXPECT_NEAR(d[0].variance, 16e-6, 1e-12);
+    EXPECT_NEAR(d[1].variance, 1e-4 + 9e-6, 1e-12); // the mean of both slopes
+    EXPECT_NEAR(d[2].variance, 4e-6, 1e-12);
+  }
+}
+
 // What an emulator says and what a run gives are corrected alike.
 TEST(GivenData, IsTheEmulatorAndWhatTheModelMisses) {
   Calibration c = exact();

@@ -5,6 +5,7 @@
 #include "predict/pages.h"
 #include "predict/prediction.h"
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
@@ -96,6 +97,8 @@ std::vector<double> pressures_of(const std::string &text) {
     throw Failure(kBadInput, fmt::format("--pressure is '{}'; a range is LOW:HIGH in MPa.", text));
   if (range)
     out = spread_pressures(out[0], out[1], 25);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }
 
@@ -183,13 +186,15 @@ ByRuns run_film(const Asked &a, const PredictOptions &o, std::size_t recipe,
   fmt::print("{}: {}: {} runs, {} draws of the material at {} pressures\n", study.verb,
              o.recipes[recipe], o.runs * pressures.size(), o.runs, pressures.size());
   return by_runs(a.model.bank, a.model.calibration, read_recipe(o.recipes[recipe]), pressures,
-                 o.runs, study);
+                 o.press_percent / kPercent, o.runs, study);
 }
 
 std::vector<PredictedFilm> films_by_runs(const Asked &a, const PredictOptions &o) {
-  if (!o.vary.empty() || o.press_percent > 0.0)
-    throw Failure(kBadInput, "--runs goes with recipes as they are, at the pressures asked for: "
-                             "without --vary and --press-percent.");
+  if (!o.vary.empty())
+    throw Failure(kBadInput, "--runs goes with recipes as they are: without --vary.");
+  if (o.press_percent > 0.0 && a.pressures.size() < 2)
+    throw Failure(kBadInput, "--press-percent with --runs needs the slope between pressures: give "
+                             "two or more to --pressure, or leave it out.");
   if (o.pressures.find(':') != std::string::npos)
     throw Failure(kBadInput, "--runs needs pressures one by one: each is so many simulations. Give "
                              "--pressure 80,150.");

@@ -325,8 +325,26 @@ Study own_runs(const FilmBank &bank, const std::vector<Draw> &draws, const Recip
   return bank_study(spec, points);
 }
 
+void add_press_error(Guesses &draws, const std::vector<double> &pressures, double pressure_sd) {
+  const std::size_t last = pressures.size() - 1;
+  const auto mean_at = [&](std::size_t k) {
+    double sum = 0.0;
+    for (const std::vector<Guess> &d : draws)
+      sum += d[k].mean;
+    return sum / double(draws.size());
+  };
+  for (std::size_t k = 0; k <= last; ++k) {
+    const std::size_t low = k > 0 ? k - 1 : 0, high = std::min(k + 1, last);
+    const double slope =
+        (mean_at(high) - mean_at(low)) / std::log(pressures[high] / pressures[low]);
+    for (std::vector<Guess> &d : draws)
+      d[k].variance += std::pow(slope * pressure_sd, 2);
+  }
+}
+
 ByRuns by_runs(const FilmBank &bank, const Calibration &c, const Recipe &recipe,
-               const std::vector<double> &pressures, int runs, const StudyOptions &options) {
+               const std::vector<double> &pressures, double pressure_sd, int runs,
+               const StudyOptions &options) {
   const std::vector<Draw> draws = some_draws(c, runs);
   const Study study = own_runs(bank, draws, recipe, pressures);
   const OwnRuns own = usable(draws, make_what_runs(study, options, "Draws"));
@@ -350,6 +368,10 @@ ByRuns by_runs(const FilmBank &bank, const Calibration &c, const Recipe &recipe,
       throw Failure(kSimulationFailed,
                     fmt::format("{}: no run says what is predicted; see {}/runs.", recipe.file,
                                 options.folder));
+  if (pressure_sd > 0.0)
+    for (auto &[number, draws_of_number] : all)
+      if (!draws_of_number.empty())
+        add_press_error(draws_of_number, pressures, pressure_sd);
   ByRuns out;
   out.of = [all](FilmNumber number) { return all.at(number); };
   out.predicted = predicted_from(film, pressures, out.of);

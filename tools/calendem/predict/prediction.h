@@ -120,11 +120,17 @@ struct ByRuns {
   GuessesOf of; ///< at its pressures
 };
 
+/// Adds what an error of the press's pressure adds (`pressure_sd` of its logarithm): the slope is
+/// that of the mean of all draws between the neighbours of each of two pressures or more, ascending.
+void add_press_error(Guesses &draws, const std::vector<double> &pressures, double pressure_sd);
+
 /// Makes the runs in `options.folder`; the same call goes on where it was. To what a run gives, the
-/// model error is added as the calibration left it; packings and parameters scatter the runs
-/// themselves. Throws Failure(3) where fewer than kFewestOwnRuns draws have all their runs.
+/// model error is added as the calibration left it, and that of the press; packings and parameters
+/// scatter the runs themselves. Throws Failure(3) where fewer than kFewestOwnRuns draws have all
+/// their runs.
 ByRuns by_runs(const FilmBank &bank, const Calibration &calibration, const Recipe &recipe,
-               const std::vector<double> &pressures, int runs, const StudyOptions &options);
+               const std::vector<double> &pressures, double pressure_sd, int runs,
+               const StudyOptions &options);
 
 } // namespace calendem
 
