@@ -41,7 +41,7 @@ inline Effect friction() {
                  0.7};
   e.moves = "more pressure from 1 to 30 MPa on, more hysteresis, a gradient through the thickness";
   e.source = "public calendering decks use 0.001; 0.3-0.6 is usual for dry mineral grains";
-  e.law = "hertz_contact.h";
+  e.law = "hertz_mindlin.h";
   e.verification = "collision";
   return e;
 }
@@ -56,7 +56,7 @@ inline Effect nmc_plasticity() {
                 hardening("effects.nmc_plasticity.hardening_GPa", "nmc_yield_hardening_GPa")};
   e.parameter = strength(e.settings[0], 1.5, 12, Spread::LogUniform, AmplitudeScale::Reciprocal, 0);
   e.contact = {&kPlasticContact, {{Phase::Am, Phase::Am}, {Phase::Am, Phase::Platen}}};
-  e.moves = "lower pressure above some 50 MPa, steeper unloading, no more breaks";
+  e.moves = "lower pressure above some 50 MPa, steeper unloading, fewer cracked particles";
   e.source = "Thornton 1997; hardness of NMC grains 1-12 GPa is an unsourced prior";
   e.law = kPlasticContact.header;
   e.verification = "plastic_contact";
