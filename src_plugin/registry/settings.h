@@ -50,7 +50,8 @@ inline std::vector<Key> base_settings() {
        "broke: the sum of their radii, or the spacing of their lattice",
        "radii|lattice"},
       {"bond.damping", "bond_damping", "0.02", 0, 1, "", "fraction of critical damping"},
-      {"bond.weibull_modulus", "weibull_m", "0", 0, 100, "", "scatter of strength; 0: none"},
+      {"bond.weibull_modulus", "weibull_m", "0", 0, 100, "",
+       "scatter of strength, at least 1; 0: none"},
       {"bond.seed", "bond_seed", "1", 0, 4e9, "", "of the scatter", "", false, true},
       {"imposed.cbd_nanoporosity_until_MPa", "cbd_imposed_MPa", "0", 0, 2000, "MPa",
        "pressure of the platen up to which nanoporosity falls from initial to floor in all CBD "
@@ -91,7 +92,8 @@ inline std::vector<Key> base_settings() {
        "have that"},
       {"roll.elongation_percent", "elongation_percent", "0", 0, 5, "%",
        "of foil and film along the web, in proportion to the fall of the gap; it stays"},
-      {"numerics.timestep_us", "dt_us", "0", 0, 1, "us", "0: timestep_fraction of the bound"},
+      {"numerics.timestep_us", "dt_us", "0", 0, 1, "us",
+       "at least 1e-6; 0: timestep_fraction of the bound"},
       {"numerics.timestep_fraction", "dt_fraction", "0.8", 0.01, 1, "", "of the bond-aware bound"},
       {"numerics.average_us", "average_us", "0", 0, 100, "us",
        "averaging window of pressure and gap; 0: 0.1 um at the platen's highest speed"},
@@ -100,7 +102,8 @@ inline std::vector<Key> base_settings() {
        "between rows of the curve; at most 0.1 um at the platen's highest speed"},
       {"output.vtk_every_us", "vtk_every_us", "2", 1e-3, 1e4, "us", "between frames"},
       {"output.restart_every_us", "restart_every_us", "5", 1e-2, 1e5, "us",
-       "between restart files"},
+       "between restart files; each ends a step where the host rebuilds its lists, so that another "
+       "interval is another run"},
   };
 }
 

@@ -5,7 +5,11 @@
 #include "base/provenance.h"
 #include "commands/commands.h"
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <fmt/core.h>
+#include <iostream>
+#include <new>
+#include <nlohmann/json.hpp>
 
 int main(int argc, char **argv) {
   CLI::App app{"Calendering of battery electrodes: pack an electrode, press it, report."};
@@ -40,8 +44,22 @@ int main(int argc, char **argv) {
   } catch (const calendem::Failure &e) {
     fmt::print(stderr, "{}\n", e.what());
     return e.exit_status();
+  } catch (const std::bad_alloc &) {
+    fmt::print(stderr,
+               "not enough memory. Take a smaller cell or image, or a machine with more.\n");
+    return calendem::kBadInput;
+  } catch (const nlohmann::json::exception &e) {
+    fmt::print(stderr,
+               "a JSON file is not as calendem writes it ({}). Was it edited, or made by "
+               "another version? Make it again.\n",
+               e.what());
+    return calendem::kBadInput;
   } catch (const std::exception &e) {
     fmt::print(stderr, "calendem: {}\n", e.what());
+    return calendem::kBadInput;
+  }
+  if (std::fflush(stdout) != 0 || !std::cout.flush()) {
+    fmt::print(stderr, "the output could not be written. Is the disk full?\n");
     return calendem::kBadInput;
   }
   return calendem::kDone;

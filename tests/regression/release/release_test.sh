@@ -17,7 +17,7 @@ release() { # SPEED WINDOW: from $work/pressed
   rm -rf "$folder"
   cp -r "$work/pressed" "$folder"
   script in.relaxation "$folder" "${settings[@]}" -var release_speed_m_s "$1" -var average_us "$2"
-  sed -i "s/^release_speed_m_s .*/release_speed_m_s $1/; s/^average_us .*/average_us $2/" "$folder/settings.txt"
+  sed -i "s/^\(variable release_speed_m_s index\) .*/\1 $1/; s/^\(variable average_us index\) .*/\1 $2/" "$folder/settings.txt"
   "$bin/calendem" collect "$folder" --electrode "$electrode" >"$folder/collect.txt" 2>&1 ||
     { cat "$folder/collect.txt"; fail "$folder could not be collected"; }
 }

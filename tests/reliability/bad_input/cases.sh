@@ -325,6 +325,43 @@ too_many_ranks() {
   expect 2 calendem run "$work/case.toml" -o "$work/run" --ranks 4000
   says "--ranks 4000: a cell of 6 x 6 um can be shared by at most 9 ranks"
 }
+keys_that_do_not_act() {
+  printf '%s\n' 'electrode = "e"' '[platen]' 'thickness_um = 14' | file case.toml
+  refused case.toml "platen.thickness_um is 14 but platen.control is \"pressure\"" "Give control = \"thickness\""
+  printf '%s\n' 'electrode = "e"' '[bond]' 'weibull_modulus = 0.5' '[numerics]' 'timestep_us = 1e-9' | file case.toml
+  refused case.toml "bond.weibull_modulus is 0.5; give 0 or at least 1" "numerics.timestep_us is 1e-09; give 0 or at least 1e-06"
+  printf '%s\n' '[cell]' 'x_um = 1000' 'y_um = 1000' | file recipe.toml
+  expect 2 calendem pack "$work/recipe.toml" -o "$work/out"
+  says "spheres" "Make the cell smaller"
+}
+curve_out_of_order() {
+  printf '%s\n' '[coating]' 'loading_mg_cm2 = 4' | file recipe.toml
+  experiment() { # LINES of the condition
+    printf '%s\n' '[experiment]' 'name = "x"' 'electrode = "recipe.toml"' '[[condition]]' 'id = "a"' \
+      'control = "pressure"' 'max_pressure_MPa = 100' "$@" | file experiment.toml
+  }
+  experiment 'curve = "newest_first.csv"'
+  { echo displacement_um,pressure_MPa; for k in $(seq 100 -1 0); do echo "$(awk "BEGIN{print 0.04*$k}"),$k"; done; } | file newest_first.csv
+  refused experiment.toml "begins at 100 MPa, its highest pressure is 100" "in the order of time"
+  experiment 'porosity_after_percent = { value = 70, sd = 1 }'
+  refused experiment.toml "porosity_after_percent is 70, the film has 47.97 before"
+  experiment 'cracked_bodies_fraction = 0'
+  refused experiment.toml "cracked_bodies_fraction is 0 without an sd"
+}
+confirming_fails() { # what the emulators say is there
+  printf '%s\n' '[coating]' 'porosity_total_percent = 44' | file recipe.toml
+  expect 0 calendem calibrate "$scripts/cases/paper/experiment.toml" -o "$work/model"
+  expect 3 calendem design "$work/model/model.json" "$work/recipe.toml" --porosity 30 --within 2 --confirm 4 \
+    --liggghts /bin/false -o "$work/design"
+  says "meets the target" "The rest is written."
+  [ -s "$work/design/design.html" ] || fail "no page"
+}
+option_not_a_number() {
+  expect 1 calendem design model.json recipe.toml --porosity nan -o "$work/d"
+  says "nan is no number in [1 - 79]"
+  expect 1 calendem measure "$work" -o "$work/m" --voxel-um nan
+  says "nan is no number in"
+}
 output_is_a_file() {
   printf '%s\n' '[cell]' 'x_um = 6' 'y_um = 6' | file recipe.toml
   touch "$work/out"
@@ -574,6 +611,37 @@ two_runs_in_one_folder() {
   says "another run is writing into '$work/run'"
   kill -TERM "$running"
   ended_with 3
+}
+files_of_others() { # nothing is replaced that the command did not write
+  a_case "$electrode" "${quick[@]}"
+  expect 2 calendem run "$work/case.toml" -o "$electrode"
+  says "the folder of the electrode"
+  expect 2 calendem run "$work/case.toml" -o "$work"
+  says "case.toml' was not written by this command"
+  expect 0 run
+  mv "$work/run/summary.json" "$work/kept.json"
+  expect 2 run
+  says "holds 'curve_raw.csv' but no summary.json" "--force"
+  [ -s "$work/run/curve_raw.csv" ] || fail "the run was removed"
+  mv "$work/kept.json" "$work/run/summary.json"
+  printf '%s\n' '[cell]' 'x_um = 6' 'y_um = 6' | file recipe.toml
+  expect 2 calendem pack "$work/recipe.toml" -o "$work/run"
+  says "holds a run, whose bodies.csv would be replaced"
+  expect 2 calendem sample "$work/run" "$work/run" --one gap -o "$work/sample"
+  says "is given twice"
+  mkdir -p "$work/x;y"
+  expect 2 calendem run "$work/case.toml" -o "$work/x;y"
+  says "LIGGGHTS cannot take a path with"
+}
+report_in_place_of_results() {
+  a_case "$electrode" "${quick[@]}"
+  expect 0 run
+  for name in summary.html curve.csv electrode.html; do
+    expect 2 calendem report "$work/run" -o "$work/run/$name"
+    says "ends in .html and is not summary, electrode or structure"
+  done
+  printf '{' >"$work/run/electrode.json"
+  expect 2 calendem report "$work/run"
 }
 another_case_in_folder() {
   a_case "$electrode" "${quick[@]}"

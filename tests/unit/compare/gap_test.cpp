@@ -258,6 +258,25 @@ TEST(Observables, UnloadingIsNoPartOfLoading) {
   EXPECT_EQ(all[3].name, "displacement at 75 MPa");
 }
 
+// Shares are 10 to 75 % of the largest pressure; a curve from 30 % on says nothing of the lower ones.
+TEST(Observables, ACurveThatBeginsLateHasTheRest) {
+  const auto all = of_curve("displacement_um,pressure_MPa\n5,30\n10,50\n20,100\n");
+  EXPECT_LT(all.size(), 4u);
+  EXPECT_GT(all.size(), 0u);
+  for (const Observable &o : all)
+    EXPECT_TRUE(std::isfinite(o.measured)) << o.name;
+}
+
+// The peak of a coarse curve stands out of its neighbours, and is no outlier.
+TEST(Observables, ThePeakOfACoarseCurveCounts) {
+  std::string rows = "displacement_um,pressure_MPa,stage\n";
+  for (int p = 0; p <= 150; p += 15)
+    rows += std::to_string(0.1 * p) + "," + std::to_string(p) + ",loading\n";
+  for (int p = 135; p >= 0; p -= 15)
+    rows += std::to_string(12.0 + 0.02 * p) + "," + std::to_string(p) + ",unloading\n";
+  EXPECT_EQ(of_curve(rows)[3].name, "displacement at 112 MPa"); // 75 % of 150
+}
+
 // A roll gap counts by its pressure, a curve by its largest displacement.
 TEST(Belongs, ControlsThatARunCanHave) {
   SimulatedRun r = pressed_to(150, 0.3, "a");

@@ -82,6 +82,17 @@ TEST(PooledRepeats, SpecimensPressedAlikeAreOneConditionKnownBetter) {
   EXPECT_EQ(data_of(e, bank, {}).experiment.of.size(), 4 * one.experiment.of.size());
 }
 
+// Two discs, each read twice: two groups of two specimens, not three specimens and one left over.
+TEST(PooledRepeats, ASpecimenReadTwiceIsNoFurtherSpecimen) {
+  Experiment e = four_of_each();
+  const char *const disc[] = {"A", "A", "B", "B"};
+  for (std::size_t k = 0; k < e.conditions.size(); ++k)
+    e.conditions[k].specimen = disc[k % 4];
+  const ExperimentData data = data_of(e, made_bank(), {});
+  EXPECT_TRUE(reported(data.not_said, "p30a, p30c are 2 specimens"));
+  EXPECT_TRUE(reported(data.not_said, "p30b, p30d are 2 specimens"));
+}
+
 TEST(PooledRepeats, AReadingThatStandsOutIsReportedAndHardlyMovesTheMean) {
   Experiment e = four_of_each();
   const double right = e.conditions[0].porosity_after_percent->value;

@@ -158,7 +158,7 @@ TEST(Settings, ScriptsHaveEverySetting) {
   for (const Key &key : case_keys())
     if (!key.variable.empty()) {
       EXPECT_NE(files[0].text.find("variable " + key.variable + " "), std::string::npos);
-      EXPECT_NE(files[1].text.find("\"" + key.variable + " ${"), std::string::npos);
+      EXPECT_NE(files[1].text.find("\"variable " + key.variable + " index ${"), std::string::npos);
     }
 }
 

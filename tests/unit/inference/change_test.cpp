@@ -31,6 +31,22 @@ TEST(ChangeOf, NothingChangesWithoutAnEffect) {
   }
 }
 
+// Its scores count from what the experiment before left; parameters are shown in their units.
+TEST(ChangeOf, ParametersAreThoseFoundBefore) {
+  const Change c;
+  const Problem p = c.problem(Vector::Zero(c.predicted.size()));
+  const Diagnosis d = diagnose(c.model, p, c.bank, c.predicted, DiagnosisSettings{});
+  for (std::size_t j = 0; j < c.bank.base.size(); ++j) {
+    const Prior &prior = c.bank.base[j].prior;
+    const double sd = std::sqrt(c.base.covariance(Eigen::Index(j), Eigen::Index(j))),
+                 mean = c.base.mean[Eigen::Index(j)];
+    EXPECT_GT(d.parameters[j].mode, prior.value(mean - 0.2 * sd));
+    EXPECT_LT(d.parameters[j].mode, prior.value(mean + 0.2 * sd));
+    EXPECT_NEAR(d.parameters[j].low90, prior.value(mean - 1.64 * sd),
+                0.3 * std::fabs(prior.value(mean) - prior.value(mean - 1.64 * sd)));
+  }
+}
+
 /// Five-point differences of step h = 0.02: h^4 / 30 fifth derivatives, and of an emulator's
 /// variance, a small difference of priors of 25, some 1e-9 / h of rounding.
 Prediction along(const Problem &p, const Vector &scores, Eigen::Index which) {

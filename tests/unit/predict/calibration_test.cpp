@@ -41,6 +41,16 @@ TEST(Calibrate, WithoutDataNothingIsLearnt) {
   EXPECT_NEAR(c.hypotheses[0].effective_samples, 1024.0, 1e-6);
 }
 
+// A measured film is known by what it is, whatever it is called.
+TEST(Calibrate, AFilmsNameIsNoEvidence) {
+  const Film a = made_film("a", 48.0, 2.0), renamed = made_film("z", 48.0, 2.0);
+  EXPECT_TRUE(is_same_film(a, renamed));
+  EXPECT_FALSE(is_same_film(a, made_film("a", 48.0, 2.5)));
+  Film thick = a;
+  thick.loading = 17.0;
+  EXPECT_FALSE(is_same_film(a, thick));
+}
+
 // The product of the binder's stiffness and the root of the strength is what porosity shows: its logarithm has a
 // standard deviation of 0.33 before the data.
 TEST(Calibrate, FindsWhatTheDataShow) {
@@ -95,7 +105,8 @@ TEST(GivenData, APartOfTheModelsErrorIsSharedBetweenFilms) {
            given_data(bank, without, draw, wanted)[0].mean;
   };
   EXPECT_NEAR(pulled(c.films[0], 80.0), 0.02, 0.004);
-  EXPECT_NEAR(pulled(made_film("b", 48.0, 2.0), 80.0), 0.01, 0.002);
+  EXPECT_NEAR(pulled(made_film("b", 48.1, 2.0), 80.0), 0.01, 0.002);
+  EXPECT_DOUBLE_EQ(pulled(made_film("b", 48.0, 2.0), 80.0), pulled(c.films[0], 80.0));
   EXPECT_NEAR(pulled(c.films[0], 80.0 * std::exp(1.0)), 0.02 * std::exp(-0.5), 0.004);
 }
 

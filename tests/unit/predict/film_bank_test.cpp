@@ -70,7 +70,7 @@ TEST(FilmBank, TooFewPressuresAreRefused) {
 TEST(FilmBank, TheFullCellShiftsFilmsOfItsLoading) {
   BankTable table = made_coatings();
   table.spec.full_cell.points = 3;
-  for (BankPoint point : full_cell_points(table.spec))
+  for (const BankPoint &point : full_cell_points(table.spec))
     for (const double target : table.spec.pressures) {
       BankPoint of_full = point;
       of_full.base[3] = 47.97; // the full cell's own recipe
@@ -88,7 +88,30 @@ TEST(FilmBank, TheFullCellShiftsFilmsOfItsLoading) {
   EXPECT_NEAR(after(shifted).mean, after(made_film_bank()).mean, 1e-12);
   film.loading = 17.46;
   EXPECT_NEAR(after(shifted).mean - after(made_film_bank()).mean, -0.03, 0.006);
-  EXPECT_GT(after(shifted).variance, after(made_film_bank()).variance);
+  EXPECT_DOUBLE_EQ(after(shifted).variance, after(made_film_bank()).variance); // but:
+  const auto covariance = [&](const Film &a, const Film &b) {
+    double sum = 0.0;
+    const auto x = shifted.full_cell_errors(FilmNumber::PorosityAfter, a, 150.0),
+               y = shifted.full_cell_errors(FilmNumber::PorosityAfter, b, 150.0);
+    for (std::size_t k = 0; k < x.size(); ++k)
+      sum += x[k] * y[k];
+    return sum;
+  };
+  Film other = made_film("y", 43.0, 2.5);
+  EXPECT_EQ(covariance(film, other), 0.0); // the bank's own loading
+  other.loading = 17.46;
+  EXPECT_GT(covariance(film, film), 0.0);
+  EXPECT_DOUBLE_EQ(covariance(film, other), covariance(film, film)); // one shift for all films
+}
+
+TEST(FilmBank, ASlopeAtTheBanksEndsIsOneSided) {
+  const FilmBank &bank = made_film_bank();
+  const double step = std::exp(0.05);
+  EXPECT_DOUBLE_EQ(bank.beside(20.0).first, 20.0);
+  EXPECT_DOUBLE_EQ(bank.beside(20.0).second, 20.0 * step);
+  EXPECT_DOUBLE_EQ(bank.beside(300.0).first, 300.0 / step);
+  EXPECT_DOUBLE_EQ(bank.beside(300.0).second, 300.0);
+  EXPECT_DOUBLE_EQ(bank.beside(80.0).first * step * step, bank.beside(80.0).second);
 }
 
 } // namespace

@@ -75,7 +75,7 @@ TEST(GivenData, IsTheEmulatorAndWhatTheModelMisses) {
   c.draws.front().missed = {0.02, 0.5};
   const Wanted wanted = {made_film("other", 44.0, 2.5), FilmNumber::PorosityAfter, {80.0, 300.0}};
   const auto all = given_data(made_film_bank(), c, c.draws.front(), wanted);
-  const auto missed = missed_given_data(made_film_bank(), c, c.draws.front(), wanted);
+  const auto missed = missed_given_data(made_film_bank(), c, c.draws.front(), wanted, false);
   const auto curve =
       made_film_bank().at_pressures(wanted.number, wanted.film, c.draws.front().material);
   for (std::size_t k = 0; k < 2; ++k) {

@@ -151,6 +151,30 @@ void check_effect(const Settings &s, const Effect &e, Mistakes &mistakes) {
     check_relation(s, r, mistakes);
 }
 
+/// Values that are 0 or at least this.
+void check_least(const Settings &s, Mistakes &mistakes) {
+  for (const auto &[key, least] :
+       {std::pair("bond.weibull_modulus", 1.0), std::pair("numerics.timestep_us", 1e-6)})
+    if (s.sound({key}) && s.number(key) > 0.0 && s.number(key) < least)
+      mistakes.add(s.line(key),
+                   fmt::format("{} is {}; give 0 or at least {:g}.", key, s.text(key), least));
+}
+
+/// A target of another control than the case's would not be reached.
+void check_other_targets(const Settings &s, Mistakes &mistakes) {
+  if (!s.sound({"platen.control"}))
+    return;
+  const std::string control = s.text("platen.control");
+  for (const std::string other : {"thickness", "displacement", "roll_gap"}) {
+    const std::string key = "platen." + other + "_um";
+    if (other != control && s.sound({key}) && s.number(key) > 0.0)
+      mistakes.add(s.line(key),
+                   fmt::format("{} is {} but platen.control is \"{}\": the platen would not stop "
+                               "there. Give control = \"{}\", or leave {} out.",
+                               key, s.text(key), control, other, key));
+  }
+}
+
 void check_target(const Settings &s, Mistakes &mistakes) {
   const std::string control = s.text("platen.control");
   if (control == "pressure" || !s.sound({"platen.control", "platen." + control + "_um"}))
@@ -243,6 +267,8 @@ void check_case(const Settings &s, Mistakes &mistakes) {
         check_one_law(s, e, f, mistakes);
   }
   check_target(s, mistakes);
+  check_other_targets(s, mistakes);
+  check_least(s, mistakes);
   check_roll(s, mistakes);
   check_window(s, mistakes);
 }

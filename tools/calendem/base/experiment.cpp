@@ -204,6 +204,28 @@ void check_loading(const std::string &path, const CsvTable &table,
                              path, loaded, highest));
 }
 
+/// Rows from the newest to the oldest, or sorted by another column, turn loading into release.
+void check_order(const std::string &path, const CsvTable &table, int line, Mistakes &mistakes) {
+  constexpr double kBegun = 0.5;    // of the highest pressure
+  constexpr double kMostBack = 0.3; // of the rows up to the highest pressure
+  const std::vector<double> p = table.numbers("pressure_MPa"), d = table.numbers("displacement_um");
+  const auto top = std::max_element(p.begin(), p.end()) - p.begin();
+  if (p.front() > kBegun * p[std::size_t(top)]) {
+    mistakes.add(line, fmt::format("'{}' begins at {:g} MPa, its highest pressure is {:g}. Rows go "
+                                   "in the order of time, from the first touch on.",
+                                   path, p.front(), p[std::size_t(top)]));
+    return;
+  }
+  const double noise = 0.05 * *std::max_element(d.begin(), d.end());
+  int back = 0;
+  for (int k = 1; k <= top; ++k)
+    back += d[std::size_t(k)] < d[std::size_t(k - 1)] - noise;
+  if (back > kMostBack * double(top))
+    mistakes.add(line, fmt::format("'{}': in {} of {} rows up to the highest pressure the platen "
+                                   "goes far back. Rows go in the order of time.",
+                                   path, back, top));
+}
+
 void check_stages(const std::string &path, const CsvTable &table, int line, Mistakes &mistakes) {
   const std::vector<std::string> known = {"loading",   "compression", "dwell",
                                           "unloading", "relaxation",  "hold"};
@@ -258,6 +280,7 @@ void check_curve(const Experiment &e, const Condition &c, int line, Mistakes &mi
       CsvTable::parse({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
   if (!check_columns(c.curve, table, line, mistakes))
     return;
+  check_order(c.curve, table, line, mistakes);
   check_stages(c.curve, table, line, mistakes);
   check_units(c.curve, table, e, c, line, mistakes);
 }

@@ -198,12 +198,38 @@ private:
     if (c.control == "roll_gap")
       needs(t.contains("roll_gap_um"), "roll_gap_um");
     check_foil(e_, c, who, line_of(t), mistakes_);
+    check_porosity(c, who, line_of(t));
+    if (const auto &cracked = c.cracked_bodies_fraction;
+        cracked && cracked->value == 0.0 && cracked->sd == 0.0)
+      mistakes_.add(line_of(t), fmt::format("{}: cracked_bodies_fraction is 0 without an sd; give "
+                                            "{{ value = 0, sd = ... }}, 1 over the number of "
+                                            "particles seen, for example.",
+                                            who));
     if (!c.curve.empty())
       check_curve(e_, c, line_of(*t.get("curve")), mistakes_);
     for (const Condition &other : e_.conditions)
       if (!c.id.empty() && other.id == c.id)
         mistakes_.add(line_of(t),
                       fmt::format("the id \"{}\" is taken by another condition.", c.id));
+  }
+
+  /// Pressing makes no film more porous: far beyond the errors one of the two is another film's.
+  void check_porosity(const Condition &c, const std::string &who, int line) {
+    if (!c.porosity_after_percent || e_.recipe.file.empty())
+      return;
+    constexpr double kFar = 3.0;   // standard deviations
+    constexpr double kSlip = 10.0; // points that a wrong reading may be off; repeats show it
+    const Measured &after = *c.porosity_after_percent;
+    const double before = c.porosity_before_percent ? c.porosity_before_percent->value
+                                                    : 100.0 * e_.recipe.porosity_total,
+                 sd = std::hypot(after.sd, c.porosity_before_percent ? c.porosity_before_percent->sd
+                                                                     : e_.specimen_porosity_points);
+    if (after.value > before + kSlip + kFar * sd)
+      mistakes_.add(line,
+                    fmt::format("{}: porosity_after_percent is {:g}, the film has {:g} before. "
+                                "A film is not more porous after pressing: correct one of "
+                                "them, or the recipe.",
+                                who, after.value, before));
   }
 
   void read_split(const toml::table &head) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/liggghts_job.h"
 #include "base/messages.h"
+#include "base/output_folder.h"
 #include "base/provenance.h"
 #include <algorithm>
 #include <atomic>
@@ -208,11 +209,12 @@ std::string wait_for(pid_t pid, const LiggghtsJob &job, int &status,
 } // namespace
 
 std::string wrong_path(const std::string &path) {
-  return path.find_first_of(" \t\n\"'$#&") == std::string::npos
+  return path.find_first_of(" \t\n\"'$#&*%;()<>|`\\?") == std::string::npos
              ? ""
-             : fmt::format("'{}': LIGGGHTS cannot take a path with a blank, a quote, $, # or & in "
-                           "it. Move the folder, or give another one.",
-                           path);
+             : fmt::format(
+                   "'{}': LIGGGHTS cannot take a path with a blank, a quote or one of "
+                   "$ # & * % ; ( ) < > | ` \\ ? in it. Move the folder, or give another one.",
+                   path);
 }
 
 std::string wrong_program(const std::string &program) {

@@ -94,7 +94,14 @@ std::string liggghts_program() {
   return (fs::exists(installed) ? installed : program_folder() / "liggghts").string();
 }
 
-void write_file(const std::string &name, const std::string &content) {
+void write_file(const std::string &given, const std::string &content) {
+  std::error_code no_link;
+  const std::string name =
+      fs::is_symlink(given, no_link) ? fs::weakly_canonical(given, no_link).string() : given;
+  if (fs::exists(name, no_link) && !fs::is_regular_file(name, no_link))
+    throw Failure(kBadInput, fmt::format("'{}' is no regular file and cannot be written. Give "
+                                         "another name.",
+                                         given));
   // Of this process: tasks of a cluster may write the same file at the same time.
   static const unsigned host = std::random_device{}(); // pids of two machines may be the same
   const std::string part = fmt::format("{}.{}-{:08x}.part", name, getpid(), host);
@@ -111,28 +118,6 @@ void write_file(const std::string &name, const std::string &content) {
                                          "read-only? What was there before is kept.",
                                          name));
   }
-}
-
-std::uintmax_t room_on_disk(const std::string &folder) {
-  std::error_code error;
-  const auto space = fs::space(folder, error);
-  return error ? UINTMAX_MAX : space.available;
-}
-
-void make_output_folder(const std::string &folder, std::uintmax_t room) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!error && access(folder.c_str(), W_OK) != 0)
-    error = std::error_code(errno, std::generic_category());
-  if (error)
-    throw Failure(kBadInput, fmt::format("cannot write into the folder '{}': {}. Give a folder "
-                                         "that you may write to with -o.",
-                                         folder, error.message()));
-  if (room_on_disk(folder) < room)
-    throw Failure(kBadInput, fmt::format("the disk of '{}' has {:.1f} MB left; this run needs at "
-                                         "least {:.1f} MB. Make room or give another folder with "
-                                         "-o.",
-                                         folder, 1e-6 * room_on_disk(folder), 1e-6 * room));
 }
 
 } // namespace calendem

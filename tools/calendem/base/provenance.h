@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // SHA-256 (FIPS 180-4) and Base64 (RFC 4648, with padding) by OpenSSL's libcrypto.
-// Where a result comes from (version, inputs, seeds), and the files and folders it goes into.
+// Where a result comes from (version, inputs, seeds), and the files it goes into.
 #ifndef CALENDEM_BASE_PROVENANCE_H
 #define CALENDEM_BASE_PROVENANCE_H
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 
 namespace calendem {
@@ -36,15 +35,9 @@ std::string liggghts_program();
 std::string text_of_file(const std::string &file);
 
 /// Writes via a file of this process beside it that is renamed when complete, so that several may
-/// write it at once; throws Failure(2) on a full disk.
+/// write it at once; a link stays one. Throws Failure(2) on a full disk, or where `name` is no
+/// regular file.
 void write_file(const std::string &name, const std::string &content);
-
-/// Bytes left on the disk of `folder`; the largest number if that cannot be found out.
-std::uintmax_t room_on_disk(const std::string &folder);
-
-/// Makes the folder of -o. Throws Failure(2) if it cannot be written or its disk has less than
-/// `room` bytes left.
-void make_output_folder(const std::string &folder, std::uintmax_t room = 0);
 
 } // namespace calendem
 

@@ -54,15 +54,17 @@ std::string defaults_in() {
 }
 
 std::string settings_in() {
-  std::string out = "# Writes the run's settings into ${out}/settings.txt, name and value, for "
-                    "`calendem collect`.\n";
+  std::string out =
+      "# Writes the run's settings into ${out}/settings.txt: for in.relaxation, for a "
+      "run that goes on, and for\n# `calendem collect`.\n";
   out += kMade;
   const char *how = "file";
   for (const Key &key : case_keys()) {
     if (key.variable.empty())
       continue;
-    out += fmt::format("print \"{0} ${{{0}}}\" {1} ${{out}}/settings.txt screen no\n", key.variable,
-                       how);
+    out +=
+        fmt::format("print \"variable {0} index ${{{0}}}\" {1} ${{out}}/settings.txt screen no\n",
+                    key.variable, how);
     how = "append";
   }
   return out;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/gap_file.h"
+#include "base/output_folder.h"
 #include "base/provenance.h"
 #include "commands/commands.h"
+#include "commands/finite_range.h"
 #include "diagnose/page.h"
 #include "diagnose/rerun.h"
 #include <CLI/CLI.hpp>
@@ -178,7 +180,7 @@ void add_diagnose_verb(CLI::App &app) {
   verb->add_option("--cells", o->cells,
                    "how many of the bank's cells the sample is as large as (scatter between "
                    "packings counts with its inverse); default: from sample_diameter_mm")
-      ->check(CLI::Range(1.0, 1e12));
+      ->check(finite_range(1.0, 1e12));
   verb->add_flag("--other-electrode", o->other_electrode,
                  "go on though the sample's recipe is not the bank's");
   verb->add_flag("--no-rerun", o->no_rerun, "where and which only: run nothing again");

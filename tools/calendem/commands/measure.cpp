@@ -2,6 +2,7 @@
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "commands/commands.h"
+#include "commands/finite_range.h"
 #include "measure/structure.h"
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -122,10 +123,10 @@ void add_measure_verb(CLI::App &app) {
                    "folder for structure.csv and structure.json (default: the run's)");
   verb->add_option("--voxel-um", a->voxel_um,
                    "voxel size: of a run 0.15; of an image, if its file states none or another")
-      ->check(CLI::Range(0.01, 2.0));
+      ->check(finite_range(0.01, 2.0));
   verb->add_option("--slice-um", a->options.slice_um, "thickness of a slice of the profiles")
       ->capture_default_str()
-      ->check(CLI::Range(0.01, 100.0));
+      ->check(finite_range(0.01, 100.0));
   verb->add_flag("--without-tortuosity", a->without_tortuosity, "it takes most of the time");
   verb->add_flag("--images", a->images,
                  "write a run's moments as label images too: before.mha, max.mha, after.mha");
@@ -135,7 +136,7 @@ void add_measure_verb(CLI::App &app) {
   verb->add_option("--cbd-nanoporosity-percent", a->nanoporosity_percent,
                    "of an image's CBD, for the total porosity")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 99.0));
+      ->check(finite_range(0.0, 99.0));
   verb->callback([a, verb] { measure(*a, *verb); });
 }
 

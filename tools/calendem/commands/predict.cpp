@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // From why to what to do: calibrate, predict, design.
+#include "base/output_folder.h"
 #include "base/provenance.h"
+#include "base/recipe.h"
 #include "commands/commands.h"
+#include "commands/finite_range.h"
 #include "predict/pages.h"
 #include "predict/prediction.h"
 #include <CLI/CLI.hpp>
@@ -32,6 +35,7 @@ void run_calibrate(const CalibrateOptions &o) {
   for (const std::string &file : o.experiments)
     add_experiment(read_experiment(file), bank, c, not_said);
   make_output_folder(o.folder);
+  must_be_ours(o.folder + "/case.toml", kHeadOfCase);
   fmt::print("calibrate: {} films, {} numbers\n", c.films.size(), c.data.size());
   calibrate(bank, o.settings, c);
   for (const std::string &text : at_the_end(bank, c))
@@ -112,6 +116,22 @@ void check_covered(const std::vector<double> &pressures, const FilmBank &bank) {
                                 p, bank.spec().pressures.front(), bank.spec().pressures.back()));
 }
 
+/// What a recipe may hold, and no further beyond the bank's films than these differ.
+void check_varied(const std::string &text, double value, const BankParameter &p) {
+  double low = 2.0 * p.low - p.high, high = 2.0 * p.high - p.low;
+  for (const Key &key : recipe_keys())
+    for (const std::string &name : p.keys)
+      if (name == "recipe." + key.name) {
+        low = std::max(low, key.low);
+        high = std::min(high, key.high);
+      }
+  if (!(value >= low && value <= high))
+    throw Failure(kBadInput,
+                  fmt::format("--vary is '{}'; {} may be {:g} to {:g} (the bank has {:g} "
+                              "to {:g}).",
+                              text, p.name, low, high, p.low, p.high));
+}
+
 /// Every combination of "NAME=v,v,v" for the films.
 std::vector<Film> varied(std::vector<Film> films, const std::vector<std::string> &vary,
                          const FilmBank &bank) {
@@ -135,6 +155,7 @@ std::vector<Film> varied(std::vector<Film> films, const std::vector<std::string>
         double number = 0.0;
         if (!CLI::detail::lexical_cast(value, number) || !std::isfinite(number))
           throw Failure(kBadInput, fmt::format("--vary is '{}'; '{}' is no number.", text, value));
+        check_varied(text, number, bank.film()[place]);
         changed.recipe[place] = number;
         changed.name += fmt::format("{}{} {:g}", f.name.empty() ? "" : ", ", name, number);
         next.push_back(changed);
@@ -189,7 +210,25 @@ ByRuns run_film(const Asked &a, const PredictOptions &o, std::size_t recipe,
                  o.press_percent / kPercent, o.runs, study);
 }
 
-std::vector<PredictedFilm> films_by_runs(const Asked &a, const PredictOptions &o) {
+/// What could not be run of a recipe; the others go on.
+class Missed {
+public:
+  void add(const std::string &recipe, const Failure &why) {
+    texts_.push_back(fmt::format("{}: {}", recipe, why.what()));
+    status_ = why.exit_status();
+  }
+  /// After all that there is was written.
+  void stop_if_any() const {
+    if (!texts_.empty())
+      throw Failure(status_, fmt::format("{}\nThe rest is written.", fmt::join(texts_, "\n")));
+  }
+
+private:
+  std::vector<std::string> texts_;
+  ExitStatus status_ = kDone;
+};
+
+std::vector<PredictedFilm> films_by_runs(const Asked &a, const PredictOptions &o, Missed &missed) {
   if (!o.vary.empty())
     throw Failure(kBadInput, "--runs goes with recipes as they are: without --vary.");
   if (o.press_percent > 0.0 && a.pressures.size() < 2)
@@ -200,13 +239,21 @@ std::vector<PredictedFilm> films_by_runs(const Asked &a, const PredictOptions &o
                              "--pressure 80,150.");
   std::vector<PredictedFilm> films;
   for (std::size_t k = 0; k < o.recipes.size(); ++k)
-    films.push_back(run_film(a, o, k, a.pressures).predicted);
+    try {
+      films.push_back(run_film(a, o, k, a.pressures).predicted);
+    } catch (const Failure &f) {
+      missed.add(o.recipes[k], f);
+    }
+  if (films.empty())
+    missed.stop_if_any();
   return films;
 }
 
 void run_predict(const PredictOptions &o) {
   const Asked a = o.runs > 0 ? Asked{read_model(o.model), {}, pressures_of(o.pressures)} : asked(o);
-  const std::vector<PredictedFilm> films = o.runs > 0 ? films_by_runs(a, o) : by_emulators(a, o);
+  Missed missed;
+  const std::vector<PredictedFilm> films =
+      o.runs > 0 ? films_by_runs(a, o, missed) : by_emulators(a, o);
   nlohmann::ordered_json json = to_json(a.model.bank, films);
   json["provenance"] = provenance(o);
   make_output_folder(o.folder);
@@ -224,6 +271,7 @@ void run_predict(const PredictOptions &o) {
       fmt::print("  note: {}: extrapolated\n", text);
   }
   fmt::print("page: {0}/prediction.html\ntable: {0}/prediction.csv\n", o.folder);
+  missed.stop_if_any();
 }
 
 /// The proposal of a recipe, run.
@@ -245,11 +293,48 @@ void say_confirmed(const Design &d) {
              kPercent * cracked.low90, kPercent * cracked.high90);
 }
 
+/// Pressing makes no film more porous.
+void check_target(const Asked &a, double porosity) {
+  const std::vector<BankParameter> &of = a.model.bank.film();
+  for (const Film &f : a.films)
+    for (std::size_t k = 0; k < of.size(); ++k)
+      if (of[k].keys.front() == kPorosityKey && f.recipe[k] <= porosity)
+        throw Failure(kBadInput, fmt::format("--porosity {:g}: {} has {:g} % before pressing. Ask "
+                                             "for less.",
+                                             porosity, f.name, f.recipe[k]));
+}
+
+/// The answer for a film, in words.
+void say(const Design &d, const Target &target) {
+  const Chance &best = d.chances[d.best];
+  const Band &after = d.predicted.after[d.best], &cracked = d.predicted.cracked[d.best];
+  const std::string there = fmt::format(
+      "porosity {:.1f} % (90 %: {:.1f} to {:.1f}), cracked particles {:.0f} % ({:.0f} to {:.0f})",
+      kPercent * after.median, kPercent * after.low90, kPercent * after.high90,
+      kPercent * cracked.median, kPercent * cracked.low90, kPercent * cracked.high90);
+  if (kPercent * best.both < 1.0)
+    fmt::print("{}: no pressure from {:.0f} to {:.0f} MPa meets the target (less than 1 %); at "
+               "{:.0f} MPa: {}\n",
+               d.film.name, d.chances.front().pressure, d.chances.back().pressure, best.pressure,
+               there);
+  else
+    fmt::print("{}: {:.0f} MPa meets the target with {:.0f} %: {}\n", d.film.name, best.pressure,
+               kPercent * best.both, there);
+  if (target.cracked_below < 1.0)
+    fmt::print("  the porosity with {:.0f} %, the cracked particles with {:.0f} %\n",
+               kPercent * best.porosity, kPercent * best.cracked);
+  if (d.confirmed)
+    say_confirmed(d);
+  for (const std::string &text : d.predicted.beyond)
+    fmt::print("  note: {}: extrapolated\n", text);
+}
+
 void run_design(const PredictOptions &o) {
   if (o.runs > 0 && (!o.vary.empty() || o.press_percent > 0.0))
     throw Failure(kBadInput, "--confirm runs recipes as they are: without --vary and "
                              "--press-percent.");
   const Asked a = asked(o);
+  check_target(a, o.porosity);
   const Target target = {o.porosity / kPercent, o.within / kPercent, o.cracked_below / kPercent};
   std::vector<Design> designs;
   for (const Film &f : a.films) {
@@ -262,32 +347,28 @@ void run_design(const PredictOptions &o) {
     for (std::size_t k = 1; k < d.chances.size(); ++k)
       if (d.chances[k].both > d.chances[d.best].both)
         d.best = k;
-    if (o.runs > 0)
-      confirm(a, o, designs.size(), target, d);
     designs.push_back(d);
   }
-  nlohmann::ordered_json json = to_json(a.model.bank, target, designs);
-  json["provenance"] = provenance(o);
-  make_output_folder(o.folder);
-  write_file(o.folder + "/design.json", json.dump(1) + "\n");
-  write_file(o.folder + "/design.html", design_page(target, designs, json));
-  for (const Design &d : designs) {
-    const Chance &best = d.chances[d.best];
-    const Band &after = d.predicted.after[d.best], &cracked = d.predicted.cracked[d.best];
-    fmt::print("{}: {:.0f} MPa meets the target with {:.0f} %: porosity {:.1f} % (90 %: {:.1f} to "
-               "{:.1f}), cracked particles {:.0f} % ({:.0f} to {:.0f})\n",
-               d.film.name, best.pressure, kPercent * best.both, kPercent * after.median,
-               kPercent * after.low90, kPercent * after.high90, kPercent * cracked.median,
-               kPercent * cracked.low90, kPercent * cracked.high90);
-    if (target.cracked_below < 1.0)
-      fmt::print("  the porosity with {:.0f} %, the cracked particles with {:.0f} %\n",
-                 kPercent * best.porosity, kPercent * best.cracked);
-    if (d.confirmed)
-      say_confirmed(d);
-    for (const std::string &text : d.predicted.beyond)
-      fmt::print("  note: {}: extrapolated\n", text);
-  }
+  const auto write = [&] {
+    nlohmann::ordered_json json = to_json(a.model.bank, target, designs);
+    json["provenance"] = provenance(o);
+    make_output_folder(o.folder);
+    write_file(o.folder + "/design.json", json.dump(1) + "\n");
+    write_file(o.folder + "/design.html", design_page(target, designs, json));
+  };
+  write(); // runs may fail
+  Missed missed;
+  for (std::size_t k = 0; o.runs > 0 && k < designs.size(); ++k)
+    try {
+      confirm(a, o, k, target, designs[k]);
+      write();
+    } catch (const Failure &f) {
+      missed.add(o.recipes[k], f);
+    }
+  for (const Design &d : designs)
+    say(d, target);
   fmt::print("page: {0}/design.html\ndata: {0}/design.json\n", o.folder);
+  missed.stop_if_any();
 }
 
 void add_common_options(CLI::App &verb, PredictOptions &o) {
@@ -299,7 +380,7 @@ void add_common_options(CLI::App &verb, PredictOptions &o) {
                   "of films; several: every combination");
   verb.add_option("--press-percent", o.press_percent,
                   "standard deviation of the press's pressure [%]; default 0: as asked for")
-      ->check(CLI::Range(0.0, 50.0));
+      ->check(finite_range(0.0, 50.0));
 }
 
 void add_run_options(CLI::App &verb, PredictOptions &o, const char *name, const char *what) {
@@ -356,11 +437,11 @@ void add_design_verb(CLI::App &app) {
   add_common_options(*verb, *o);
   verb->add_option("--porosity", o->porosity, "wanted total porosity after release [%]")
       ->required()
-      ->check(CLI::Range(1.0, 79.0));
+      ->check(finite_range(1.0, 79.0));
   verb->add_option("--within", o->within, "points of porosity that it may be off (default 1)")
-      ->check(CLI::Range(0.01, 20.0));
+      ->check(finite_range(0.01, 20.0));
   verb->add_option("--cracked-below", o->cracked_below, "cracked particles [%]; default: any")
-      ->check(CLI::Range(0.1, 100.0));
+      ->check(finite_range(0.1, 100.0));
   verb->add_option("--pressure", o->pressures, "MPa to choose from: a list or a range");
   add_run_options(*verb, *o, "--confirm",
                   "so many simulations of each recipe at the pressure proposed, each with another "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/report.h"
 #include "base/messages.h"
+#include "base/output_folder.h"
 #include "base/provenance.h"
 #include "commands/commands.h"
 #include "diagnose/compare/gap.h"

@@ -2,6 +2,7 @@
 #include "simulate/run.h"
 #include "base/case.h"
 #include "base/provenance.h"
+#include "base/run_folder.h"
 #include "commands/commands.h"
 #include "simulate/collect.h"
 #include <CLI/CLI.hpp>
@@ -15,8 +16,18 @@ namespace calendem {
 namespace fs = std::filesystem;
 namespace {
 
-/// The settings that the scripts wrote down, lines "variable value"; `electrode`, if not empty,
-/// replaces the path that the run used.
+/// A value that the scripts wrote down, as the key's kind.
+std::string checked(const Key &key, const std::string &value, Mistakes &mistakes) {
+  const bool is_text = key.text || !key.choices.empty();
+  double number = 0.0;
+  if (!is_text && !CLI::detail::lexical_cast(value, number))
+    mistakes.add(0, fmt::format("{} is '{}', which is no number. Run the scripts again.",
+                                key.variable, value));
+  return value;
+}
+
+/// The settings that the scripts wrote down, lines "variable NAME index VALUE"; `electrode`, if not
+/// empty, replaces the path that the run used.
 Settings read_settings(const std::string &file, const std::string &electrode) {
   std::ifstream in(file);
   if (!in)
@@ -24,9 +35,10 @@ Settings read_settings(const std::string &file, const std::string &electrode) {
                                          "wrote into (-var out DIR)",
                                          file));
   std::map<std::string, std::string> values;
-  std::string line, name, value;
+  std::string line, variable, name, index, value;
   while (std::getline(in, line))
-    if (std::istringstream row(line); row >> name && std::getline(row >> std::ws, value))
+    if (std::istringstream row(line);
+        row >> variable >> name >> index && std::getline(row >> std::ws, value))
       values[name] = value;
   Mistakes mistakes(file);
   Settings s;
@@ -41,7 +53,7 @@ Settings read_settings(const std::string &file, const std::string &electrode) {
                                   "file is cut. Run the scripts again.",
                                   key.variable));
     else
-      s.set(key.name, found->second);
+      s.set(key.name, checked(key, found->second, mistakes));
   }
   mistakes.stop_if_any();
   s.set("electrode", fs::absolute(electrode.empty() ? s.text("electrode") : electrode)
@@ -50,9 +62,26 @@ Settings read_settings(const std::string &file, const std::string &electrode) {
   return s;
 }
 
+/// A run that was collected before is of the electrode that it was collected with.
+void stop_if_of_another(const std::string &folder, const std::string &electrode) {
+  RunFolder before(folder);
+  const nlohmann::json &old = before.object("summary.json");
+  const std::string now = hash_of_file(electrode + "/electrode.data"),
+                    then = old.is_object() && old.contains("provenance")
+                               ? old["provenance"].value("electrode_data", now)
+                               : now;
+  if (then != now)
+    throw Failure(kBadInput,
+                  fmt::format("'{}' was collected with another electrode (electrode.data then {}, "
+                              "now {}). Give the one that it was pressed from with --electrode, or "
+                              "remove its summary.json if that was the wrong one.",
+                              folder, then, now));
+}
+
 void collect_folder(const std::string &folder, const std::string &electrode) {
   const Settings settings = read_settings(folder + "/settings.txt", electrode);
   const ElectrodeFacts facts = read_electrode(settings.text("electrode"));
+  stop_if_of_another(folder, settings.text("electrode"));
   write_file(
       folder + "/case.toml",
       write_toml(settings, case_keys(),

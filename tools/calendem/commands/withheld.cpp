@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/provenance.h"
 #include "commands/commands.h"
+#include "commands/finite_range.h"
 #include "withheld/answer.h"
 #include "withheld/make.h"
 #include "withheld/rehearsal.h"
@@ -87,7 +88,7 @@ void add_rehearse(CLI::App &app) {
           ->check(CLI::Range(1, 100000));
   verb->add_option("--cells", o->cells,
                    "how many of the bank's cells a drawn sample is as large as; default: one")
-      ->check(CLI::Range(1.0, 1e9))
+      ->check(finite_range(1.0, 1e9))
       ->needs(draws);
   verb->callback([o] {
     if (o->table.empty())

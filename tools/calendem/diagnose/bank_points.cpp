@@ -214,6 +214,12 @@ std::vector<inference::PointNoise> point_noise_of(const Experiment &e, const Ban
     c.observables = release_rows(e, c.condition);
     if (c.observables.empty() || !has_release(table))
       continue;
+    if (!(c.condition.curve_sd_um > 0.0)) {
+      not_said.push_back(fmt::format("{}: without curve_sd_um the scatter of its release says "
+                                     "nothing about noise.",
+                                     c.condition.id));
+      continue;
+    }
     const std::size_t given = c.observables.size();
     c.observables = reached(points, c);
     std::vector<PointRuns> whole;
@@ -248,6 +254,8 @@ FullCellChange full_cell_change(const Experiment &e, const BankTable &bank,
     return {};
   const double small = read_recipe(bank.spec.recipe_file).loading,
                full = read_recipe(bank.spec.full_cell.recipe_file).loading;
+  if (small == full)
+    return {};
   const double share = (1.0 / small - 1.0 / e.recipe.loading) / (1.0 / small - 1.0 / full);
   const double n = double(changes.size());
   Matrix d(changes[0].size(), Eigen::Index(changes.size()));

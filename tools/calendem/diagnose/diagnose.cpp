@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 
 namespace calendem {
 
@@ -148,14 +149,31 @@ struct Common {
 };
 
 Common common_of(const ExperimentData &before, const ExperimentData &after) {
+  constexpr double kSame = 0.02; // of the pressure
   Common out;
+  std::map<std::string, std::pair<double, double>> others; // pressures, by condition
   for (int k = 0; k < int(after.experiment.of.size()); ++k)
-    for (int j = 0; j < int(before.experiment.of.size()); ++j)
-      if (key_of(before.experiment.of[std::size_t(j)]) ==
-          key_of(after.experiment.of[std::size_t(k)])) {
-        out.before.push_back(j);
-        out.after.push_back(k);
+    for (int j = 0; j < int(before.experiment.of.size()); ++j) {
+      const inference::ObservableId &id = after.experiment.of[std::size_t(k)];
+      if (key_of(before.experiment.of[std::size_t(j)]) != key_of(id))
+        continue;
+      const double then = before.labels[std::size_t(j)].pressure,
+                   now = after.labels[std::size_t(k)].pressure;
+      if (std::fabs(now - then) > kSame * then) {
+        others[id.condition] = {then, now};
+        continue;
       }
+      out.before.push_back(j);
+      out.after.push_back(k);
+    }
+  if (!others.empty()) {
+    const auto &[condition, pressures] = *others.begin();
+    throw Failure(kBadInput,
+                  fmt::format("condition \"{}\" is at {:g} MPa before and {:g} MPa after "
+                              "the change. A change is seen at equal pressures: give "
+                              "conditions of other pressures other ids.",
+                              condition, pressures.first, pressures.second));
+  }
   if (out.after.empty())
     throw Failure(kBadInput, "nothing was measured both before and after the change: conditions of "
                              "the two files are matched by their ids and pressures.");

@@ -50,13 +50,12 @@ double of_specimen(const Experiment &e, const Observable &o) {
 /// The mean of one observable over the specimens that have it.
 Observable mean_of(const Experiment &e, const std::vector<CoveredCondition> &group,
                    const Observable &like, std::vector<std::string> &not_said) {
-  std::vector<double> values, pressures;
+  std::vector<double> values;
   std::vector<std::string> ids;
   double own = 0.0, loading = 0.0, drift = 0.0, zero = 0.0;
   for (const CoveredCondition &c : group)
     if (const Observable *o = find(c, like)) {
       values.push_back(o->measured);
-      pressures.push_back(o->pressure);
       ids.push_back(c.condition.id);
       own += o->sd * o->sd;
       loading += o->by_loading;
@@ -143,8 +142,12 @@ std::vector<CoveredCondition> pooled_repeats(const Experiment &e,
     std::vector<CoveredCondition> group;
     std::vector<std::string> ids;
     for (std::size_t j = k; j < all.size(); ++j) {
-      const Condition &c = all[j].condition, &first = all[k].condition;
-      const bool other = j == k || (!c.specimen.empty() && c.specimen != first.specimen);
+      const Condition &c = all[j].condition;
+      const bool other =
+          j == k || (!c.specimen.empty() &&
+                     std::none_of(group.begin(), group.end(), [&](const CoveredCondition &g) {
+                       return g.condition.specimen == c.specimen;
+                     }));
       if (taken[j] || !other ||
           std::fabs(all[j].pressure - all[k].pressure) > kSame * all[k].pressure)
         continue;
@@ -206,7 +209,7 @@ std::vector<ErrorTerm> error_terms(const Experiment &e, const BankSpec &bank,
   const double points_of_porosity = 0.01 * e.specimen_porosity_points;
   std::vector<ErrorTerm> terms;
   const auto add = [&](const std::string &name, const Matrix &columns) {
-    if (columns.size() > 0 && columns.cwiseAbs().maxCoeff() > 0.0)
+    if (columns.size() > 0 && (columns.array().abs() > 0.0).any())
       terms.push_back({name, columns});
   };
   add(kPressureOfThePress, by_pressure(all, points));

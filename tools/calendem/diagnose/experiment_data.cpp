@@ -146,6 +146,8 @@ void set_next(const Experiment &e, const BankSpec &spec, const std::vector<Furth
 
 /// A matrix whose product with its transpose is this covariance; 0 where that is not known.
 Matrix root_of(const Matrix &covariance) {
+  if (covariance.size() == 0) // nothing can be compared; said when that is counted
+    return covariance;
   const Matrix known = covariance.array().isFinite().select(covariance, 0.0);
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(known);
   return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
@@ -280,7 +282,8 @@ ExperimentData data_of(const Experiment &experiment, const BankTable &as_given,
   std::vector<CoveredCondition> all = now;
   for (const Further &f : further)
     all.insert(all.end(), f.of.begin(), f.of.end());
-  const std::vector<PointRuns> points = complete(all_points, all, data.not_said);
+  const std::vector<PointRuns> points =
+      enough(complete(all_points, all, data.not_said), table.spec, data.not_said);
   fill_bank(film_ratio(experiment, full_cell), table, all, points, data.bank);
   data.terms = error_terms(experiment, table.spec, now, points);
   for (const CoveredCondition &c : now)

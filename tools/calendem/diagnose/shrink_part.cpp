@@ -208,12 +208,12 @@ json shrink_part(const json &gap) {
   };
   const double floor = number(shrink, "noise_floor");
   const bool seen = !(number(shrink, "before") <= floor && number(shrink, "after") <= floor);
-  if (s.contains("value") && seen)
+  if (s.contains("value") && seen && std::isfinite(number(s, "value")))
     part["shrinkage"] = {
         {"value", percent("value")},
         {"low", percent("low90")},
         {"high", percent("high90")},
-        {"predicted", s.contains("predicted") ? json(percent("predicted")) : json()}};
+        {"predicted", std::isfinite(number(s, "predicted")) ? json(percent("predicted")) : json()}};
   return part;
 }
 

@@ -266,10 +266,11 @@ Tortuosity tortuosity(const PhaseImage &whole, int axis) {
   t.on_doubled = doubled.effective;
   t.porosity = fine.open;
   t.percolating = fine.percolating;
-  t.extrapolated = doubled.effective > 0.0;
-  t.effective = fine.effective;
-  if (t.extrapolated)
-    t.effective = 2.0 * fine.effective - doubled.effective * fine.open / doubled.open;
+  const double extrapolated =
+      doubled.effective > 0.0 ? 2.0 * fine.effective - doubled.effective * fine.open / doubled.open
+                              : 0.0;
+  t.extrapolated = extrapolated > 0.0;
+  t.effective = t.extrapolated ? extrapolated : fine.effective;
   t.tau = t.effective > 0.0 ? t.porosity / t.effective : INFINITY;
   return t;
 }

@@ -49,7 +49,8 @@ vtkSmartPointer<vtkDataSet> read_data(const std::string &file, Mistakes &mistake
   reader->SetFileName(file.c_str());
   reader->Update();
   vtkSmartPointer<vtkDataSet> data = vtkDataSet::SafeDownCast(reader->GetOutput());
-  if (data == nullptr || reader->GetErrorCode() != 0 || data->GetNumberOfPoints() == 0) {
+  const bool is_cut = text_of_file(file).find("</VTKFile>") == std::string::npos;
+  if (data == nullptr || reader->GetErrorCode() != 0 || is_cut) {
     mistakes.add(file, "the frame cannot be read: truncated, or not VTK XML", kRunAgain);
     return nullptr;
   }

@@ -94,12 +94,16 @@ Spot spot_of(const Datum &d) { return {d.film, d.number, std::log(d.pressure)}; 
 /// Emulated values of the data, and what is uncertain about them but for the measurement.
 struct Predicted {
   Vector mean, variance, by_pressure; ///< by_pressure: for one sd of the press's pressure
+  std::vector<std::vector<double>> by_full_cell; ///< FilmBank::full_cell_errors of each datum
 };
 
+double product(const std::vector<double> &a, const std::vector<double> &b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
 Predicted predicted_data(const FilmBank &bank, const Calibration &c, const Material &material) {
-  constexpr double kStep = 0.05; // of ln p
   const auto n = Eigen::Index(c.data.size());
-  Predicted out = {Vector(n), Vector(n), Vector(n)};
+  Predicted out = {Vector(n), Vector(n), Vector(n), {}};
   std::map<std::pair<int, FilmNumber>, std::vector<Guess>> curves;
   for (Eigen::Index k = 0; k < n; ++k) {
     const Datum &d = c.data[std::size_t(k)];
@@ -109,10 +113,12 @@ Predicted predicted_data(const FilmBank &bank, const Calibration &c, const Mater
     const Guess g = bank.at(at->second, d.pressure);
     out.mean[k] = g.mean;
     out.variance[k] = g.variance;
-    const double slope = (bank.at(at->second, d.pressure * std::exp(kStep)).mean -
-                          bank.at(at->second, d.pressure * std::exp(-kStep)).mean) /
-                         (2.0 * kStep);
+    const auto [below, above] = bank.beside(d.pressure);
+    const double slope = (bank.at(at->second, above).mean - bank.at(at->second, below).mean) /
+                         std::log(above / below);
     out.by_pressure[k] = slope * d.pressure_sd;
+    out.by_full_cell.push_back(
+        bank.full_cell_errors(d.number, c.films[std::size_t(d.film)], d.pressure));
   }
   return out;
 }
@@ -127,6 +133,8 @@ Matrix covariance_of(const Calibration &c, const Predicted &p, const Missed &mis
       out(i, j) = error_covariance(c.error, missed, spot_of(a), spot_of(b));
       if (a.film == b.film)
         out(i, j) += p.by_pressure[i] * p.by_pressure[j];
+      if (a.number == b.number)
+        out(i, j) += product(p.by_full_cell[std::size_t(i)], p.by_full_cell[std::size_t(j)]);
       if (i == j)
         out(i, j) += a.sd * a.sd + p.variance[i];
     }
@@ -222,11 +230,14 @@ std::vector<std::string> at_the_end(const FilmBank &bank, const Calibration &c) 
   return out;
 }
 
+bool is_same_film(const Film &a, const Film &b) {
+  return a.recipe == b.recipe && std::fabs(a.loading - b.loading) <= 1e-9 * b.loading;
+}
+
 std::vector<Guess> missed_given_data(const FilmBank &bank, const Calibration &c, const Draw &draw,
-                                     const Wanted &wanted) {
-  const auto known = std::find_if(c.films.begin(), c.films.end(), [&](const Film &f) {
-    return f.name == wanted.film.name && f.recipe == wanted.film.recipe;
-  });
+                                     const Wanted &wanted, bool by_bank) {
+  const auto known = std::find_if(c.films.begin(), c.films.end(),
+                                  [&](const Film &f) { return is_same_film(f, wanted.film); });
   const int film = known == c.films.end() ? -1 : int(known - c.films.begin());
   const auto n = Eigen::Index(c.data.size());
   const Predicted p = predicted_data(bank, c, draw.material);
@@ -235,11 +246,18 @@ std::vector<Guess> missed_given_data(const FilmBank &bank, const Calibration &c,
   std::vector<Guess> out;
   for (const double pressure : wanted.pressures) {
     const Spot here = {film, wanted.number, std::log(pressure)};
+    const std::vector<double> by_full_cell =
+        by_bank ? bank.full_cell_errors(wanted.number, wanted.film, pressure)
+                : std::vector<double>();
     Vector with(n);
-    for (Eigen::Index k = 0; k < n; ++k)
-      with[k] = error_covariance(c.error, draw.missed, spot_of(c.data[std::size_t(k)]), here);
-    const double left =
-        error_covariance(c.error, draw.missed, here, here) - with.dot(Vector(chol.solve(with)));
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const Datum &d = c.data[std::size_t(k)];
+      with[k] = error_covariance(c.error, draw.missed, spot_of(d), here);
+      if (d.number == wanted.number)
+        with[k] += product(by_full_cell, p.by_full_cell[std::size_t(k)]);
+    }
+    const double left = error_covariance(c.error, draw.missed, here, here) +
+                        product(by_full_cell, by_full_cell) - with.dot(Vector(chol.solve(with)));
     out.push_back({with.dot(weights), std::max(0.0, left)});
   }
   return out;
@@ -248,7 +266,7 @@ std::vector<Guess> missed_given_data(const FilmBank &bank, const Calibration &c,
 std::vector<Guess> given_data(const FilmBank &bank, const Calibration &c, const Draw &draw,
                               const Wanted &wanted) {
   const std::vector<Guess> curve = bank.at_pressures(wanted.number, wanted.film, draw.material);
-  std::vector<Guess> out = missed_given_data(bank, c, draw, wanted);
+  std::vector<Guess> out = missed_given_data(bank, c, draw, wanted, true);
   for (std::size_t k = 0; k < out.size(); ++k) {
     const Guess g = bank.at(curve, wanted.pressures[k]);
     out[k] = {g.mean + out[k].mean, g.variance + out[k].variance};

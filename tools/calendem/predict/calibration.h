@@ -72,6 +72,9 @@ void calibrate(const FilmBank &bank, const CalibrationSettings &settings, Calibr
 std::vector<std::string> at_the_end(const FilmBank &bank, const Calibration &calibration);
 
 /// What a film's numbers are at one pressure under one draw: normal.
+/// By what they are, not by their names.
+bool is_same_film(const Film &a, const Film &b);
+
 struct Wanted {
   Film film;
   FilmNumber number = FilmNumber::PorosityAfter;
@@ -79,8 +82,9 @@ struct Wanted {
 };
 
 /// What the model misses of a film, given the data: mean and variance at each wanted pressure.
+/// `by_bank`: of the bank's emulators, with the error of their change to the full cell; else of runs.
 std::vector<Guess> missed_given_data(const FilmBank &bank, const Calibration &calibration,
-                                     const Draw &draw, const Wanted &wanted);
+                                     const Draw &draw, const Wanted &wanted, bool by_bank);
 
 /// Given the data, at each wanted pressure: mean and variance of emulators and model error, not of a
 /// press.

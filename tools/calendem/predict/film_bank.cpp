@@ -11,7 +11,8 @@
 #include <boost/math/interpolators/pchip.hpp>
 #include <cmath>
 #include <fmt/format.h>
-#include <numeric>
+#include <map>
+#include <set>
 
 namespace calendem {
 
@@ -186,14 +187,23 @@ void FilmBank::learn(const BankTable &table) {
 
 namespace {
 
-/// Mean of what several runs differ by, and the variance of a further one about it.
-inference::Mean mean_change(const std::vector<double> &changes) {
-  const auto n = double(changes.size());
-  const double mean = std::accumulate(changes.begin(), changes.end(), 0.0) / n;
-  double squares = 0.0;
-  for (const double c : changes)
-    squares += (c - mean) * (c - mean);
-  return {mean, squares / (n - 1.0) * (1.0 + 1.0 / n)};
+double mean_of(const std::map<int, double> &changes) {
+  double sum = 0.0;
+  for (const auto &[point, change] : changes)
+    sum += change;
+  return sum / double(changes.size());
+}
+
+/// About their mean, so that the sum of their squares is the variance of a further one about it.
+std::vector<double> off_of(const std::map<int, double> &changes, const std::set<int> &points) {
+  const double n = double(changes.size()), mean = mean_of(changes),
+               factor = std::sqrt((1.0 + 1.0 / n) / (n - 1.0));
+  std::vector<double> out;
+  for (const int point : points) {
+    const auto at = changes.find(point);
+    out.push_back(at == changes.end() ? 0.0 : factor * (at->second - mean));
+  }
+  return out;
 }
 
 } // namespace
@@ -209,7 +219,8 @@ void FilmBank::learn_full_cell(const BankTable &table) {
   const Recipe recipe = read_recipe(spec_.full_cell.recipe_file);
   const Film film = film_of(recipe);
   for (int number = 0; number < kFilmNumbers; ++number) {
-    std::vector<std::vector<double>> changes(spec_.pressures.size());
+    std::vector<std::map<int, double>> changes(spec_.pressures.size()); // by base point
+    std::set<int> points;
     for (const BankRow *row : rows) {
       Material material;
       for (std::size_t k = 0; k < of_film_.size(); ++k)
@@ -221,7 +232,7 @@ void FilmBank::learn_full_cell(const BankTable &table) {
       const double change = value_of(FilmNumber(number), row->run) -
                             at_pressures(FilmNumber(number), film, material).at(p).mean;
       if (std::isfinite(change))
-        changes[p].push_back(change);
+        changes[p][*points.insert(row->point.base_point).first] = change;
     }
     for (std::size_t p = 0; p < changes.size(); ++p) {
       if (changes[p].size() < 2)
@@ -229,9 +240,8 @@ void FilmBank::learn_full_cell(const BankTable &table) {
                       fmt::format("{}: {} of the runs on the full cell are usable at {:g} MPa; at "
                                   "least 2 are needed, or a bank without [full_cell].",
                                   spec_.file, changes[p].size(), spec_.pressures[p]));
-      const inference::Mean m = mean_change(changes[p]);
-      full_cell_[std::size_t(number)].change.push_back(m.mean);
-      full_cell_[std::size_t(number)].variance.push_back(m.variance);
+      full_cell_[std::size_t(number)].change.push_back(mean_of(changes[p]));
+      full_cell_[std::size_t(number)].off.push_back(off_of(changes[p], points));
     }
   }
   full_loading_ = recipe.loading;
@@ -297,6 +307,38 @@ Vector FilmBank::input(const Film &film, const Material &material) const {
   return out;
 }
 
+// A film's faces weigh by 1 / loading: no change on the bank's film, all of it on the full cell's.
+double FilmBank::full_cell_share(const Film &film) const {
+  return full_loading_ > 0.0
+             ? (1.0 - bank_loading_ / film.loading) / (1.0 - bank_loading_ / full_loading_)
+             : 0.0;
+}
+
+std::vector<double> FilmBank::full_cell_errors(FilmNumber number, const Film &film,
+                                               double pressure) const {
+  const std::vector<std::vector<double>> &off = full_cell_[std::size_t(number)].off;
+  if (full_loading_ <= 0.0 || off.empty())
+    return {};
+  const std::vector<double> &bank = spec_.pressures;
+  const double at = std::clamp(pressure, bank.front(), bank.back());
+  std::size_t right = 1;
+  while (right + 1 < bank.size() && bank[right] < at)
+    ++right;
+  const double share = full_cell_share(film),
+               along = std::log(at / bank[right - 1]) / std::log(bank[right] / bank[right - 1]);
+  std::vector<double> out;
+  for (std::size_t k = 0; k < off[right].size(); ++k)
+    out.push_back(share * (off[right - 1][k] + along * (off[right][k] - off[right - 1][k])));
+  return out;
+}
+
+std::pair<double, double> FilmBank::beside(double pressure) const {
+  constexpr double kStep = 0.05; // of ln p
+  const double low = spec_.pressures.front(), high = spec_.pressures.back();
+  return {std::min(std::max(pressure * std::exp(-kStep), low), high * std::exp(-kStep)),
+          std::max(std::min(pressure * std::exp(kStep), high), low * std::exp(kStep))};
+}
+
 std::vector<Guess> FilmBank::at_pressures(FilmNumber number, const Film &film,
                                           const Material &material) const {
   const auto n = std::size_t(number);
@@ -307,10 +349,7 @@ std::vector<Guess> FilmBank::at_pressures(FilmNumber number, const Film &film,
     with << x, q.input(material.amplitude);
     strength[0] = q.strength(material.amplitude);
   }
-  // A film's faces weigh by 1 / loading: no change on the bank's film, all of it on the full cell's.
-  const double share = full_loading_ > 0.0 ? (1.0 - bank_loading_ / film.loading) /
-                                                 (1.0 - bank_loading_ / full_loading_)
-                                           : 0.0;
+  const double share = full_cell_share(film);
   std::vector<Guess> out;
   for (std::size_t p = 0; p < spec_.pressures.size(); ++p) {
     const inference::Mean base = base_[n][p].at(x, Vector());
@@ -320,10 +359,8 @@ std::vector<Guess> FilmBank::at_pressures(FilmNumber number, const Film &film,
       g.mean += more.mean;
       g.variance += more.variance;
     }
-    if (share != 0.0) {
+    if (share != 0.0)
       g.mean += share * full_cell_[n].change[p];
-      g.variance += share * share * full_cell_[n].variance[p];
-    }
     out.push_back(g);
   }
   return out;

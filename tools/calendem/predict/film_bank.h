@@ -22,6 +22,9 @@ enum class FilmNumber {
 };
 constexpr int kFilmNumbers = 4;
 
+/// Of the porosity before calendering, where a bank's films differ in it.
+inline constexpr const char *kPorosityKey = "recipe.coating.porosity_total_percent";
+
 /// The uncalendered film, as the bank's parameters describe it.
 struct Film {
   std::string name;
@@ -66,13 +69,19 @@ public:
   /// Between them by a monotone cubic (Fritsch and Butland 1984) in the pressure's logarithm; beyond
   /// them the last value and a variance that grows.
   Guess at(const std::vector<Guess> &curve, double pressure) const;
+  /// Pressures 5 % to either side, within the bank's: for a slope.
+  std::pair<double, double> beside(double pressure) const;
+  /// Errors of the change from the bank's cell to the full cell, one value for each run of that:
+  /// sums of products are covariances, between pressures and films too.
+  std::vector<double> full_cell_errors(FilmNumber number, const Film &film, double pressure) const;
   /// How well left-out packings are predicted, of a number at each pressure.
   std::vector<inference::Quality> quality(FilmNumber number) const;
 
 private:
   using Emulators = std::vector<inference::GaussianProcess>; ///< a pressure each
   struct FullCell {
-    std::vector<double> change, variance; ///< at each pressure
+    std::vector<double> change;           ///< at each pressure
+    std::vector<std::vector<double>> off; ///< what each run is off by, at each pressure
   };
   BankSpec spec_;
   std::vector<inference::Parameter> material_, effects_;
@@ -86,6 +95,7 @@ private:
   inference::Vector input(const Film &film, const Material &material) const;
   void learn(const BankTable &table);
   void learn_full_cell(const BankTable &table);
+  double full_cell_share(const Film &film) const;
 };
 
 /// The amplitude of the material's effect in its key's unit; the material has one.

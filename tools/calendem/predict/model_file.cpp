@@ -210,14 +210,20 @@ std::string case_of(const FilmBank &bank, const Calibration &c) {
       for (const std::string &key : p.keys)
         add(key, value);
     }
+  std::string of_recipe;
   if (effect >= 0)
-    for (const std::string &key : find_effect(best->name).parameter.keys)
-      add(key, middle([&](const Draw &d) { return key_value(bank, d.material); }));
+    for (const std::string &key : find_effect(best->name).parameter.keys) {
+      const double value = middle([&](const Draw &d) { return key_value(bank, d.material); });
+      if (find_effect(best->name).in_recipe)
+        of_recipe += fmt::format("# In the recipe: {} = {:.4g}\n", key, value);
+      else
+        add(key, value);
+    }
   std::string out = fmt::format(
-      "# The most probable material of a calibration ({}, {:.0f} %): the middle of its draws, "
-      "each\n"
+      "{} ({}, {:.0f} %): the middle of its draws, each\n"
       "# parameter by itself. Put the folder of your electrode here.\nelectrode = \"electrode\"\n",
-      best->name, 100.0 * best->probability);
+      kHeadOfCase, best->name, 100.0 * best->probability);
+  out += of_recipe;
   for (const auto &[table, lines] : tables)
     out += fmt::format("\n[{}]\n{}", table, lines);
   return out;

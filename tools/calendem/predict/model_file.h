@@ -13,6 +13,9 @@ namespace calendem {
 nlohmann::ordered_json to_json(const FilmBank &bank, const Calibration &calibration,
                                const std::vector<LeftOut> &left_out);
 
+/// How that case begins.
+inline constexpr const char *kHeadOfCase = "# The most probable material of a calibration";
+
 /// A case.toml of the most probable material: the middle of its hypothesis' draws.
 std::string case_of(const FilmBank &bank, const Calibration &calibration);
 

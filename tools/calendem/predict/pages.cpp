@@ -295,7 +295,7 @@ std::string prediction_page(const Calibration &c, const std::vector<PredictedFil
     for (std::size_t k = 0; k < films.size() && films.size() > 1 && k < kMostFilms; ++k)
       add_edges(films[k].film.name, films[k].pressures, films[k].*n.bands, n.scale, k, chart);
     for (std::size_t f = 0; f < c.films.size() && n.bands == &PredictedFilm::after; ++f)
-      if (films.size() == 1 && c.films[f].name == films[0].film.name)
+      if (films.size() == 1 && is_same_film(c.films[f], films[0].film))
         chart.series.push_back(points_of(c, int(f), kSeriesColours[5]));
     if (films.size() > 1)
       chart.note = "Dashed: the ends of the 90 % intervals.";

@@ -21,19 +21,20 @@ double share_below(const Guess &g, double value) {
 /// By draws and pressures, with what an error of the press's pressure adds.
 Guesses under_draws(const FilmBank &bank, const Calibration &c, const Wanted &wanted,
                     double pressure_sd) {
-  constexpr double kStep = 0.05; // of ln p
   Wanted around = wanted;
   around.pressures.clear();
-  for (const double p : wanted.pressures)
-    for (const double step : {-kStep, 0.0, kStep})
-      around.pressures.push_back(p * std::exp(step));
+  for (const double p : wanted.pressures) {
+    const auto [below, above] = bank.beside(p);
+    around.pressures.insert(around.pressures.end(), {below, p, above});
+  }
   Guesses out;
   for (const Draw &draw : c.draws) {
     const std::vector<Guess> all = given_data(bank, c, draw, around);
     out.emplace_back();
     for (std::size_t k = 0; k < all.size(); k += 3) {
       Guess g = all[k + 1];
-      const double slope = (all[k + 2].mean - all[k].mean) / (2.0 * kStep);
+      const double slope =
+          (all[k + 2].mean - all[k].mean) / std::log(around.pressures[k + 2] / around.pressures[k]);
       g.variance += std::pow(slope * pressure_sd, 2);
       out.back().push_back(g);
     }
@@ -209,7 +210,7 @@ Calibration without(const Calibration &all, int film) {
   for (const Datum &d : all.data)
     if (d.film != film)
       out.data.push_back(d);
-  out.films[std::size_t(film)].name += " (left out)"; // no film of the data has this name
+  out.films[std::size_t(film)].loading = NAN; // is no film of the data
   return out;
 }
 
@@ -225,7 +226,7 @@ std::vector<Pressed> pressed_of(const FilmBank &bank, const Calibration &c, int 
 
 double porosity_before(const FilmBank &bank, const Film &film) {
   for (std::size_t k = 0; k < bank.film().size(); ++k)
-    if (bank.film()[k].keys.front() == "recipe.coating.porosity_total_percent")
+    if (bank.film()[k].keys.front() == kPorosityKey)
       return 0.01 * film.recipe[k];
   return read_recipe(bank.spec().recipe_file).porosity_total;
 }
@@ -357,7 +358,8 @@ ByRuns by_runs(const FilmBank &bank, const Calibration &c, const Recipe &recipe,
   for (const FilmNumber number : {FilmNumber::PorosityAfter, FilmNumber::Springback,
                                   FilmNumber::Cracked, FilmNumber::LogModulus})
     for (std::size_t d = 0; d < own.draws.size(); ++d) {
-      std::vector<Guess> row = missed_given_data(bank, c, own.draws[d], {film, number, pressures});
+      std::vector<Guess> row =
+          missed_given_data(bank, c, own.draws[d], {film, number, pressures}, false);
       for (std::size_t k = 0; k < pressures.size(); ++k)
         row[k].mean += value_of(number, own.runs[d][k]);
       if (std::all_of(row.begin(), row.end(), [](const Guess &g) { return std::isfinite(g.mean); }))

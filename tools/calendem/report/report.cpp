@@ -8,6 +8,7 @@
 #include "report/plots.h"
 #include "report/tables.h"
 #include <filesystem>
+#include <fmt/format.h>
 #include <iostream>
 
 namespace calendem {
@@ -214,6 +215,12 @@ void write_report(const std::vector<std::string> &directories, std::string page)
   if (page.empty())
     page = directories.size() == 1 ? (fs::path(directories[0]) / "report.html").string()
                                    : "report.html";
+  const fs::path ending = fs::path(page).extension(), stem = fs::path(page).stem();
+  if (ending != ".html" || stem == "summary" || stem == "electrode" || stem == "structure")
+    throw Failure(kBadInput, fmt::format("-o is '{}'. Give a name that ends in .html and is not "
+                                         "summary, electrode or structure: the page's data go to "
+                                         "the same name with .json.",
+                                         page));
   const Report report = make_report(std::move(runs), command_line(directories, page));
   for (const auto &run : report.runs) {
     for (const Mistake &note : run.notes.list())

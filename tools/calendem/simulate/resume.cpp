@@ -8,14 +8,11 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <sys/file.h>
-#include <unistd.h>
 
 namespace calendem {
 
@@ -38,28 +35,56 @@ std::string differences(const std::string &old_case, const Settings &now) {
 
 } // namespace
 
-// The descriptor is left open for LIGGGHTS on purpose: should this program be killed, the lock
-// lasts until LIGGGHTS has ended too.
-FolderLock::FolderLock(const std::string &folder)
-    : file_(open((folder + "/.lock").c_str(), O_RDWR | O_CREAT, 0644)) {
-  if (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) != 0)
-    throw Failure(kBadInput,
-                  fmt::format("another run is writing into '{}'. Wait for its end, or give another "
-                              "folder with -o.",
-                              folder));
+namespace {
+
+const char *const kResults[] = {
+    "curve_raw.csv",   "bridges_raw.csv",      "elongation_raw.csv", "bridges.csv",
+    "drying.csv",      "breaks.csv",           "curve.csv",          "bodies.csv",
+    "cracks.csv",      "thresholds.csv",       "running.restart",    "running.previous",
+    "running.damaged", "running.restart.part", "compressed.restart", "final.restart",
+    "time_step.in",    "structure.csv",        "structure.json"};
+
+/// A frame or a series of frames of a run.
+bool is_picture(const fs::path &file) {
+  const std::string ending = file.extension().string();
+  return ending == ".vtp" || ending == ".pvd" || ending == ".part";
 }
 
-FolderLock::~FolderLock() {
-  if (file_ >= 0)
-    close(file_);
+/// A file of the folder that a run would replace or remove; empty: there is none.
+std::string result_in(const std::string &folder) {
+  for (const char *name : kResults)
+    if (fs::exists(fs::path(folder) / name))
+      return name;
+  for (const auto &entry : fs::directory_iterator(fs::path(folder) / "vtk"))
+    if (is_picture(entry.path()))
+      return "vtk/" + entry.path().filename().string();
+  return "";
 }
+
+/// A folder without a summary.json that can be read is no run of this command that was killed:
+/// those have one from their first moment on.
+void stop_if_of_others(const RunOptions &o) {
+  const std::string found = result_in(o.folder);
+  if (found.empty() || o.force || (o.resume && fs::exists(o.folder + "/time_step.in")))
+    return;
+  throw Failure(
+      kBadInput,
+      fmt::format("'{}' holds '{}' but no summary.json that can be read: the run of a "
+                  "script that was not collected, or files of your own. They would be "
+                  "lost. Give another -o, calendem collect, or --force to overwrite them.",
+                  o.folder, found));
+}
+
+} // namespace
 
 bool holds_this_run(const RunOptions &o, const Settings &settings, const std::string &hash,
                     const std::string &electrode) {
   RunFolder before(o.folder);
   const nlohmann::json &old = before.object("summary.json");
-  if (old.is_null()) // none, or cut: what else is there decides
+  if (old.is_null()) { // none, or cut
+    stop_if_of_others(o);
     return false;
+  }
   const std::string why = before.unfinished();
   const bool finished = why.empty(), same = old.value("case_hash", "") == hash;
   if (finished && same) {
@@ -114,14 +139,11 @@ bool find_restart(const std::string &folder, long atoms) {
 }
 
 void clear_old_results(const std::string &folder) {
-  for (const char *name :
-       {"curve_raw.csv", "bridges_raw.csv", "elongation_raw.csv", "bridges.csv", "drying.csv",
-        "breaks.csv", "curve.csv", "summary.json", "bodies.csv", "running.restart",
-        "running.previous", "running.damaged", "running.restart.part", "compressed.restart",
-        "final.restart", "time_step.in", "structure.csv", "structure.json"})
+  for (const char *name : kResults)
     fs::remove(fs::path(folder) / name);
   for (const auto &entry : fs::directory_iterator(fs::path(folder) / "vtk"))
-    fs::remove(entry.path());
+    if (is_picture(entry.path()))
+      fs::remove(entry.path());
 }
 
 void mark_as_running(const std::string &folder, const std::string &hash,

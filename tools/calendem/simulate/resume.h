@@ -9,22 +9,9 @@
 
 namespace calendem {
 
-/// Keeps other runs out of a folder as long as this run, LIGGGHTS included, is alive.
-class FolderLock {
-public:
-  /// Throws Failure(2) if another run has it.
-  explicit FolderLock(const std::string &folder);
-  ~FolderLock();
-  FolderLock(const FolderLock &) = delete;
-  FolderLock &operator=(const FolderLock &) = delete;
-
-private:
-  int file_;
-};
-
 /// True if the folder already holds this run, finished. `hash`: of all that it depends on;
 /// `electrode`: of electrode.data. Throws Failure(2) if it holds another run,
-/// or an unfinished one and neither --resume nor --force was given; Failure(4) if it holds this run
+/// results of others, or an unfinished run and neither --resume nor --force was given; Failure(4) if it holds this run
 /// and its checks did not hold.
 bool holds_this_run(const RunOptions &options, const Settings &settings, const std::string &hash,
                     const std::string &electrode);
@@ -33,7 +20,7 @@ bool holds_this_run(const RunOptions &options, const Settings &settings, const s
 /// there is none. Throws Failure(2) if all that there are are cut.
 bool find_restart(const std::string &folder, long atoms);
 
-/// Removes what an earlier run left.
+/// Removes what an earlier run left, its summary.json excepted.
 void clear_old_results(const std::string &folder);
 
 /// A summary.json that says that the run has not ended; replaced when it ends. `wall_clock_s`: of

@@ -2,6 +2,7 @@
 #include "simulate/run.h"
 #include "base/case.h"
 #include "base/liggghts_job.h"
+#include "base/output_folder.h"
 #include "base/provenance.h"
 #include "base/recipe.h"
 #include "base/run_folder.h"
@@ -144,6 +145,8 @@ void remember_what_was_done(const std::string &folder, RunFacts &facts) {
   facts.first_step = rows.empty() ? 0.0 : rows.back().step;
 }
 
+const char *const kAsRun = "# as run by"; // collect writes it too
+
 /// Writes what the run needs; true if it goes on from a restart file.
 bool prepare(const Settings &settings, const ElectrodeFacts &electrode, const RunOptions &o,
              const std::string &electrode_hash, RunFacts &facts) {
@@ -154,15 +157,15 @@ bool prepare(const Settings &settings, const ElectrodeFacts &electrode, const Ru
     fmt::print("run: no restart file in {}; starting from the electrode\n", o.folder);
   if (resume)
     remember_what_was_done(folder, facts);
-  else
+  mark_as_running(folder, facts.case_hash, electrode_hash, facts.earlier_s);
+  if (!resume)
     clear_old_results(folder);
   write_file(
       folder + "/case.toml",
       write_toml(settings, case_keys(),
-                 fmt::format("# as run by calendem {}; every default filled in\n", version())));
+                 fmt::format("{} calendem {}; every default filled in\n", kAsRun, version())));
   fs::copy_file(settings.text("electrode") + "/electrode.json", folder + "/electrode.json",
                 fs::copy_options::overwrite_existing);
-  mark_as_running(folder, facts.case_hash, electrode_hash, facts.earlier_s);
   return resume;
 }
 
@@ -235,6 +238,8 @@ void run_case(const Settings &settings, RunOptions o) {
   const std::string folder = fs::absolute(o.folder).lexically_normal().string();
   o.folder = folder;
   make_output_folder(folder, 2 * room_for_next_files(electrode));
+  must_not_be(folder, settings.text("electrode"), "the electrode");
+  must_be_ours(folder + "/case.toml", kAsRun);
   fs::create_directories(folder + "/vtk");
   const FolderLock lock(folder);
   if (holds_this_run(o, settings, hash, electrode_hash)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "simulate/sample.h"
 #include "base/case.h"
+#include "base/output_folder.h"
 #include "base/provenance.h"
 #include "base/run_folder.h"
 #include <algorithm>
@@ -313,6 +314,8 @@ nlohmann::json summary_of(const std::vector<Cell> &cells, const Pressed &sample,
 /// The first cell's; who presses a sample knows its pressure.
 std::string case_of(const std::vector<Cell> &cells, const Pressed &sample) {
   Settings settings = cells[0].settings;
+  for (const char *other : {"platen.thickness_um", "platen.displacement_um", "platen.roll_gap_um"})
+    settings.set(other, "0");
   settings.set("platen.control", "pressure");
   settings.set("platen.max_pressure_MPa", fmt::format("{:.6g}", sample.top().pressure));
   return write_toml(settings, case_keys(), fmt::format("# a sample of {} cells\n", cells.size()));
@@ -321,6 +324,11 @@ std::string case_of(const std::vector<Cell> &cells, const Pressed &sample) {
 std::vector<Cell> read_cells(const std::vector<std::string> &runs, OneFor shared) {
   Mistakes mistakes("sample");
   std::vector<Cell> cells;
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    for (std::size_t m = 0; m < k; ++m)
+      if (std::error_code none; std::filesystem::equivalent(runs[k], runs[m], none))
+        mistakes.add(0,
+                     fmt::format("'{}' is given twice; a sample counts each run once.", runs[k]));
   for (const std::string &run : runs)
     cells.push_back(read_cell(run, mistakes));
   mistakes.stop_if_any();
@@ -344,6 +352,8 @@ void make_sample(const std::vector<std::string> &runs, OneFor shared, const std:
                        electrode = electrode_of(cells, what),
                        summary = summary_of(cells, sample, what);
   make_output_folder(folder);
+  for (const std::string &run : runs)
+    must_not_be(folder, run, "a run of the sample");
   write_file(folder + "/curve.csv", sample.curve());
   write_file(folder + "/electrode.json", electrode.dump(2) + "\n");
   write_file(folder + "/case.toml", case_of(cells, sample));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "simulate/study.h"
 #include "base/liggghts_job.h"
+#include "base/output_folder.h"
 #include "base/provenance.h"
 #include "base/run_folder.h"
 #include "simulate/making.h"

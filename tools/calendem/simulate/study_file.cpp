@@ -2,14 +2,14 @@
 #include "simulate/study_file.h"
 #include "base/case.h"
 #include "base/csv_table.h"
+#include "base/provenance.h"
 #include "base/table_reader.h"
 #include "base/toml_reader.h"
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 
 namespace calendem {
 namespace {
@@ -157,13 +157,11 @@ private:
     Group group;
     const int line = line_of(*t.get("design"));
     const std::string file = path(t, {"design", "", "", 0, 0, "", "table (CSV)", "", true});
-    std::ifstream in(file, std::ios::binary);
-    if (!in) {
+    if (!std::filesystem::is_regular_file(file)) {
       mistakes_.add(line, fmt::format("design: there is no file '{}'.", file));
       return group;
     }
-    const CsvTable table =
-        CsvTable::parse({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+    const CsvTable table = CsvTable::parse(text_of_file(file));
     if (table.rows() == 0)
       mistakes_.add(line, fmt::format("{} holds no rows.", file));
     for (const int bad : table.bad_lines())

@@ -3,6 +3,7 @@
 #include "base/gap_file.h"
 #include "base/liggghts_job.h"
 #include "base/messages.h"
+#include "base/output_folder.h"
 #include "base/provenance.h"
 #include "diagnose/inference/scatter.h"
 #include "diagnose/rerun.h"

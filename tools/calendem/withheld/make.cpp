@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/make.h"
 #include "base/messages.h"
+#include "base/output_folder.h"
 #include "base/provenance.h"
 #include "base/random.h"
 #include "physics/pi.h"

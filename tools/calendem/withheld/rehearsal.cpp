@@ -2,6 +2,7 @@
 #include "withheld/rehearsal.h"
 #include "base/liggghts_job.h"
 #include "base/messages.h"
+#include "base/output_folder.h"
 #include "base/provenance.h"
 #include "base/random.h"
 #include "diagnose/bank/bank_table.h"

@@ -2,6 +2,7 @@
 #include "withheld/score.h"
 #include "base/gap_file.h"
 #include "base/messages.h"
+#include "base/output_folder.h"
 #include "base/provenance.h"
 #include "base/registry.h"
 #include "report/page.h"

@@ -2,12 +2,13 @@
 #include "diagnose/bank/bank_table.h"
 #include "base/csv_table.h"
 #include "base/messages.h"
+#include "base/provenance.h"
 #include "physics/press_instruments.h"
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
-#include <iterator>
 #include <map>
 
 namespace calendem {
@@ -156,20 +157,19 @@ std::string write_bank_table(const BankTable &table) {
 
 BankTable read_bank_table(const BankSpec &spec, const std::string &file) {
   Mistakes mistakes(file, 10);
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
+  const bool there = std::filesystem::is_regular_file(file);
+  if (!there)
     mistakes.add(0, fmt::format("no such file. Make it with calendem bank {} -o DIR; it is then "
                                 "DIR/bank.csv.",
                                 spec.file));
-  const CsvTable t =
-      CsvTable::parse({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+  const CsvTable t = CsvTable::parse(there ? text_of_file(file) : "");
   const std::vector<std::string> due = due_columns(spec);
   std::vector<std::string> wanted = due;
   wanted.insert(wanted.end(), {"effect", "value"});
   for (const double p : grid())
     wanted.push_back(grid_column(p));
   for (const std::string &column : wanted)
-    if (in && !t.has(column))
+    if (there && !t.has(column))
       mistakes.add(
           0, fmt::format("column '{}' is missing. Is this the table of {}?", column, spec.file));
   for (const int line : t.bad_lines())

@@ -49,14 +49,15 @@ struct Entry {
 
 /// Scatter between packings, pooled over the conditions of an observable.
 void pool_seeds(std::vector<Entry> &entries, int &degrees_of_freedom) {
-  std::map<std::string, std::pair<double, int>> pooled;
+  const auto of = [](const Entry &e) { return std::pair(e.row.observable, e.row.stage); };
+  std::map<std::pair<std::string, std::string>, std::pair<double, int>> pooled;
   for (const Entry &e : entries) {
-    pooled[e.row.observable].first += e.packings.squares;
-    pooled[e.row.observable].second += static_cast<int>(e.packings.values.size()) - 1;
+    pooled[of(e)].first += e.packings.squares;
+    pooled[of(e)].second += static_cast<int>(e.packings.values.size()) - 1;
   }
   int fewest = -1;
   for (Entry &e : entries) {
-    const auto [squares, df] = pooled[e.row.observable];
+    const auto [squares, df] = pooled[of(e)];
     e.row.sd_seeds = df > 0 ? std::sqrt(squares / df / e.packings.values.size()) : std::nan("");
     if (df > 0)
       fewest = fewest < 0 ? df : std::min(fewest, df);
@@ -122,7 +123,7 @@ void say_changes(Gap &gap) {
   for (std::size_t a = 0; a < gap.rows.size(); ++a)
     for (std::size_t b = 0; b < gap.rows.size(); ++b) {
       const Residual &x = gap.rows[a], &y = gap.rows[b];
-      if (x.observable != y.observable || !(x.condition < y.condition))
+      if (x.observable != y.observable || x.stage != y.stage || !(x.condition < y.condition))
         continue;
       const double change = y.measured - x.measured,
                    sd = std::hypot(y.sd_measurement, x.sd_measurement);
@@ -176,7 +177,8 @@ void add_entries(const Experiment &experiment, const Condition &c,
     e.row.condition = c.id;
     e.row.unit = o.unit;
     e.row.measured = o.measured;
-    e.row.sd_measurement = std::hypot(o.sd, o.by_loading);
+    e.row.sd_measurement =
+        std::hypot(std::hypot(o.sd, o.by_loading), std::hypot(o.by_drift, o.by_zero));
     e.row.simulated = e.packings.mean;
     e.row.residual = e.row.simulated - o.measured;
     e.row.packings = static_cast<int>(e.packings.values.size());

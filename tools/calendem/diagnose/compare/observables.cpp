@@ -167,8 +167,9 @@ std::vector<bool> standing_out(const std::vector<double> &v) {
   if (size.empty())
     return out;
   const double usual = std::max(1.4826 * median(size), kSmallJump * largest);
+  const auto turn = std::max_element(v.begin(), v.end()) - v.begin(); // rises and falls steeply
   for (std::size_t k = 0; k < v.size(); ++k)
-    out[k] = off[k] > kStandsOut * usual;
+    out[k] = off[k] > kStandsOut * usual && std::abs(long(k) - turn) > 2;
   return out;
 }
 
@@ -225,8 +226,11 @@ void along_curve(const Experiment &e, const Condition &c, std::vector<Observable
       o.by_loading = loading ? -o.measured * loading->sd / loading->value : 0.0;
       o.by_drift = c.curve_drift_um / solid * along(o.coordinate, branch);
       o.by_zero = c.curve_zero_um / solid;
-      if (branch == Branch::Loading || std::isfinite(o.measured))
+      if (std::isfinite(o.measured))
         out.push_back(o);
+      else if (branch == Branch::Loading)
+        not_said.push_back(fmt::format("{}: its curve begins at {:g} MPa; nothing is said at {:g}.",
+                                       c.id, measured.pressure.front(), o.pressure));
     }
   };
   add(curve.loading, Branch::Loading);

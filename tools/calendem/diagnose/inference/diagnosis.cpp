@@ -24,6 +24,23 @@ std::vector<BlockResidual> residuals_of(const Model &model, const Vector &values
   return list;
 }
 
+/// With scores that count from the prior, where the problem's do not.
+Which in_scores_of_the_prior(const Problem &problem, const Which &which) {
+  Which out = which;
+  if (!problem.scores_of_the_prior)
+    return out;
+  const Eigen::Index n = problem.base_parameters;
+  for (Judged &j : out.judged) {
+    Evidence &e = j.evidence;
+    if (e.mode.size() < n)
+      continue;
+    e.mode.head(n) = problem.scores_of_the_prior(e.mode.head(n));
+    for (Eigen::Index k = 0; k < e.draws.cols(); ++k)
+      e.draws.col(k).head(n) = problem.scores_of_the_prior(e.draws.col(k).head(n));
+  }
+  return out;
+}
+
 /// Mode and 90 % interval of one score's parameter.
 Recalibrated fitted(const Parameter &p, const Evidence &evidence, Eigen::Index score) {
   std::vector<double> draws(evidence.draws.row(score).begin(), evidence.draws.row(score).end());
@@ -57,6 +74,9 @@ void heed_where(const Where &where, double claim_probability, Which &which) {
   const bool seen = std::any_of(where.rows.begin(), where.rows.end(),
                                 [](const WhereRow &row) { return row.significant; });
   const double none = which.of("none").probability;
+  for (Sensitivity &s : which.sensitivity)
+    if (seen && s.claim == "none" && s.probability < claim_probability)
+      s.claim = "undecided";
   if (which.claim != "none" || !seen || none >= claim_probability)
     return;
   which.claim = "undecided";
@@ -106,10 +126,11 @@ Diagnosis diagnose(const Model &model, const Problem &problem, const Bank &bank,
   d.residual = residuals_of(model, values, d.which.base.mean.head(model.map().emulated()));
   for (WhereRow &row : d.where.rows)
     row.z = std::copysign(row.z, d.residual[row.block].residual);
-  d.parameters = parameters_of(bank.base, d.which.judged.front());
+  const Which shown = in_scores_of_the_prior(problem, d.which);
+  d.parameters = parameters_of(bank.base, shown.judged.front());
   d.effects = effects_of(bank, best_predicting(d.which));
   d.ranges = effect_ranges(problem, d.which);
-  d.parameters_of_all = parameter_ranges(bank.base, d.which);
+  d.parameters_of_all = parameter_ranges(bank.base, shown);
   d.groups = effect_groups(d.which, d.confounding);
   d.predictions = predictions(model, problem, d.which, values);
   d.emulators = model.quality();
@@ -157,6 +178,7 @@ Problem change_of(const Model &model, const Vector &values, const Vector &predic
   const auto scores = [mean = base.mean, factor](const Vector &s) {
     return Vector(mean + factor * s);
   };
+  p.scores_of_the_prior = scores;
   const Vector before = model.map().features_of(predicted);
   p.scatter *= 2.0;
   p.predict = [predict = p.predict, scores, before,

@@ -52,6 +52,8 @@ struct Problem {
   std::vector<ModelledEffect> effects; ///< measurement faults too
   Matrix discrepancy;                  ///< covariance of the unknown, of one standard deviation
   std::function<Prediction(const Vector &base, const std::vector<Applied> &)> predict;
+  /// Where scores of the base do not count from its prior: those that do. Empty: they are the same.
+  std::function<Vector(const Vector &base)> scores_of_the_prior;
   /// Empty: by differences.
   std::function<Slopes(const Vector &base, const std::vector<Applied> &on)> slopes;
 };

@@ -18,6 +18,8 @@ double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 double truncated_quantile(double q, double mu, double sigma, double low, double high) {
   const double a = normal_cdf((std::log(low) - mu) / sigma);
   const double b = normal_cdf((std::log(high) - mu) / sigma);
+  if (!(b - a > 1e-12)) // the law lies beyond one of the limits
+    return mu > std::log(low) ? high : low;
   const double wanted = a + q * (b - a);
   double lo = std::log(low), hi = std::log(high);
   for (int i = 0; i < 80; ++i) {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/pack/pack.h"
 #include "base/liggghts_job.h"
+#include "base/output_folder.h"
 #include "base/provenance.h"
 #include "electrode/pack/description.h"
 #include "electrode/pack/electrode_files.h"
 #include "electrode/pack/measured_bodies.h"
+#include "physics/pi.h"
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <iostream>
@@ -16,6 +19,9 @@ namespace calendem {
 
 namespace fs = std::filesystem;
 namespace {
+
+const char *const kLargest = "largest_equivalent_diameter_allowed_um";
+const char *const kCutOff = "volume_fraction_cut_off_by_size_limit";
 
 void show_progress(const PackOptions &o, const Recipe &r, std::string &shown) {
   const LastRow row = last_row(o.folder + "/packing.csv");
@@ -63,6 +69,15 @@ void check_machine(const Recipe &r, const PackOptions &o) {
                              o.ranks, r.cell_x, r.cell_y, most));
   if (const std::string wrong = wrong_program(o.liggghts); !wrong.empty())
     mistakes.add(0, wrong);
+  constexpr double kMost = 2e6;
+  const double primaries = r.am_column() * r.area() / std::pow(r.lattice, 3),
+               spheres = primaries + r.cbd_solid_column() * r.area() /
+                                         (kPi / 6.0 * std::pow(r.cbd_diameter, 3));
+  if (!r.structure.given() && spheres > kMost)
+    mistakes.add(0,
+                 fmt::format("a cell of {} x {} um needs about {:.2g} spheres; {:g} are the most. "
+                             "Make the cell smaller, or the spheres larger.",
+                             r.cell_x, r.cell_y, spheres, kMost));
   mistakes.stop_if_any();
 }
 
@@ -81,6 +96,21 @@ nlohmann::json finish(const PackInput &in, Start &start, const std::string &fold
       describe({recipe, bodies, particles, poses, state, last_row(folder + "/packing.csv")});
   add_origin(j, in, start, poses);
   return j;
+}
+
+/// A run keeps a copy of its electrode's electrode.json, and a bodies.csv of its own.
+void stop_if_run(const std::string &folder) {
+  if (fs::exists(folder + "/summary.json"))
+    throw Failure(kBadInput, fmt::format("'{}' holds a run, whose bodies.csv would be replaced. "
+                                         "Give another folder with -o.",
+                                         folder));
+}
+
+bool is_whole(const std::string &folder) {
+  for (const char *name : {"electrode.data", "bodies.csv", "bodies.map"})
+    if (!fs::exists(fs::path(folder) / name))
+      return false;
+  return true;
 }
 
 // Throws Failure(4).
@@ -105,19 +135,36 @@ std::string packing_identity(const Recipe &recipe, const std::string &tools) {
   return hash_of_text(text + hash_of_shapes(recipe) + hash_of_structure(recipe.structure));
 }
 
+namespace {
+
+/// Most of the recipe's particles do not fit the cell: smaller ones stand for them.
+void warn_of_sizes(const nlohmann::json &electrode) {
+  constexpr double kWarned = 0.5;
+  const double cut = electrode.value(kCutOff, 0.0);
+  if (cut > kWarned)
+    fmt::print(
+        "pack: {:.0f} % of the volume of the recipe's particles is wider than this cell takes "
+        "({:.1f} um); smaller ones stand for it. A larger cell takes more.\n",
+        100.0 * cut, electrode.value(kLargest, 0.0));
+}
+
+} // namespace
+
 void pack_electrode(const Recipe &as_given, PackOptions o) {
   o.folder = fs::absolute(o.folder).lexically_normal().string(); // LIGGGHTS runs in that folder
   o.liggghts = fs::absolute(o.liggghts).lexically_normal().string();
   const std::string summary = o.folder + "/electrode.json",
                     identity = packing_identity(as_given, packing_tools(o.liggghts));
-  if (made_of(summary, identity)) {
+  make_output_folder(o.folder);
+  const FolderLock lock(o.folder);
+  stop_if_run(o.folder);
+  if (made_of(summary, identity) && is_whole(o.folder)) {
     fmt::print("pack: {} already holds this electrode\n", o.folder);
     return;
   }
   const auto begin = std::chrono::steady_clock::now();
   const PackInput in = read_input(as_given);
   check_machine(in.recipe, o);
-  make_output_folder(o.folder);
   fs::create_directories(o.folder + "/vtk");
   std::error_code none;
   fs::remove(summary, none);
@@ -133,6 +180,7 @@ void pack_electrode(const Recipe &as_given, PackOptions o) {
              j["loading_mg_cm2"].get<double>(), 100 * j["porosity_total"].get<double>(),
              j["platen_pressure_MPa"].get<double>(), j["largest_body_force_nN"].get<double>(),
              j["wall_clock_s"].get<double>());
+  warn_of_sizes(j);
   try {
     check(j, in.recipe, o.folder);
   } catch (const Failure &) {
@@ -144,9 +192,6 @@ void pack_electrode(const Recipe &as_given, PackOptions o) {
 }
 
 namespace {
-
-const char *const kLargest = "largest_equivalent_diameter_allowed_um";
-const char *const kCutOff = "volume_fraction_cut_off_by_size_limit";
 
 ShapeLibrary open_library(const Recipe &recipe, const std::string &folder) {
   ShapeLibrary library = library_of(recipe);

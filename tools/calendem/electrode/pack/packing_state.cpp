@@ -43,7 +43,8 @@ public:
   explicit Placer(const Recipe &r)
       : recipe_(r), random_(r.seed, 3), choice_(r.seed, 4),
         bins_(r, 1.05 * std::max(r.primary_diameter, r.cbd_diameter)) {
-    out_.height = 3.0 * (r.am_column() + r.cbd_solid_column() / (1.0 - r.nanoporosity));
+    out_.height = std::max(3.0 * (r.am_column() + r.cbd_solid_column() / (1.0 - r.nanoporosity)),
+                           1.2 * r.thickness());
   }
 
   void place_body(const Body &b, int number) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/slurry/dry.h"
 #include "base/liggghts_job.h"
+#include "base/output_folder.h"
 #include "base/provenance.h"
 #include "electrode/pack/electrode_files.h"
 #include "electrode/pack/measured_bodies.h"
@@ -148,6 +149,7 @@ void dry_film(const FilmRecipe &f, DryOptions o) {
       place_spheres(f, shaped ? draw_counts(f.recipe, library) : draw_counts(f.recipe));
   check_cell(f, o, start.particles.front().diameter);
   make_output_folder(o.folder);
+  must_be_ours(o.folder + "/electrode.toml", "# The film that `calendem dry` left");
   std::error_code none;
   fs::remove(summary, none);
   if (shaped)

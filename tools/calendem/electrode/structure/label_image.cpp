@@ -160,7 +160,8 @@ void write_with(vtkNew<Writer> &writer, vtkImageData *data, const std::string &f
   writer->SetFileName(file.c_str());
   writer->SetInputData(data);
   writer->Write();
-  if (!std::filesystem::exists(file))
+  if (writer->GetErrorCode() != 0 || !std::filesystem::exists(file) ||
+      std::filesystem::file_size(file) == 0)
     refuse_image(file, "cannot be written. Check the folder, its rights and the disk.");
 }
 
