@@ -50,6 +50,12 @@ first=$work/out/runs/$(column run | head -n 1)
 awk -F, -v p="$(column thickness_um_at_10_MPa | head -n 1)" 'NR == 1 { for (k = 1; k <= NF; k++) { if ($k == "thickness_um") h = k; if ($k == "pressure_MPa") q = k } next }
   $q >= 10 { exit !(p >= $h && p <= before) } { before = $h }' "$first/curve.csv" || fail "thickness at 10 MPa is not between its rows"
 
+# Two rows that ask for the same run, side by side: it is made once.
+sed 's/^values = \[1, 2\]/values = [3, 3]/; s/^values = \[150, .*/values = [150]/' "$work/study.toml" >"$work/same.toml"
+"$bin/calendem" study "$work/same.toml" -o "$work/same" --jobs 2 >"$work/same.log" 2>&1 || { cat "$work/same.log"; fail "one run asked for twice"; }
+[ "$(awk -F, 'NR > 1 { print $2 }' "$work/same/study.csv" | paste -sd,)" = done,done ] || fail "one run asked for twice is not done"
+[ "$(find "$work/same/runs" -mindepth 1 -maxdepth 1 -type d | wc -l)" = 1 ] || fail "it was made twice"
+
 # A bank's runs that fail do not keep those on the full cell from being made.
 cat >"$work/bank.toml" <<'T'
 [bank]

@@ -627,8 +627,8 @@ files_of_others() { # nothing is replaced that the command did not write
   printf '%s\n' '[cell]' 'x_um = 6' 'y_um = 6' | file recipe.toml
   expect 2 calendem pack "$work/recipe.toml" -o "$work/run"
   says "holds a run, whose bodies.csv would be replaced"
-  expect 2 calendem sample "$work/run" "$work/run" --one gap -o "$work/sample"
-  says "is given twice"
+  expect 2 calendem sample "$work/run" "$work/run" --one gap -o "$work/run"
+  says "the folder of a run of the sample"
   mkdir -p "$work/x;y"
   expect 2 calendem run "$work/case.toml" -o "$work/x;y"
   says "LIGGGHTS cannot take a path with"

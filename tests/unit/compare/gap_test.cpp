@@ -258,6 +258,24 @@ TEST(Observables, UnloadingIsNoPartOfLoading) {
   EXPECT_EQ(all[3].name, "displacement at 75 MPa");
 }
 
+// Where the platen first touched is an error of every displacement.
+TEST(FindGap, TheFirstTouchCounts) {
+  const auto file = calendem_test::test_folder() / "curve.csv";
+  std::ofstream(file) << "displacement_um,pressure_MPa\n0,0\n10,50\n20,100\n";
+  Experiment e = paper();
+  Condition &c = e.conditions[1];
+  c.porosity_after_percent.reset();
+  c.mass_mg.reset();
+  c.thickness_after_um.reset();
+  c.curve = file.string();
+  c.curve_sd_um = 0.02;
+  c.curve_zero_um = 1.0;
+  const Gap gap = find_gap(e, {pressed_to(150, 0.3, "a")});
+  ASSERT_FALSE(gap.rows.empty());
+  for (const Residual &r : gap.rows)
+    EXPECT_NEAR(r.sd_measurement, std::hypot(0.02, 1.0), 1e-9) << r.observable;
+}
+
 // Shares are 10 to 75 % of the largest pressure; a curve from 30 % on says nothing of the lower ones.
 TEST(Observables, ACurveThatBeginsLateHasTheRest) {
   const auto all = of_curve("displacement_um,pressure_MPa\n5,30\n10,50\n20,100\n");

@@ -45,6 +45,29 @@ TEST(Confounding, CosinesOddsAndLimitsInClosedForm) {
   EXPECT_NEAR(alone.limits[0].against_none, std::sqrt(6.0), 0.02);
 }
 
+// An effect that may have either sign imitates one of the opposite signature.
+TEST(Confounding, ARivalMayHaveTheOtherSign) {
+  LinearWorld world(2, 0, 2, 1);
+  world.centre.setZero();
+  world.covariance.setIdentity();
+  world.signatures << 1.0, -1.0, 0.0, 0.0;
+  Problem problem = world.problem(Vector::Zero(2));
+  problem.effects[0].parameters[0].prior = {Prior::uniform, 0.0, 10.0};
+  problem.effects[1].parameters[0].prior = {Prior::uniform, -10.0, 10.0};
+  problem.predict = [&](const Vector &, const std::vector<Applied> &on) {
+    Prediction out{Vector::Zero(2), Vector::Zero(2)};
+    for (const Applied &a : on)
+      out.mean += problem.effects[a.effect].parameters[0].prior.value(a.scores[0]) *
+                  world.signatures.col(a.effect);
+    return out;
+  };
+  Which w;
+  w.base = linearise(problem, Vector());
+  const Confounding c = confounding(problem, w, {});
+  EXPECT_NEAR(c.log_odds(0, 1), 0.0, 0.5 * std::pow(0.5 * 10.0 / 24.0, 2)); // half a step away
+  EXPECT_NEAR(c.log_odds(0, 2), 12.5, 1e-6);
+}
+
 // One feature of variance 1, r (e^b - 1) of the base parameter b, and an amplitude of 0 to 10
 // added: the base model follows further than its tangent r b at 0. The least of (a - r (e^b - 1))^2
 // + b^2 is 6 at the limit a.

@@ -251,6 +251,7 @@ std::string Making::pack(int k) {
 
 std::string Making::run(int k) {
   const std::string folder = run_folder(states_[k]);
+  const WaitingLock lock(folder + ".lock"); // two rows may ask for the same run
   Settings settings = study_.runs[k].settings;
   settings.set("electrode", packing_folder(states_[k]));
   write_file(folder + ".toml",

@@ -327,8 +327,7 @@ std::vector<Cell> read_cells(const std::vector<std::string> &runs, OneFor shared
   for (std::size_t k = 0; k < runs.size(); ++k)
     for (std::size_t m = 0; m < k; ++m)
       if (std::error_code none; std::filesystem::equivalent(runs[k], runs[m], none))
-        mistakes.add(0,
-                     fmt::format("'{}' is given twice; a sample counts each run once.", runs[k]));
+        fmt::print("note: '{}' is given twice and counts twice\n", runs[k]);
   for (const std::string &run : runs)
     cells.push_back(read_cell(run, mistakes));
   mistakes.stop_if_any();

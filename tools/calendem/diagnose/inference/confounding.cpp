@@ -22,29 +22,38 @@ int first_amplitude(const ModelledEffect &effect) {
   return 0;
 }
 
-/// Scores of an effect at a share of its first amplitude's range, the others at quantiles.
+/// Where the first amplitude's prior reaches below zero: how far.
+double below_zero(const ModelledEffect &effect) {
+  const Prior &p = effect.parameters[std::size_t(first_amplitude(effect))].prior;
+  return std::max(0.0, -p.value(-kFarthest));
+}
+
+/// Scores of an effect at a share of its first amplitude's range (below 0: of what is below zero),
+/// the others at quantiles.
 Vector at_share(const ModelledEffect &effect, double share, int shape) {
   Vector scores(Eigen::Index(effect.parameters.size()));
   const int first = first_amplitude(effect);
   for (int j = 0; j < scores.size(); ++j) {
     const Prior &p = effect.parameters[j].prior;
-    scores[j] =
-        j == first ? p.score(share * p.upper()) : normal_quantile((shape + 1.0) / (kShapes + 1.0));
+    scores[j] = j == first ? p.score(share * (share < 0.0 ? below_zero(effect) : p.upper()))
+                           : normal_quantile((shape + 1.0) / (kShapes + 1.0));
     shape = j == first ? shape : shape / 2 + 1; // a second shape parameter goes another way
   }
   return scores;
 }
 
-/// Signatures of an effect over its amplitudes and shapes; the first is "off".
+/// Signatures of an effect over its amplitudes, of both signs where it has them, and shapes; the
+/// first is "off".
 std::vector<Signature> grid_of(const Signatures &signatures, const Problem &problem, int effect,
                                int steps) {
   const ModelledEffect &e = problem.effects[effect];
   const int shapes = e.parameters.size() > 1 ? kShapes : 1;
   std::vector<Signature> grid{signatures.off()};
-  for (int s = 0; s < shapes; ++s)
-    for (int k = 0; k < steps; ++k)
-      grid.push_back(
-          signatures.of({{effect, at_share(e, (k + 1.0) / steps, shapes == 1 ? 1 : s)}}));
+  for (const double sign : {1.0, -1.0})
+    for (int s = 0; s < shapes && (sign > 0.0 || below_zero(e) > 0.0); ++s)
+      for (int k = 0; k < steps; ++k)
+        grid.push_back(
+            signatures.of({{effect, at_share(e, sign * (k + 1.0) / steps, shapes == 1 ? 1 : s)}}));
   return grid;
 }
 

@@ -155,8 +155,6 @@ void pack_electrode(const Recipe &as_given, PackOptions o) {
   o.liggghts = fs::absolute(o.liggghts).lexically_normal().string();
   const std::string summary = o.folder + "/electrode.json",
                     identity = packing_identity(as_given, packing_tools(o.liggghts));
-  make_output_folder(o.folder);
-  const FolderLock lock(o.folder);
   stop_if_run(o.folder);
   if (made_of(summary, identity) && is_whole(o.folder)) {
     fmt::print("pack: {} already holds this electrode\n", o.folder);
@@ -165,6 +163,8 @@ void pack_electrode(const Recipe &as_given, PackOptions o) {
   const auto begin = std::chrono::steady_clock::now();
   const PackInput in = read_input(as_given);
   check_machine(in.recipe, o);
+  make_output_folder(o.folder);
+  const FolderLock lock(o.folder);
   fs::create_directories(o.folder + "/vtk");
   std::error_code none;
   fs::remove(summary, none);
