@@ -33,10 +33,6 @@ std::string differences(const std::string &old_case, const Settings &now) {
   return text;
 }
 
-} // namespace
-
-namespace {
-
 const char *const kResults[] = {
     "curve_raw.csv",   "bridges_raw.csv",      "elongation_raw.csv", "bridges.csv",
     "drying.csv",      "breaks.csv",           "curve.csv",          "bodies.csv",

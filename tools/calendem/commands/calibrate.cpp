@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What measured films say of the material.
+#include "base/output_folder.h"
+#include "base/provenance.h"
+#include "commands/commands.h"
+#include "predict/pages.h"
+#include "predict/prediction.h"
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace calendem {
+namespace {
+
+constexpr double kPercent = 100.0;
+
+struct CalibrateOptions {
+  std::vector<std::string> experiments;
+  std::string bank, folder;
+  CalibrationSettings settings;
+};
+
+void run_calibrate(const CalibrateOptions &o) {
+  const FilmBank bank(read_bank_table(read_bank_spec(o.bank), table_file(o.bank)));
+  Calibration c;
+  double numerics = 0.0;
+  for (const Numerics &n : bank.spec().numerics)
+    numerics += n.porosity_points * n.porosity_points;
+  c.error.numerics = std::sqrt(numerics) / kPercent;
+  std::vector<std::string> not_said;
+  for (const std::string &file : o.experiments)
+    add_experiment(read_experiment(file), bank, c, not_said);
+  make_output_folder(o.folder);
+  must_be_ours(o.folder + "/case.toml", kHeadOfCase);
+  fmt::print("calibrate: {} films, {} numbers\n", c.films.size(), c.data.size());
+  calibrate(bank, o.settings, c);
+  for (const std::string &text : at_the_end(bank, c))
+    not_said.push_back(text);
+  const std::vector<LeftOut> rows = left_out(bank, c, o.settings);
+  nlohmann::ordered_json model = to_json(bank, c, rows);
+  for (const std::string &file : o.experiments)
+    model["provenance"]["experiments"].push_back({{"file", file}, {"hash", hash_of_file(file)}});
+  model["not_said"] = not_said;
+  write_file(o.folder + "/model.json", model.dump(1) + "\n");
+  write_file(o.folder + "/case.toml", case_of(bank, c));
+  write_file(o.folder + "/model.html", model_page(bank, c, model));
+  for (const Weighed &w : c.hypotheses)
+    fmt::print("  {:<24} {:5.1f} %   ({:.0f} effective samples)\n", w.name,
+               kPercent * w.probability, w.effective_samples);
+  if (!rows.empty())
+    fmt::print("each film left out in turn: porosity after release, %\n");
+  for (const LeftOut &r : rows)
+    fmt::print("  {:<36} {:4.0f} MPa  measured {:.1f}, predicted {:.1f} (90 %: {:.1f} to {:.1f}), "
+               "Heckel {:.1f}, Meyer {:.1f}\n",
+               r.film, r.pressure, kPercent * r.measured, kPercent * r.predicted.median,
+               kPercent * r.predicted.low90, kPercent * r.predicted.high90,
+               kPercent * r.rules.at("Heckel"), kPercent * r.rules.at("Meyer"));
+  for (const std::string &text : not_said)
+    fmt::print("- {}\n", text);
+  fmt::print("page: {0}/model.html\nmodel: {0}/model.json\ncase: {0}/case.toml\n", o.folder);
+}
+
+} // namespace
+
+void add_calibrate_verb(CLI::App &app) {
+  auto o = std::make_shared<CalibrateOptions>();
+  o->bank = input_scripts() + "/cases/coatings/bank.toml";
+  CLI::App *verb = app.add_subcommand(
+      "calibrate", "What measured films say of the material: parameters and effects with their "
+                   "uncertainty, each film predicted from the others");
+  verb->add_option("EXPERIMENT", o->experiments, "experiment files (TOML)")->required();
+  verb->add_option("-o,--output", o->folder, "folder for model.json, case.toml and model.html")
+      ->required();
+  verb->add_option("--bank", o->bank, "bank (TOML) with its table (CSV) beside it");
+  verb->add_option("--samples", o->settings.samples, "of each hypothesis, from its prior")
+      ->check(CLI::Range(64, 1 << 20));
+  verb->callback([o] { run_calibrate(*o); });
+}
+
+} // namespace calendem
