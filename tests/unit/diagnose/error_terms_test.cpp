@@ -125,6 +125,29 @@ TEST(ErrorTerms, PackingsOfSpecimensAreTheirOwn) {
   EXPECT_GT(scatter(), 0.0);
 }
 
+// What could be measured next on the same disc shares its packings; at another pressure it takes
+// another disc.
+TEST(ErrorTerms, PackingsOfMeasurementsToComeAreThoseOfTheirSpecimens) {
+  Experiment e = two_discs();
+  e.conditions.erase(e.conditions.begin());
+  SharedModels models;
+  const Diagnosed d = diagnosed(e, made_bank(), 1.0, models);
+  const auto old = Eigen::Index(d.model->problem(d.data.experiment.values).features.size());
+  int same_disc = 0, other_disc = 0;
+  for (const inference::Extension &next : d.model->extensions(d.data.experiment.values)) {
+    const auto &scatter = next.extended.scatter;
+    const double across = scatter.topRightCorner(old, scatter.cols() - old).cwiseAbs().maxCoeff();
+    const bool same = next.what.find(e.conditions[0].id) != std::string::npos;
+    (same ? same_disc : other_disc) += 1;
+    if (same)
+      EXPECT_GT(across, 0.0) << next.what;
+    else
+      EXPECT_EQ(across, 0.0) << next.what;
+  }
+  EXPECT_GT(same_disc, 0);
+  EXPECT_GT(other_disc, 0);
+}
+
 TEST(ErrorTerms, TheBudgetNamesEveryTermOfEveryObservable) {
   BankTable bank = made_bank();
   bank.spec.numerics = {{"speed", 1.0}};

@@ -8,22 +8,30 @@
 namespace calendem::inference {
 namespace {
 
+/// Signatures in white noise, linear in amplitudes with these priors; without base parameters.
+/// The world is referred to.
+Problem linear_problem(LinearWorld &world, const std::vector<Prior> &priors) {
+  world.centre.setZero();
+  world.covariance.setIdentity();
+  Problem problem = world.problem(Vector::Zero(world.centre.size()));
+  for (std::size_t e = 0; e < priors.size(); ++e)
+    problem.effects[e].parameters[0].prior = priors[e];
+  problem.predict = [&world, priors](const Vector &, const std::vector<Applied> &on) {
+    const auto n = world.centre.size();
+    Prediction out{Vector::Zero(n), Vector::Zero(n)};
+    for (const Applied &a : on)
+      out.mean += priors[std::size_t(a.effect)].value(a.scores[0]) * world.signatures.col(a.effect);
+    return out;
+  };
+  return problem;
+}
+
 // Signatures with a known angle in white noise, without base parameters.
 TEST(Confounding, CosinesOddsAndLimitsInClosedForm) {
   LinearWorld world(3, 0, 2, 1);
-  world.centre.setZero();
-  world.covariance.setIdentity();
   world.signatures << 1.0, 0.6, 0.0, 0.8, 0.0, 0.0;
-  Problem problem = world.problem(Vector::Zero(3));
-  for (ModelledEffect &e : problem.effects)
-    e.parameters[0].prior = {Prior::uniform, 0.0, 10.0};
-  problem.predict = [&](const Vector &, const std::vector<Applied> &on) {
-    Prediction out{Vector::Zero(3), Vector::Zero(3)};
-    for (const Applied &a : on)
-      out.mean += problem.effects[a.effect].parameters[0].prior.value(a.scores[0]) *
-                  world.signatures.col(a.effect);
-    return out;
-  };
+  const Prior any{Prior::uniform, 0.0, 10.0};
+  Problem problem = linear_problem(world, {any, any});
   Which w;
   w.base = linearise(problem, Vector());
   ConfoundingSettings settings;
@@ -48,24 +56,31 @@ TEST(Confounding, CosinesOddsAndLimitsInClosedForm) {
 // An effect that may have either sign imitates one of the opposite signature.
 TEST(Confounding, ARivalMayHaveTheOtherSign) {
   LinearWorld world(2, 0, 2, 1);
-  world.centre.setZero();
-  world.covariance.setIdentity();
   world.signatures << 1.0, -1.0, 0.0, 0.0;
-  Problem problem = world.problem(Vector::Zero(2));
-  problem.effects[0].parameters[0].prior = {Prior::uniform, 0.0, 10.0};
-  problem.effects[1].parameters[0].prior = {Prior::uniform, -10.0, 10.0};
-  problem.predict = [&](const Vector &, const std::vector<Applied> &on) {
-    Prediction out{Vector::Zero(2), Vector::Zero(2)};
-    for (const Applied &a : on)
-      out.mean += problem.effects[a.effect].parameters[0].prior.value(a.scores[0]) *
-                  world.signatures.col(a.effect);
-    return out;
-  };
+  const Problem problem =
+      linear_problem(world, {{Prior::uniform, 0.0, 10.0}, {Prior::uniform, -10.0, 10.0}});
   Which w;
   w.base = linearise(problem, Vector());
   const Confounding c = confounding(problem, w, {});
   EXPECT_NEAR(c.log_odds(0, 1), 0.0, 0.5 * std::pow(0.5 * 10.0 / 24.0, 2)); // half a step away
   EXPECT_NEAR(c.log_odds(0, 2), 12.5, 1e-6);
+}
+
+// Below zero the second effect hides behind the first, above it nothing does: what counts is the
+// farther limit, sin^2 a^2 / 2 = 3.
+TEST(Confounding, ALimitHoldsOnBothSidesOfZero) {
+  LinearWorld world(2, 0, 2, 1);
+  world.signatures << -0.8, 1.0, 0.6, 0.0;
+  const Problem problem =
+      linear_problem(world, {{Prior::uniform, 0.0, 10.0}, {Prior::uniform, -10.0, 10.0}});
+  Which w;
+  w.base = linearise(problem, Vector());
+  ConfoundingSettings settings;
+  settings.amplitudes = 100;
+  const Confounding c = confounding(problem, w, settings);
+  EXPECT_NEAR(c.limits[1].amplitude, std::sqrt(6.0 / 0.36), 0.02);
+  EXPECT_EQ(c.limits[1].rival, "effect 0");
+  EXPECT_NEAR(c.limits[1].against_none, std::sqrt(6.0), 0.02);
 }
 
 // One feature of variance 1, r (e^b - 1) of the base parameter b, and an amplitude of 0 to 10

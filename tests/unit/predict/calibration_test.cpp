@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "predict/prediction.h"
 #include "support/made_coatings.h"
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 namespace {
@@ -76,10 +77,37 @@ TEST(Calibrate, NamesAnEffectThatActs) {
 
 // No binder of the bank is as soft as this film asks for.
 TEST(Calibrate, SaysThatAParameterIsAtTheEndOfItsRange) {
-  EXPECT_TRUE(at_the_end(made_film_bank(), of({})).empty());
-  const auto soft = at_the_end(made_film_bank(), of({{190.0, 1.2, 180.0}, 0.0}, 2));
+  EXPECT_TRUE(warnings_of(made_film_bank(), of({})).empty());
+  const auto soft = warnings_of(made_film_bank(), of({{190.0, 1.2, 180.0}, 0.0}, 2));
   ASSERT_FALSE(soft.empty());
   EXPECT_NE((soft[0] + soft.back()).find("lower end of the bank's range"), std::string::npos);
+}
+
+// Porosities that rise with pressure are no material's.
+TEST(Calibrate, SaysThatNoMaterialComesNear) {
+  Calibration c;
+  c.error = {0.0, 0.003, 0.04, 0.1};
+  c.films = {made_film("a", 48.0, 2.0)};
+  for (const double p : kPressures)
+    c.data.push_back({0, "p", FilmNumber::PorosityAfter, p, 0.0, 0.2 + 0.001 * p, 0.002});
+  calibrate(made_film_bank(), few(), c);
+  const std::string said = fmt::format("{}", fmt::join(warnings_of(made_film_bank(), c), "\n"));
+  EXPECT_NE(said.find("No material of the bank comes near"), std::string::npos) << said;
+}
+
+// Exact data leave few of the prior's samples.
+TEST(Calibrate, SaysThatFewSamplesCarryTheResult) {
+  Calibration c;
+  c.error = {0.0, 1e-4, 2e-4, 0.1};
+  c.films = {made_film("a", 48.0, 2.0)};
+  for (const double p : kPressures)
+    c.data.push_back({0, "p", FilmNumber::PorosityAfter, p, 0.0,
+                      made_porosity({190.0, 2.4, 480.0, 48.0, 2.0}, 0.0, p), 1e-4});
+  CalibrationSettings s = few();
+  s.samples = 64;
+  calibrate(made_film_bank(), s, c);
+  const std::string said = fmt::format("{}", fmt::join(warnings_of(made_film_bank(), c), "\n"));
+  EXPECT_NE(said.find("samples carry the result"), std::string::npos) << said;
 }
 
 TEST(Calibrate, IsDeterministic) {

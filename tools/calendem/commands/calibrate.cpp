@@ -34,7 +34,7 @@ void run_calibrate(const CalibrateOptions &o) {
   must_be_ours(o.folder + "/case.toml", kHeadOfCase);
   fmt::print("calibrate: {} films, {} numbers\n", c.films.size(), c.data.size());
   calibrate(bank, o.settings, c);
-  for (const std::string &text : at_the_end(bank, c))
+  for (const std::string &text : warnings_of(bank, c))
     not_said.push_back(text);
   const std::vector<LeftOut> rows = left_out(bank, c, o.settings);
   nlohmann::ordered_json model = to_json(bank, c, rows);

@@ -44,6 +44,7 @@ const MeasurementPrice &price_of(const BankSpec &spec, const std::string &name) 
 Condition bare(const Condition &c) {
   Condition out;
   out.id = c.id;
+  out.specimen = c.specimen;
   out.control = c.control;
   out.max_pressure_MPa = c.max_pressure_MPa;
   out.loading_mg_cm2 = c.loading_mg_cm2;
@@ -130,13 +131,13 @@ void add_curve(Kind &kind, const Experiment &e, const Condition &c, Branch branc
 
 bool of_release(const Observable &o) { return !o.curve.empty() && o.stage == "relaxation"; }
 
-/// A condition at a pressure of the bank, read as well as those of the experiment.
+/// Another specimen at a pressure of the bank, read as well as those of the experiment.
 Condition at_pressure(double pressure, const std::vector<CoveredCondition> &covered) {
   double relative = 0.0;
   for (const CoveredCondition &c : covered)
     relative += c.condition.max_pressure_MPa->sd / c.pressure / double(covered.size());
   Condition out;
-  out.id = fmt::format("{:g} MPa", pressure);
+  out.id = out.specimen = fmt::format("{:g} MPa", pressure);
   out.control = "pressure";
   out.max_pressure_MPa = Measured{pressure, relative * pressure};
   return out;

@@ -286,8 +286,8 @@ ExperimentData data_of(const Experiment &experiment, const BankTable &as_given,
       enough(complete(all_points, all, data.not_said), table.spec, data.not_said);
   fill_bank(film_ratio(experiment, full_cell), table, all, points, data.bank);
   data.terms = error_terms(experiment, table.spec, now, points);
-  for (const CoveredCondition &c : now)
-    data.specimens[c.condition.id] = {c.condition.specimen, c.specimens};
+  for (const CoveredCondition &c : all)
+    data.specimens.emplace(c.condition.id, inference::Specimen{c.condition.specimen, c.specimens});
   inference::ObservableVector measured = measured_of(now, data.terms);
   if (const FullCellChange t = full_cell_change(experiment, full_cell, all, data.not_said);
       t.change.size()) {

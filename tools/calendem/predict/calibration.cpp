@@ -155,12 +155,18 @@ double log_likelihood(const FilmBank &bank, const Calibration &c, const Draw &dr
   return -0.5 * off.squaredNorm() - Matrix(chol.matrixL()).diagonal().array().log().sum();
 }
 
+/// Prior of the model's own error.
+inference::Prior discrepancy_of(const ModelError &error) {
+  return {inference::Prior::log_uniform, error.low, error.high};
+}
+
 /// Samples of one hypothesis, from its prior.
 std::vector<Draw> prior_draws(const FilmBank &bank, const ModelError &error, int effect,
                               int count) {
   const auto d = int(bank.material().size());
-  const Matrix scores = inference::sobol_normals(d + 3, count, std::uint64_t(effect + 2));
-  const inference::Prior discrepancy = {inference::Prior::log_uniform, error.low, error.high},
+  const int seed = effect + 2;
+  const Matrix scores = inference::sobol_normals(d + 3, count, std::uint64_t(seed));
+  const inference::Prior discrepancy = discrepancy_of(error),
                          shared = {inference::Prior::uniform, 0.0, 1.0};
   std::vector<Draw> out{std::size_t(count)};
   for (int k = 0; k < count; ++k) {
@@ -211,22 +217,59 @@ void calibrate(const FilmBank &bank, const CalibrationSettings &settings, Calibr
   }
 }
 
-std::vector<std::string> at_the_end(const FilmBank &bank, const Calibration &c) {
+namespace {
+
+constexpr double kOuterTenth = 0.8; // of a scaled range, -1 to 1
+constexpr double kFewSamples = 50.0;
+
+/// Of all hypotheses together.
+double effective_samples(const Calibration &c) {
+  double squares = 0.0;
+  for (const Weighed &w : c.hypotheses)
+    if (w.probability > 0.0)
+      squares += w.probability * w.probability / w.effective_samples;
+  return 1.0 / squares;
+}
+
+/// -1 or 1 where half of the draws lie in the outer tenth of the range at that end, else 0.
+template <class Value>
+int end_of_range(const std::vector<Draw> &draws, const inference::Prior &prior,
+                 const Value &value) {
+  int low = 0, high = 0;
+  for (const Draw &d : draws) {
+    const double at = prior.scaled(value(d));
+    low += at < -kOuterTenth;
+    high += at > kOuterTenth;
+  }
+  if (2 * std::max(low, high) < int(draws.size()))
+    return 0;
+  return low > high ? -1 : 1;
+}
+
+} // namespace
+
+std::vector<std::string> warnings_of(const FilmBank &bank, const Calibration &c) {
   std::vector<std::string> out;
   for (std::size_t k = 0; k < bank.material().size(); ++k) {
     const inference::Parameter &p = bank.material()[k];
-    int low = 0, high = 0;
-    for (const Draw &d : c.draws) {
-      const double at = p.prior.scaled(d.material.parameters[k]);
-      low += at < -0.8;
-      high += at > 0.8;
-    }
-    if (2 * std::max(low, high) >= int(c.draws.size()))
+    const int end =
+        end_of_range(c.draws, p.prior, [&](const Draw &d) { return d.material.parameters[k]; });
+    if (end != 0)
       out.push_back(
           fmt::format("{} lies at the {} end of the bank's range, {:g} to {:g}: a material "
                       "outside it may fit better, or the model lacks something.",
-                      p.name, low > high ? "lower" : "upper", p.prior.a, p.prior.b));
+                      p.name, end < 0 ? "lower" : "upper", p.prior.a, p.prior.b));
   }
+  const inference::Prior missed = discrepancy_of(c.error);
+  if (end_of_range(c.draws, missed, [](const Draw &d) { return d.missed.sd; }) > 0)
+    out.push_back(fmt::format("No material of the bank comes near these data: what the model "
+                              "misses lies at the upper end of its range, {:g} points of porosity. "
+                              "Check pressures and porosities, or use a bank of such films.",
+                              100.0 * missed.b));
+  if (const double samples = effective_samples(c); samples < kFewSamples)
+    out.push_back(fmt::format("Only {:.0f} samples carry the result (effective number; {:g} or "
+                              "more are wanted): its intervals are rough. Ask for more --samples.",
+                              samples, kFewSamples));
   return out;
 }
 

@@ -67,11 +67,11 @@ struct CalibrationSettings {
 /// together (importance sampling): deterministic.
 void calibrate(const FilmBank &bank, const CalibrationSettings &settings, Calibration &calibration);
 
-/// Parameters that the data drive to an end of the bank's range: half of the draws lie in its outer
-/// tenth.
-std::vector<std::string> at_the_end(const FilmBank &bank, const Calibration &calibration);
+/// What speaks against trusting a calibration: parameters that the data drive to an end of the bank's
+/// range (half of the draws lie in its outer tenth), the model's own error at its upper end, few
+/// effective samples.
+std::vector<std::string> warnings_of(const FilmBank &bank, const Calibration &calibration);
 
-/// What a film's numbers are at one pressure under one draw: normal.
 /// By what they are, not by their names.
 bool is_same_film(const Film &a, const Film &b);
 

@@ -22,10 +22,14 @@ int first_amplitude(const ModelledEffect &effect) {
   return 0;
 }
 
-/// Where the first amplitude's prior reaches below zero: how far.
-double below_zero(const ModelledEffect &effect) {
-  const Prior &p = effect.parameters[std::size_t(first_amplitude(effect))].prior;
-  return std::max(0.0, -p.value(-kFarthest));
+const Prior &first_prior(const ModelledEffect &effect) {
+  return effect.parameters[std::size_t(first_amplitude(effect))].prior;
+}
+
+/// How far the first amplitude's prior reaches above (1) or below (-1) zero.
+double reach(const ModelledEffect &effect, double sign) {
+  const Prior &p = first_prior(effect);
+  return sign > 0.0 ? p.upper() : std::max(0.0, -p.value(-kFarthest));
 }
 
 /// Scores of an effect at a share of its first amplitude's range (below 0: of what is below zero),
@@ -35,7 +39,7 @@ Vector at_share(const ModelledEffect &effect, double share, int shape) {
   const int first = first_amplitude(effect);
   for (int j = 0; j < scores.size(); ++j) {
     const Prior &p = effect.parameters[j].prior;
-    scores[j] = j == first ? p.score(share * (share < 0.0 ? below_zero(effect) : p.upper()))
+    scores[j] = j == first ? p.score(share * reach(effect, share))
                            : normal_quantile((shape + 1.0) / (kShapes + 1.0));
     shape = j == first ? shape : shape / 2 + 1; // a second shape parameter goes another way
   }
@@ -50,7 +54,7 @@ std::vector<Signature> grid_of(const Signatures &signatures, const Problem &prob
   const int shapes = e.parameters.size() > 1 ? kShapes : 1;
   std::vector<Signature> grid{signatures.off()};
   for (const double sign : {1.0, -1.0})
-    for (int s = 0; s < shapes && (sign > 0.0 || below_zero(e) > 0.0); ++s)
+    for (int s = 0; s < shapes && reach(e, sign) > 0.0; ++s)
       for (int k = 0; k < steps; ++k)
         grid.push_back(
             signatures.of({{effect, at_share(e, sign * (k + 1.0) / steps, shapes == 1 ? 1 : s)}}));
@@ -70,12 +74,12 @@ struct Hardest {
   std::string rival = "none";
 };
 
-/// First amplitude of the prior at which the log-odds are enough, between the steps by their growth
+/// First amplitude up to `reach` at which the log-odds are enough, between the steps by their growth
 /// with its square; NaN: none. `odds`: at the k-th step, from 0. `rival`: of the last amplitude
 /// looked at.
 template <class Odds>
-double first_decisive(const ModelledEffect &e, const ConfoundingSettings &settings,
-                      const Odds &odds, std::string &rival) {
+double first_decisive(double reach, const ConfoundingSettings &settings, const Odds &odds,
+                      std::string &rival) {
   double before = 0.0; // log-odds at the step below
   for (int k = 1; k <= settings.amplitudes; ++k) {
     const Hardest here = odds(k - 1);
@@ -83,38 +87,39 @@ double first_decisive(const ModelledEffect &e, const ConfoundingSettings &settin
     if (here.odds >= settings.decisive) {
       const double from = std::sqrt(std::max(before, 0.0));
       const double within = (std::sqrt(settings.decisive) - from) / (std::sqrt(here.odds) - from);
-      const Prior &p = e.parameters[first_amplitude(e)].prior;
-      return std::max((k - 1 + within) / settings.amplitudes * p.upper(), p.value(-kFarthest));
+      return (k - 1 + within) / settings.amplitudes * reach;
     }
     before = here.odds;
   }
   return std::nan("");
 }
 
-/// What having an amplitude to choose costs the effect's evidence beside none's, at each step: ln
-/// of the amplitude's prior width over the width that the data leave it, by Laplace's integral.
-std::vector<double> occam_of(const ModelledEffect &e, const std::vector<Signature> &truths,
+/// What having an amplitude to choose costs the effect's evidence beside none's, at each step from
+/// 0 to `end`: ln of the amplitude's prior width over the width that the data leave it, by
+/// Laplace's integral.
+std::vector<double> occam_of(const Prior &p, double end, const std::vector<Signature> &truths,
                              const Signature &off) {
-  const Prior &p = e.parameters[first_amplitude(e)].prior;
-  const double step = p.upper() / double(truths.size());
+  const double step = end / double(truths.size());
   std::vector<double> cost;
   for (std::size_t k = 0; k < truths.size(); ++k) {
     const Vector &below = k == 0 ? off.mean : truths[k - 1].mean;
-    const double slope = (truths[k].mean - below).norm() / step; // standard deviations per unit
+    const double slope = (truths[k].mean - below).norm() / std::fabs(step); // sd per unit
     const double widths = slope / (std::sqrt(2.0 * M_PI) * p.density(double(k + 1) * step));
     cost.push_back(widths > 1.0 ? std::log(widths) : 0.0);
   }
   return cost;
 }
 
-/// Amplitudes at which the effect is distinguished from none and from every other effect.
-DetectionLimit limit_of(const Problem &problem, int effect,
+/// Amplitudes of one sign at which the effect is distinguished from none and from every other
+/// effect: how far from zero.
+DetectionLimit limit_on(double sign, const Problem &problem, int effect,
                         const std::vector<std::vector<Signature>> &grids,
                         const Signatures &signatures, const ConfoundingSettings &settings) {
   const ModelledEffect &e = problem.effects[effect];
   std::vector<Signature> truths;
   for (int k = 1; k <= settings.amplitudes; ++k)
-    truths.push_back(signatures.of({{effect, at_share(e, double(k) / settings.amplitudes, 1)}}));
+    truths.push_back(
+        signatures.of({{effect, at_share(e, sign * k / double(settings.amplitudes), 1)}}));
   std::vector<double> of_none(truths.size(), NAN); // both limits ask for them
   const auto from_none = [&](int k) {
     double &odds = of_none[std::size_t(k)];
@@ -122,7 +127,8 @@ DetectionLimit limit_of(const Problem &problem, int effect,
       odds = signatures.odds_recalibrated(truths[k], grids[effect].front());
     return Hardest{odds};
   };
-  const std::vector<double> occam = occam_of(e, truths, signatures.off());
+  const double end = reach(e, sign);
+  const std::vector<double> occam = occam_of(first_prior(e), sign * end, truths, signatures.off());
   const auto from_all = [&](int k) {
     Hardest least = from_none(k);
     least.odds -= occam[std::size_t(k)];
@@ -137,9 +143,34 @@ DetectionLimit limit_of(const Problem &problem, int effect,
   };
   DetectionLimit limit{e.name, "none"};
   std::string none;
-  limit.amplitude = first_decisive(e, settings, from_all, limit.rival);
-  limit.against_none = first_decisive(e, settings, from_none, none);
+  limit.amplitude = first_decisive(end, settings, from_all, limit.rival);
+  limit.against_none = first_decisive(end, settings, from_none, none);
   return limit;
+}
+
+/// The limit on both sides of zero: the farther one. A side on which it is never distinguished
+/// counts with all its reach.
+DetectionLimit limit_of(const Problem &problem, int effect,
+                        const std::vector<std::vector<Signature>> &grids,
+                        const Signatures &signatures, const ConfoundingSettings &settings) {
+  const ModelledEffect &e = problem.effects[effect];
+  const Prior &p = first_prior(e);
+  const auto least = std::max(0.0, p.value(-kFarthest));
+  DetectionLimit limit = limit_on(1.0, problem, effect, grids, signatures, settings);
+  limit.amplitude = std::max(limit.amplitude, least); // NaN stays
+  limit.against_none = std::max(limit.against_none, least);
+  if (reach(e, -1.0) == 0.0)
+    return limit;
+  const DetectionLimit other = limit_on(-1.0, problem, effect, grids, signatures, settings);
+  const auto farther = [&](double above, double below) {
+    if (std::isnan(above) && std::isnan(below))
+      return above;
+    return std::max(std::isnan(above) ? reach(e, 1.0) : above,
+                    std::isnan(below) ? reach(e, -1.0) : below);
+  };
+  const bool below = std::isnan(other.amplitude) || other.amplitude > limit.amplitude;
+  return {e.name, below ? other.rival : limit.rival, farther(limit.amplitude, other.amplitude),
+          farther(limit.against_none, other.against_none)};
 }
 
 /// Groups of hypotheses of the 95 % set linked by log-odds too small to distinguish them.

@@ -16,7 +16,8 @@ struct ConfoundingSettings {
 
 struct DetectionLimit {
   std::string effect, rival; ///< rival: the hardest to distinguish at that amplitude
-  /// Of the first amplitude parameter, in its unit, within its prior; NaN: never.
+  /// Of the first amplitude parameter, in its unit, within its prior, the farther from zero where it
+  /// may have either sign; NaN: never.
   double amplitude = 0.0;
   double against_none = 0.0; ///< by the distance from none alone: what can be seen
 };

@@ -31,20 +31,22 @@ Vector left_by_line(const Bank &bank, const Matrix &values) {
   return left.colwise().squaredNorm() / degrees;
 }
 
-/// Packings' scatter between features of different specimens is none, of a mean less.
-Matrix of_specimens(const Matrix &scatter, const FeatureMap &map, const Specimens &specimens) {
-  const auto of = [&](Eigen::Index feature) {
-    const int block = map.features()[std::size_t(feature)].block;
-    const auto at = specimens.find(map.blocks()[std::size_t(block)].condition);
-    return at == specimens.end() ? Specimen{} : at->second;
-  };
-  Matrix out = scatter;
-  for (Eigen::Index i = 0; i < out.rows(); ++i)
-    for (Eigen::Index j = 0; j < out.cols(); ++j) {
-      const Specimen a = of(i), b = of(j);
-      out(i, j) *= a.name == b.name ? 1.0 / std::sqrt(double(a.count) * b.count) : 0.0;
+/// Packings' scatter between features of different specimens is none, of a mean less. The rows are
+/// the emulated features of these maps, one after the other.
+Matrix of_specimens(Matrix scatter, const std::vector<const FeatureMap *> &maps,
+                    const Specimens &specimens) {
+  std::vector<Specimen> of;
+  for (const FeatureMap *map : maps)
+    for (int f = 0; f < map->emulated(); ++f) {
+      const int block = map->features()[std::size_t(f)].block;
+      const auto at = specimens.find(map->blocks()[std::size_t(block)].condition);
+      of.push_back(at == specimens.end() ? Specimen{} : at->second);
     }
-  return out;
+  for (std::size_t i = 0; i < of.size(); ++i)
+    for (std::size_t j = 0; j < of.size(); ++j)
+      scatter(Eigen::Index(i), Eigen::Index(j)) *=
+          of[i].name == of[j].name ? 1.0 / std::sqrt(double(of[i].count) * of[j].count) : 0.0;
+  return scatter;
 }
 
 /// Emulators err between features as the runs lie off them.
@@ -104,7 +106,8 @@ Model::Extra Model::learn_extra(const Bank &bank, const Candidate &candidate) co
   extra.emulators = learnt;
   std::vector<GaussianProcess> all = emulators_->base();
   all.insert(all.end(), learnt->base().begin(), learnt->base().end());
-  extra.scatter = pooled_scatter(all, learnt->packing()).covariance;
+  extra.scatter = of_specimens(pooled_scatter(all, learnt->packing()).covariance,
+                               {map_.get(), extra.map.get()}, settings_.specimens);
   Matrix residuals = emulators_->residuals();
   const auto n = residuals.cols(), added = learnt->residuals().cols();
   residuals.conservativeResize(Eigen::NoChange, n + added);
@@ -156,7 +159,7 @@ Problem Model::problem(const Vector &values) const {
   p.measurement = map_->covariance(measurement_);
   p.scatter = Matrix::Zero(all, all);
   p.scatter.topLeftCorner(n, n) =
-      share * of_specimens(scatter_.covariance, *map_, settings_.specimens);
+      share * of_specimens(scatter_.covariance, {map_.get()}, settings_.specimens);
   p.correlation = Matrix::Identity(all, all);
   p.correlation.topLeftCorner(n, n) = correlation_;
   p.degrees_of_freedom = mixed_degrees(p.measurement, p.scatter, scatter_.degrees_of_freedom);
