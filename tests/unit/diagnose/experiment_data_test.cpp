@@ -95,6 +95,32 @@ TEST(ExperimentData, TheReleaseOfACurveCountsWhereTheBankHasReleases) {
   EXPECT_TRUE(reported(without, "p30: the bank's table has no displacements on release"));
 }
 
+// A press that runs 4 % past the pressure asked for shows what one that stops there shows.
+TEST(ExperimentData, ACurveThatOvershootsIsReadUpToThePressureAskedFor) {
+  const BankTable bank = made_bank();
+  const SimulatedRun &run = bank.rows[0].run;
+  const auto with_curve = [&](double beyond) {
+    Experiment e = made_experiment(kTruth);
+    e.conditions.resize(1);
+    e.conditions[0].curve = (calendem_test::test_folder() / "curve.csv").string();
+    e.conditions[0].curve_sd_um = 0.02;
+    std::ofstream curve(e.conditions[0].curve);
+    curve << "displacement_um,pressure_MPa\n";
+    for (std::size_t k = 0; k < run.pressure.size(); ++k)
+      curve << run.displacement[k] << ',' << run.pressure[k] << '\n';
+    if (beyond > 0.0)
+      curve << run.displacement.back() + 0.1 << ',' << run.pressure.back() + beyond << '\n';
+    curve.close();
+    return data_of(e, bank, {});
+  };
+  const ExperimentData stops = with_curve(0.0), overshoots = with_curve(1.2);
+  ASSERT_EQ(overshoots.experiment.of.size(), stops.experiment.of.size());
+  for (Eigen::Index k = 0; k < stops.experiment.values.size(); ++k) {
+    EXPECT_EQ(overshoots.labels[std::size_t(k)].pressure, stops.labels[std::size_t(k)].pressure);
+    EXPECT_NEAR(overshoots.experiment.values[k], stops.experiment.values[k], 1e-9);
+  }
+}
+
 // One point of friction whose release ends early costs that point; a base point's costs the
 // observable.
 TEST(ExperimentData, AnEffectsPointThatLacksWhatOthersHaveIsLeftOut) {

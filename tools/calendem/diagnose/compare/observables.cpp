@@ -198,8 +198,8 @@ double along(double share, Branch branch) {
   return 0.5 * (branch == Branch::Release ? 2.0 - share : share);
 }
 
-/// Displacement at shares of the curve's largest pressure, over the solid thickness where the
-/// sample's loading is known.
+/// Displacement at shares of the pressure asked for (of the curve's largest where that is less),
+/// over the solid thickness where the sample's loading is known.
 void along_curve(const Experiment &e, const Condition &c, std::vector<Observable> &out,
                  std::vector<std::string> &not_said) {
   if (c.curve.empty())
@@ -218,7 +218,9 @@ void along_curve(const Experiment &e, const Condition &c, std::vector<Observable
         fmt::format("{}: the first touch counts as exactly known. Say how well it is "
                     "(curve_zero_um): on a rough film rather a micrometre.",
                     c.id));
-  const double largest = curve.loading.pressure.back();
+  const double reached = curve.loading.pressure.back();
+  // no run goes beyond the pressure that was asked for, and other specimens overshoot otherwise
+  const double largest = by_pressure(c) ? std::min(reached, c.max_pressure_MPa->value) : reached;
   const auto add = [&](const MeasuredBranch &measured, Branch branch) {
     for (Observable &o : points_of_curve(e, c, largest, branch)) {
       o.measured = displacement_at(measured.pressure, measured.displacement, o.pressure) / solid;
