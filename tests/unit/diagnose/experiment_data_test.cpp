@@ -198,16 +198,16 @@ TEST(ExperimentData, PressureErrorIsCommonToAllObservables) {
 TEST(ExperimentData, InstrumentsAreAppliedToTheRunsOfTheBaseModel) {
   const BankTable table = made_bank();
   const ExperimentData data = data_of(made_experiment(kTruth), table, {});
-  int shown = 0;
+  std::size_t shown = 0;
   for (const inference::BankRun &run : data.bank.runs)
     if (run.effect == "thickness_zero") {
-      const SimulatedRun &base = table.rows[std::size_t(2 * shown)].run; // 30 MPa
+      const SimulatedRun &base = table.rows[2 * shown].run; // 30 MPa
       const double after = base.thickness_after + run.amplitudes[0];
       EXPECT_NEAR(run.values[0], 100.0 * (1.0 - kSolidColumn / after), 1e-9);
       EXPECT_NEAR(run.values[1], base.thickness_at_max + run.amplitudes[0], 1e-9);
       ++shown;
     }
-  EXPECT_EQ(shown, 24);
+  EXPECT_EQ(shown, 24u);
 }
 
 TEST(ExperimentData, AnEffectOfFewPointsIsLeftOutAndReported) {
@@ -278,15 +278,15 @@ TEST(ExperimentData, MicrometresCountLessInAThickerFilm) {
   const BankTable table = made_bank();
   Experiment thick = made_experiment(kTruth);
   thick.recipe.loading *= 3.0;
-  int shown = 0;
+  std::size_t shown = 0;
   for (const inference::BankRun &run : data_of(thick, table, {}).bank.runs)
     if (run.effect == "thickness_zero") {
       const double after =
-          table.rows[std::size_t(2 * shown)].run.thickness_after + run.amplitudes[0] / 3.0;
+          table.rows[2 * shown].run.thickness_after + run.amplitudes[0] / 3.0;
       EXPECT_NEAR(run.values[0], 100.0 * (1.0 - kSolidColumn / after), 1e-9);
       ++shown;
     }
-  EXPECT_EQ(shown, 24);
+  EXPECT_EQ(shown, 24u);
 }
 
 // Loadings within the bank are the sample's, not those of another film.
