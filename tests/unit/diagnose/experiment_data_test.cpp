@@ -95,8 +95,9 @@ TEST(ExperimentData, TheReleaseOfACurveCountsWhereTheBankHasReleases) {
   EXPECT_TRUE(reported(without, "p30: the bank's table has no displacements on release"));
 }
 
-// A press that runs 4 % past the pressure asked for shows what one that stops there shows.
-TEST(ExperimentData, ACurveThatOvershootsIsReadUpToThePressureAskedFor) {
+// A press that runs 4 % past the pressure asked for, and one whose last row is noted before it, show
+// what one that stops there shows.
+TEST(ExperimentData, ACurveIsReadAtSharesOfThePressureAskedFor) {
   const BankTable bank = made_bank();
   const SimulatedRun &run = bank.rows[0].run;
   const auto with_curve = [&](double beyond) {
@@ -106,18 +107,21 @@ TEST(ExperimentData, ACurveThatOvershootsIsReadUpToThePressureAskedFor) {
     e.conditions[0].curve_sd_um = 0.02;
     std::ofstream curve(e.conditions[0].curve);
     curve << "displacement_um,pressure_MPa\n";
-    for (std::size_t k = 0; k < run.pressure.size(); ++k)
+    for (std::size_t k = 0; k + (beyond < 0.0) < run.pressure.size(); ++k)
       curve << run.displacement[k] << ',' << run.pressure[k] << '\n';
     if (beyond > 0.0)
       curve << run.displacement.back() + 0.1 << ',' << run.pressure.back() + beyond << '\n';
     curve.close();
     return data_of(e, bank, {});
   };
-  const ExperimentData stops = with_curve(0.0), overshoots = with_curve(1.2);
-  ASSERT_EQ(overshoots.experiment.of.size(), stops.experiment.of.size());
-  for (Eigen::Index k = 0; k < stops.experiment.values.size(); ++k) {
-    EXPECT_EQ(overshoots.labels[std::size_t(k)].pressure, stops.labels[std::size_t(k)].pressure);
-    EXPECT_NEAR(overshoots.experiment.values[k], stops.experiment.values[k], 1e-9);
+  const ExperimentData stops = with_curve(0.0);
+  for (const double beyond : {1.2, -1.0}) {
+    const ExperimentData ends = with_curve(beyond);
+    ASSERT_EQ(ends.experiment.of.size(), stops.experiment.of.size());
+    for (Eigen::Index k = 0; k < stops.experiment.values.size(); ++k) {
+      EXPECT_EQ(ends.labels[std::size_t(k)].pressure, stops.labels[std::size_t(k)].pressure);
+      EXPECT_NEAR(ends.experiment.values[k], stops.experiment.values[k], 1e-9);
+    }
   }
 }
 
@@ -281,8 +285,7 @@ TEST(ExperimentData, MicrometresCountLessInAThickerFilm) {
   std::size_t shown = 0;
   for (const inference::BankRun &run : data_of(thick, table, {}).bank.runs)
     if (run.effect == "thickness_zero") {
-      const double after =
-          table.rows[2 * shown].run.thickness_after + run.amplitudes[0] / 3.0;
+      const double after = table.rows[2 * shown].run.thickness_after + run.amplitudes[0] / 3.0;
       EXPECT_NEAR(run.values[0], 100.0 * (1.0 - kSolidColumn / after), 1e-9);
       ++shown;
     }

@@ -198,8 +198,16 @@ double along(double share, Branch branch) {
   return 0.5 * (branch == Branch::Release ? 2.0 - share : share);
 }
 
-/// Displacement at shares of the pressure asked for (of the curve's largest where that is less),
-/// over the solid thickness where the sample's loading is known.
+/// Of a curve that reaches as far: the pressure asked for if all shares of it are within the curve.
+/// Rows are noted a little before it or past it, otherwise for each specimen.
+double scale_of(const Condition &c, double reached) {
+  const bool has_all =
+      by_pressure(c) && *std::rbegin(kCurveShares) * c.max_pressure_MPa->value <= reached;
+  return has_all ? c.max_pressure_MPa->value : reached;
+}
+
+/// Displacement at shares of the pressure asked for or reached, over the solid thickness where the
+/// sample's loading is known.
 void along_curve(const Experiment &e, const Condition &c, std::vector<Observable> &out,
                  std::vector<std::string> &not_said) {
   if (c.curve.empty())
@@ -218,9 +226,7 @@ void along_curve(const Experiment &e, const Condition &c, std::vector<Observable
         fmt::format("{}: the first touch counts as exactly known. Say how well it is "
                     "(curve_zero_um): on a rough film rather a micrometre.",
                     c.id));
-  const double reached = curve.loading.pressure.back();
-  // no run goes beyond the pressure that was asked for, and other specimens overshoot otherwise
-  const double largest = by_pressure(c) ? std::min(reached, c.max_pressure_MPa->value) : reached;
+  const double largest = scale_of(c, curve.loading.pressure.back());
   const auto add = [&](const MeasuredBranch &measured, Branch branch) {
     for (Observable &o : points_of_curve(e, c, largest, branch)) {
       o.measured = displacement_at(measured.pressure, measured.displacement, o.pressure) / solid;
@@ -231,8 +237,10 @@ void along_curve(const Experiment &e, const Condition &c, std::vector<Observable
       if (std::isfinite(o.measured))
         out.push_back(o);
       else if (branch == Branch::Loading)
-        not_said.push_back(fmt::format("{}: its curve begins at {:g} MPa; nothing is said at {:g}.",
-                                       c.id, measured.pressure.front(), o.pressure));
+        not_said.push_back(fmt::format("{}: its curve has {:g} to {:g} MPa; nothing is said at "
+                                       "{:g}.",
+                                       c.id, measured.pressure.front(), measured.pressure.back(),
+                                       o.pressure));
     }
   };
   add(curve.loading, Branch::Loading);
