@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "liggghts/film_cuts.h"
 #include "spheres.h"
 
 using namespace calendem;
@@ -170,6 +171,34 @@ TEST(SamePhysics, SameBitsOnEveryProcessorGrid) {
       EXPECT_NEAR(o.rows[i].at("strain"), reference().rows[i].at("strain"),
                   1e-9 * reference().rows[i].at("strain"));
   }
+}
+
+// Faces move at the start of the run, and again at every build of lists.
+TEST(SamePhysics, MovingTheFacesBetweenRanksChangesNoBit) {
+  const Outcome o = throw_them(
+      {{"px", "1"}, {"py", "1"}, {"pz", "2"}, {"balance", "1"}, {"rebuild", "every"}}, 2);
+  EXPECT_EQ(o.breaks, reference().breaks);
+  EXPECT_EQ(o.state, reference().state);
+}
+
+TEST(FilmCuts, LeaveEverySlabTheSameWork) {
+  const std::vector<double> work = {3, 1, 1, 1, 1, 1, 0, 0}, halves = {0, 0.5, 1};
+  EXPECT_EQ(calendem::busiest_slab(work, halves), 6.0 / 4.0);
+  const auto cuts = calendem::cuts_of_equal_work(work, halves);
+  EXPECT_EQ(cuts, (std::vector<double>{0, 0.25, 1})); // of 8 the lower two layers have 4
+  EXPECT_EQ(calendem::busiest_slab(work, cuts), 1.0);
+}
+
+TEST(FilmCuts, CutWithinALayer) {
+  const auto cuts = calendem::cuts_of_equal_work({2, 2, 2, 2}, {0, 0.3, 0.7, 1});
+  EXPECT_NEAR(cuts[1], 1.0 / 3.0, 1e-15);
+  EXPECT_NEAR(cuts[2], 2.0 / 3.0, 1e-15);
+}
+
+TEST(FilmCuts, GoHalfOfTheWayToTheNextAtMost) {
+  EXPECT_EQ(calendem::cuts_of_equal_work({1, 0, 0, 0, 0, 0, 0, 0}, {0, 0.5, 1})[1], 0.25);
+  EXPECT_EQ(calendem::cuts_of_equal_work({0, 0, 0, 0, 0, 0, 0, 1}, {0, 0.5, 1})[1], 0.75);
+  EXPECT_EQ(calendem::cuts_of_equal_work({0, 0}, {0, 0.4, 1})[1], 0.4); // nothing to share
 }
 
 TEST(SamePhysics, RebuildingEveryStepChangesNoBit) {
