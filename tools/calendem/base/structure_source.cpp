@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "base/structure_source.h"
+#include "base/recipe.h"
 #include <filesystem>
 #include <fmt/format.h>
 #include <sstream>

@@ -3,7 +3,6 @@
 #include "base/output_folder.h"
 #include "base/provenance.h"
 #include "commands/commands.h"
-#include "commands/finite_range.h"
 #include "diagnose/page.h"
 #include "diagnose/rerun.h"
 #include <CLI/CLI.hpp>

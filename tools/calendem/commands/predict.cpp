@@ -4,7 +4,6 @@
 #include "base/provenance.h"
 #include "base/recipe.h"
 #include "commands/commands.h"
-#include "commands/finite_range.h"
 #include "predict/pages.h"
 #include "predict/prediction.h"
 #include <CLI/CLI.hpp>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/provenance.h"
 #include "commands/commands.h"
-#include "commands/finite_range.h"
 #include "withheld/answer.h"
 #include "withheld/make.h"
 #include "withheld/rehearsal.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "simulate/resume.h"
 #include "base/case.h"
 #include "base/liggghts_job.h"
 #include "base/provenance.h"
 #include "base/run_folder.h"
 #include "simulate/collect.h"
+#include "simulate/run.h"
 #include <cmath>
 #include <cstdint>
 #include <cstring>

@@ -8,7 +8,6 @@
 #include "base/run_folder.h"
 #include "simulate/collect.h"
 #include "simulate/progress.h"
-#include "simulate/resume.h"
 #include "simulate/rolling.h"
 #include <chrono>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "simulate/slurm.h"
 #include "base/liggghts_job.h"
 #include "base/messages.h"
 #include "base/provenance.h"
+#include "simulate/making.h"
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>

@@ -5,7 +5,6 @@
 #include "base/provenance.h"
 #include "base/run_folder.h"
 #include "simulate/making.h"
-#include "simulate/slurm.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

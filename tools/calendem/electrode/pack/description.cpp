@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "electrode/pack/description.h"
 #include "base/provenance.h"
 #include "electrode/pack/body.h"
+#include "electrode/pack/electrode_files.h"
 #include "electrode/pack/from_structure.h"
 #include "electrode/pack/packing_state.h"
 #include "physics/pi.h"

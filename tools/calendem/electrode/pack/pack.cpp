@@ -3,7 +3,6 @@
 #include "base/liggghts_job.h"
 #include "base/output_folder.h"
 #include "base/provenance.h"
-#include "electrode/pack/description.h"
 #include "electrode/pack/electrode_files.h"
 #include "electrode/pack/measured_bodies.h"
 #include "physics/pi.h"

@@ -6,7 +6,6 @@
 #include "electrode/pack/electrode_files.h"
 #include "electrode/pack/measured_bodies.h"
 #include "electrode/pack/packing_state.h"
-#include "electrode/slurry/film_files.h"
 #include "physics/pi.h"
 #include <chrono>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "electrode/slurry/film_files.h"
 #include "base/random.h"
 #include "electrode/pack/electrode_files.h"
 #include "electrode/pack/packing_state.h"
+#include "electrode/slurry/dry.h"
 #include "physics/pi.h"
 #include <algorithm>
 #include <cmath>

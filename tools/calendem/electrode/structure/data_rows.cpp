@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "electrode/structure/data_rows.h"
+#include "electrode/structure/particle_data.h"
 #include <algorithm>
 #include <charconv>
 #include <cmath>

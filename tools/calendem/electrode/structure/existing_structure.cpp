@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/structure/existing_structure.h"
 #include "base/provenance.h"
-#include "electrode/structure/data_rows.h"
+#include "electrode/structure/particle_data.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

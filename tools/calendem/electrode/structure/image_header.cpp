@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/structure/image_header.h"
 #include "base/messages.h"
-#include "electrode/structure/data_rows.h"
 #include "electrode/structure/label_image.h"
+#include "electrode/structure/particle_data.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -3,7 +3,6 @@
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "electrode/structure/image_header.h"
-#include "electrode/structure/tiff_image.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/structure/particle_data.h"
-#include "base/structure_source.h"
-#include "electrode/structure/data_rows.h"
+#include "base/recipe.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

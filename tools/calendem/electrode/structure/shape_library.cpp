@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "electrode/structure/shape_library.h"
 #include "base/messages.h"
 #include "base/provenance.h"
+#include "electrode/structure/measured_shape.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "electrode/structure/tiff_image.h"
 #include "electrode/structure/image_header.h"
 #include <algorithm>
 #include <cstdarg>

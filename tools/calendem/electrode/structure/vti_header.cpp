@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The elements of a .vti file that say how large the image is.
-#include "electrode/structure/data_rows.h"
 #include "electrode/structure/image_header.h"
+#include "electrode/structure/particle_data.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
