@@ -102,7 +102,7 @@ kill -TERM $client
 status=0
 wait $client || status=$?
 [ $status -eq 3 ] || fail "exit status $status of a client that was stopped, expected 3"
-says "Its jobs go on in Slurm's queue" "the same command waits for them again" "scancel --name=$job-packings,$job-runs"
+says "Its jobs stay in Slurm's queue" "the same command waits for them again" "scancel --name=$job-packings,$job-runs"
 
 "${slurm[@]}" >"$work/said" 2>&1 &
 client=$!
@@ -123,7 +123,7 @@ says "runs.sh submitted as job" "tasks 2" "3 of 3 runs done"
 grep -q "^#SBATCH --array=2%2$" "$work/out/slurm/runs.sh" || fail "runs that were done were submitted"
 [ ! -e "$work/out/runs/${runs[1]}/vtk" ] || fail "frames were kept"
 expect 0 "${slurm[@]}"
-says "3 runs, 3 of them there"
+says "3 runs, 3 of them done already"
 if grep -q submitted "$work/said"; then fail "a second call submitted something"; fi
 [ -z "$(squeue -h)" ] || fail "something is left in the queue: $(squeue)"
 

@@ -171,9 +171,9 @@ bool check_columns(const std::string &path, const CsvTable &table, int line, Mis
     const auto wrong =
         std::find_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
     if (wrong != values.end())
-      mistakes.add(line, fmt::format("'{}': {} of row {} is no finite number. Correct the row or "
-                                     "take it out.",
-                                     path, column, wrong - values.begin() + 1));
+      mistakes.add(
+          line, fmt::format("'{}': {} of row {} is not a finite number. Correct or remove the row.",
+                            path, column, wrong - values.begin() + 1));
   }
   if (!table.bad_lines().empty())
     mistakes.add(line, fmt::format("'{}': line {} has another number of columns than the first "

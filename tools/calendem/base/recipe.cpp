@@ -45,7 +45,7 @@ std::vector<Key> own_keys() {
       {"shapes.library", "", "none", 0, 0, "", "folder of shapes made from an image before", "",
        true},
       {"shapes.voxel_size_um", "", "0", 0, 10, "um", "of the image; 0: from the file"},
-      {"shapes.background", "", "0", -2147483647, 2147483647, "", "label that is no particle", "",
+      {"shapes.background", "", "0", -2147483647, 2147483647, "", "label of the background", "",
        false, true},
       {"shapes.sizes", "", "measured", 0, 0, "", "whose size distribution the bodies have",
        "measured|recipe"},

@@ -59,7 +59,7 @@ void check_files(const Settings &s, const StructureSource &source, Mistakes &mis
   if (!source.body_map.empty() && !source.clusters)
     mistakes.add(s.line("structure.body_map"),
                  "structure.body_map names given bodies, but structure.bodies is \"shapes\". Give "
-                 "structure.bodies = \"clusters\" or take the map out.");
+                 "structure.bodies = \"clusters\" or remove the map.");
 }
 
 // Keys that a structure makes idle: whoever gives them expects something else.
@@ -71,7 +71,7 @@ void check_idle(const Settings &s, bool clusters, Mistakes &mistakes) {
   for (const std::string &key : idle)
     if (s.line(key) > 0)
       mistakes.add(s.line(key), fmt::format("{} has no effect beside [structure], which gives the "
-                                            "{}. Take one of them out.",
+                                            "{}. Remove one of them.",
                                             key, clusters ? "bodies" : "sizes"));
 }
 

@@ -188,7 +188,7 @@ CLI::Validator finite_range(double low, double high) {
             double value = 0.0;
             const bool good =
                 CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
-            return good ? std::string() : fmt::format("{} is no number {}", text, range);
+            return good ? std::string() : fmt::format("{} is not a number {}", text, range);
           },
           "FLOAT " + range};
 }

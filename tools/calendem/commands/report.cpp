@@ -168,7 +168,7 @@ void write_images(const Arguments &a, const std::string &folder) {
 void measure(Arguments a, const CLI::App &verb) {
   const bool is_run = fs::is_directory(a.input);
   if (a.images && !is_run)
-    throw Failure(kBadInput, fmt::format("--images is for a run; '{}' is no folder.", a.input));
+    throw Failure(kBadInput, fmt::format("--images is for a run; '{}' is not a folder.", a.input));
   const std::string folder = folder_for(a, is_run);
   if (a.voxel_um > 0.0)
     a.options.voxel_um = a.voxel_um;

@@ -25,7 +25,7 @@ std::string checked(const Key &key, const std::string &value, Mistakes &mistakes
   const bool is_text = key.text || !key.choices.empty();
   double number = 0.0;
   if (!is_text && !CLI::detail::lexical_cast(value, number))
-    mistakes.add(0, fmt::format("{} is '{}', which is no number. Run the scripts again.",
+    mistakes.add(0, fmt::format("{} is '{}', which is not a number. Run the scripts again.",
                                 key.variable, value));
   return value;
 }
@@ -128,7 +128,7 @@ void add_run_verb(CLI::App &app) {
   verb->add_option("CASE", a->spec, "case (TOML)")->required();
   verb->add_option("-o,--output", a->options.folder, "folder of the run")->required();
   verb->add_option("--ranks", a->options.ranks, "MPI ranks")->check(CLI::Range(1, 4096));
-  verb->add_flag("--resume", a->options.resume, "go on from the newest restart file");
+  verb->add_flag("--resume", a->options.resume, "continue from the newest restart file");
   verb->add_flag("--force", a->options.force,
                  "overwrite a run of another case or an unfinished one");
   verb->add_option("--liggghts", a->options.liggghts, "program with the plugin");

@@ -145,11 +145,12 @@ void add_study_verb(CLI::App &app) {
   auto a = std::make_shared<Arguments>();
   CLI::App *verb = app.add_subcommand("study", "Many runs of one electrode and case, settings "
                                                "varied; a table of what they gave");
-  verb->footer("[study] name, recipe, case, at_pressure_MPa (list), keep (all|tables)\n"
-               "[[vary]] keys, values - or normal = {mean, sd, cells}, or design, a CSV file - : "
-               "every combination of the groups is a run.\nKeys are those of the recipe "
-               "(recipe.seed) and of the case "
-               "(case.bond.tensile_strength_MPa).\nThe same command again goes on where it was.");
+  verb->footer(
+      "[study] name, recipe, case, at_pressure_MPa (list), keep (all|tables)\n"
+      "[[vary]] keys, values - or normal = {mean, sd, cells}, or design, a CSV file - : "
+      "every combination of the groups is a run.\nKeys are those of the recipe "
+      "(recipe.seed) and of the case "
+      "(case.bond.tensile_strength_MPa).\nThe same command continues a study that was stopped.");
   verb->add_option("STUDY", a->options.file, "study (TOML)")->required();
   add_study_options(*verb, a->options);
   verb->add_flag("--page", a->page, "draw the page of the table that lies in the folder, no more");

@@ -55,7 +55,7 @@ void check_target(const Settings &s, const ElectrodeFacts &e, Mistakes &mistakes
                                 key, s.text(key), target, e.thickness));
   const std::string first = "roll.first_gap_um";
   if (control == "roll_gap" && s.number(first) >= e.thickness)
-    mistakes.add(0, fmt::format("{} = {} is no less than the electrode's {:.2f} um: the first pass "
+    mistakes.add(0, fmt::format("{} = {} is not below the electrode's {:.2f} um: the first pass "
                                 "would compress nothing. Give a smaller one, or 0.",
                                 first, s.text(first), e.thickness));
 }
@@ -130,7 +130,7 @@ std::string keep_what_there_is(const std::string &folder, const Settings &settin
                     e.what());
   }
   if (std::filesystem::exists(folder + "/running.restart"))
-    report += " --resume goes on from the newest restart file.";
+    report += " --resume continues from the newest restart file.";
   return report;
 }
 
@@ -177,7 +177,7 @@ void stop_if_packed_anew(const Settings &settings, const std::string &then) {
                   fmt::format("'{}' has changed while the run went on (hash then {}, now {}): the "
                               "electrode was packed anew. What was computed is kept as LIGGGHTS "
                               "wrote it and is of neither. Run again with --force, and pack into "
-                              "another folder while a run goes on.",
+                              "another folder while a run is under way.",
                               file, then, now));
 }
 

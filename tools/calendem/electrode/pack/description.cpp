@@ -208,8 +208,8 @@ void check_targets(const nlohmann::json &j, const Recipe &r, const std::string &
   const int bonds = j["bonds"], pairs = j["lattice_pairs"];
   at_most("bonds that are not the lattice's:", std::abs(bonds - pairs), 0, other);
   if (!missed.empty())
-    throw Failure(kCheckFailed, "the packing misses its targets; its files are kept for a look, "
-                                "but electrode.json is not written\n" +
+    throw Failure(kCheckFailed, "the packing misses its targets; its files are kept for "
+                                "inspection, but electrode.json is not written\n" +
                                     missed.text());
 }
 

@@ -156,9 +156,9 @@ ShapeLibrary read_library(const std::string &folder) {
       l.shapes.push_back(shape_from_json(nlohmann::json::parse(in)));
       l.source_hash = hash_of_text(l.source_hash + hash_of_file(file));
     } catch (const std::exception &e) {
-      mistakes.add(0, fmt::format("'{}' is not a shape: {}. Make the library again, or take the "
-                                  "file away.",
-                                  fs::path(file).filename().string(), e.what()));
+      mistakes.add(
+          0, fmt::format("'{}' is not a shape: {}. Make the library again, or remove the file.",
+                         fs::path(file).filename().string(), e.what()));
     }
   if (files.empty())
     mistakes.add(0, "it holds no shapes (shape_*.json). Give a folder 'shapes' that calendem pack "

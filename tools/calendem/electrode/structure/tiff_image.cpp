@@ -92,7 +92,7 @@ private:
   std::unique_ptr<TIFF, Close> tiff_;
 
   [[noreturn]] void refuse_page(long number) const {
-    refuse_image(file_, fmt::format("page {} cannot be read: {}. The file is cut, damaged or no "
+    refuse_image(file_, fmt::format("page {} cannot be read: {}. The file is cut, damaged or not a "
                                     "TIFF file. Copy it again.",
                                     number, said.empty() ? "it contradicts itself" : said));
   }
