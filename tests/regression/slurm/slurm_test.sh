@@ -79,11 +79,11 @@ expect 0 env PATH=/nowhere "${slurm[@]}" --slurm-dry-run
 says "packings.sh is written, tasks 1,3; nothing is submitted" "runs.sh is written, tasks 1-3"
 expect 0 bash "$work/out/slurm/packings.sh" 1 # as another scheduler would
 expect 3 bash "$work/out/slurm/runs.sh" 3
-says "its packing is not there"
+says "its packing does not exist"
 expect 0 "$bin/calendem" bank "$work/bank.toml" -o "$work/bank" --slurm-dry-run
 says "runs.sh is written, tasks 1-6"
 expect 3 bash "$work/bank/slurm/runs.sh" 6 # the bank's own verb makes its tasks
-says "run 6: failed, its packing is not there"
+says "run 6: failed, its packing does not exist"
 
 start_cluster
 job=calendem-$(sed -n 's/^#SBATCH --job-name=calendem-\([0-9a-f]*\)-runs$/\1/p' "$work/out/slurm/runs.sh")
