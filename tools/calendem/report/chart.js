@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Draws a chart (chart.h) with d3. The drawing's data-marks is the number of values in view. All looks
+// Draws a chart (page.h) with d3. The drawing's data-marks is the number of values in view. All looks
 // are attributes of the drawing, so that it stands alone as SVG.
 var Plot = (function() {
 'use strict';

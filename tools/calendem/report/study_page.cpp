@@ -183,9 +183,9 @@ nlohmann::json head(const StudyTable &table) {
   out.push_back("maximum pressure (MPa)");
   for (const double p : table.pressures("broken_fraction"))
     out.push_back(fmt::format("broken at {:g} MPa (%)", p));
-  for (const char *name : {"broken: distance to paper (points)", "porosity at maximum (%)",
+  for (const char *name : {"broken: distance from paper (points)", "porosity at maximum (%)",
                            "porosity after relaxation (%)", "minus Table 1 (points)",
-                           "springback (%)", "pressures differ by (%)"})
+                           "springback (%)", "pressure difference (%)"})
     out.push_back(name);
   return out;
 }

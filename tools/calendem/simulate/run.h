@@ -63,8 +63,8 @@ ElectrodeFacts read_electrode(const std::string &folder);
 // its restart file complete.
 
 /// True if the folder already holds this run, finished. `hash`: of all that it depends on;
-/// `electrode`: of electrode.data. Throws Failure(2) if it holds another run,
-/// results of others, or an unfinished run and neither --resume nor --force was given; Failure(4) if it holds this run
+/// `electrode`: of electrode.data. Throws Failure(2) if it holds another run, results of others, or
+/// an unfinished run and neither --resume nor --force was given; Failure(4) if it holds this run
 /// and its checks did not hold.
 bool holds_this_run(const RunOptions &options, const Settings &settings, const std::string &hash,
                     const std::string &electrode);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the header of an image announces, and whether the file can hold it; TIFF read whole. VTK's readers take what
-// they find: they fill up what is missing without an error, allocate what a wrong number asks for,
-// divide by zero, wait for lines that never come. So the header is checked before VTK sees the
-// file.
+// What the header of an image announces, and whether the file can hold it; TIFF read whole. VTK's
+// readers take what they find: they fill up what is missing without an error, allocate what a wrong
+// number asks for, divide by zero, wait for lines that never come. So the header is checked before
+// VTK sees the file.
 #ifndef CALENDEM_ELECTRODE_STRUCTURE_IMAGE_HEADER_H
 #define CALENDEM_ELECTRODE_STRUCTURE_IMAGE_HEADER_H
 
@@ -85,8 +85,8 @@ long unpacked_bytes(const std::string &file, long offset, long length, long most
 // white, cannot read tiles in a stack and turns a single page upside down, but not a stack.
 
 /// All pages, the first one at the bottom, with rows and numbers as the file stores them, whatever
-/// colours and orientation it gives them. Throws Failure(2) unless the file is whole and its pages have one size and one
-/// number per voxel.
+/// colours and orientation it gives them. Throws Failure(2) unless the file is whole and its pages
+/// have one size and one number per voxel.
 vtkSmartPointer<vtkImageData> read_tiff(const std::string &file);
 
 } // namespace calendem
