@@ -6,11 +6,16 @@
 
 #include "base/toml_reader.h"
 #include "physics/inertial_number.h"
+#include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 namespace calendem {
+
+struct RawRow;
 
 struct RunOptions {
   std::string folder;
@@ -84,6 +89,30 @@ void mark_as_running(const std::string &folder, const std::string &hash,
 /// The file ends, as the host writes it, with one chunk per rank (count of values, values; every
 /// atom's record begins with its own length) and these hold `atoms` atoms in all.
 bool restart_is_whole(const std::string &file, long atoms);
+
+// How far a running compression is.
+
+/// Share of the target of pressure, displacement or thickness that a row has reached; 1 once the
+/// platen goes back.
+double target_share(const Settings &settings, const RawRow &row);
+
+/// Simulated time [us] until the compression's target is met: at the platen's speed, or as the
+/// pressure has grown over the last quarter; NaN where that says nothing.
+double time_to_target(const Settings &settings, const std::vector<RawRow> &rows);
+
+/// Shows the progress line; on a terminal in place, else a line every half minute.
+class Progress {
+public:
+  /// `settings` is referred to.
+  Progress(const std::string &curve, const Settings &settings);
+  void operator()();
+
+private:
+  std::string curve_;
+  const Settings &settings_;
+  double from_ = NAN; ///< simulated time at the first look, which was at looked_ [us]
+  std::chrono::steady_clock::time_point looked_, begin_, shown_;
+};
 
 } // namespace calendem
 
