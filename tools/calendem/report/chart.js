@@ -152,7 +152,7 @@ Plot.prototype.drawLegend = function() {
       return;
     var g = self.svg.append('g').style('cursor', 'pointer').attr('data-series', k);
     g.attr('opacity', self.hidden[k] ? 0.35 : 1);
-    g.append('title').text('Click: hide or show');
+    g.append('title').text('Click to hide or show');
     if (s.mark === 'area')
       g.append('rect').attr(
           {y : -7, width : 30, height : 14, fill : self.fill[k], stroke : '#444'});

@@ -165,7 +165,7 @@ Chart fragments(const Run &run, bool single) {
 
 Chart broken_by_depth(const Run &run, bool single) {
   Chart chart = axes("depth", titled("Broken bonds of each particle by depth", run, single),
-                     "Depth of its centre below the film's surface before pressing (µm)",
+                     "Depth below the surface before pressing (µm)",
                      "Broken bonds of the particle (%)");
   chart.series = body_points(
       run, [](const Columns &b, std::size_t i) { return b.at("depth_um")[i]; },
