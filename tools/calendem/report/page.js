@@ -79,7 +79,7 @@ function addButtons(plot) {
   button('CSV', 'Save the numbers',
          function() { save(csvOf(plot.chart), 'text/csv', id + '.csv'); });
   bar.appendChild(document.createElement('span')).textContent =
-      'drag: zoom · hover: value · click a name: hide';
+      'drag to zoom, hover for values';
 }
 
 function nearest(plot, at) {
