@@ -192,7 +192,10 @@ std::vector<Chart> charts_of_setting(const StudyTable &table, const std::string 
 } // namespace
 
 std::string setting_in_words(const std::string &key) {
-  const auto fact = report::facts_of({{key.substr(key.find('.') + 1), nullptr}}, {})[0];
+  std::string path = key.substr(key.find('.') + 1);
+  if (path.rfind("effects.", 0) == 0)
+    path.erase(0, 8);
+  const auto fact = report::facts_of({{path, nullptr}}, {})[0];
   std::string name = fact["name"], unit = fact["unit"];
   std::replace(name.begin(), name.end(), '.', ' ');
   return unit.empty() ? name : name + " (" + unit + ")";
