@@ -318,7 +318,10 @@ ranks_not_a_number() {
   done
   expect 1 calendem run "$work/case.toml"
   says "--output is required"
-  expect 1 calendem frobnicate
+  expect 1 calendem pak
+  says "there is no verb 'pak'. Did you mean 'pack'?" "calendem --help"
+  expect 1 calendem
+  says "Usage:" "Many runs" "diagnose"
 }
 too_many_ranks() {
   a_case "$electrode"

@@ -67,7 +67,8 @@ void compare(const Options &o) {
 
 void add_compare_verb(CLI::App &app) {
   auto o = std::make_shared<Options>();
-  CLI::App *verb = app.add_subcommand("compare", "Where simulation and experiment disagree");
+  CLI::App *verb = app.add_subcommand(
+      "compare", "Compare runs with an experiment: every residual with its uncertainty");
   verb->add_option("EXPERIMENT", o->experiment, "experiment file (TOML)")->required();
   verb->add_option("DIR", o->runs,
                    "directories made by calendem run; several packings per "
@@ -85,7 +86,7 @@ void add_report_verb(CLI::App &app) {
   };
   const auto options = std::make_shared<Options>();
   CLI::App *verb = app.add_subcommand(
-      "report", "One self-contained page with charts and pictures of one or more runs");
+      "report", "Write one self-contained page with charts and pictures of one or more runs");
   verb->add_option("DIR", options->directories, "Directories made by calendem run")
       ->required()
       ->type_name("");
@@ -200,7 +201,7 @@ void add_measure_verb(CLI::App &app) {
   auto a = std::make_shared<Arguments>();
   CLI::App *verb = app.add_subcommand(
       "measure",
-      "Porosities, profiles, surface, contacts and tortuosity of a run or a label image");
+      "Measure porosity, profiles, surface, contacts and tortuosity of a run or a label image");
   verb->add_option("DIR|IMAGE", a->input,
                    "directory of a run, or a label image whose z runs from collector to platen")
       ->required();

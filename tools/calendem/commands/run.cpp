@@ -109,8 +109,7 @@ void add_collect_verb(CLI::App &app) {
   };
   auto a = std::make_shared<Arguments>();
   CLI::App *verb = app.add_subcommand(
-      "collect",
-      "Curve, summary, bodies and ParaView series of a run made with plain input scripts");
+      "collect", "Make the files of a run from what the plain input scripts left");
   verb->add_option("DIR", a->folder, "what the scripts were given as -var out")->required();
   verb->add_option("--electrode", a->electrode, "folder of the electrode, if it has moved");
   verb->callback([a] { collect_folder(fs::absolute(a->folder).string(), a->electrode); });
@@ -123,7 +122,8 @@ void add_run_verb(CLI::App &app) {
   };
   auto a = std::make_shared<Arguments>();
   a->options.liggghts = liggghts_program();
-  CLI::App *verb = app.add_subcommand("run", "One compression and relaxation of an electrode");
+  CLI::App *verb =
+      app.add_subcommand("run", "Press an electrode and release it, by running LIGGGHTS");
   verb->footer(list_of_keys(case_keys()));
   verb->add_option("CASE", a->spec, "case (TOML)")->required();
   verb->add_option("-o,--output", a->options.folder, "folder of the run")->required();
@@ -170,7 +170,7 @@ void add_dry_verb(CLI::App &app) {
   auto a = std::make_shared<Arguments>();
   a->options.liggghts = liggghts_program();
   CLI::App *verb = app.add_subcommand(
-      "dry", "Make the slurry of a recipe and dry it, by running LIGGGHTS: a film for pack");
+      "dry", "Simulate slurry and drying of a recipe, by running LIGGGHTS: a film for pack");
   verb->footer(list_of_keys(film_keys()));
   verb->add_option("SPEC", a->spec, "recipe with [slurry] and [drying] (TOML)")->required();
   verb->add_option("-o,--output", a->options.folder, "folder of the film")->required();
@@ -185,7 +185,7 @@ void add_tomogram_verb(CLI::App &app) {
   };
   auto a = std::make_shared<Arguments>();
   CLI::App *verb =
-      app.add_subcommand("tomogram", "A synthetic label image whose particles are known");
+      app.add_subcommand("tomogram", "Make a synthetic label image whose particles are known");
   verb->footer(list_of_keys(tomogram_keys()));
   verb->add_option("SPEC", a->spec, "what the image shows (TOML)")->required();
   verb->add_option("-o,--output", a->file, "image (.mhd, .mha or .vti); beside it NAME.truth.csv")
