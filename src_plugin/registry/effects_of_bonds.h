@@ -11,10 +11,10 @@ inline Effect weibull_strength() {
   Effect e;
   e.name = "weibull_strength";
   e.layer = "bond";
-  e.what = "strength of bonds scattered by a Weibull law of the same mean";
+  e.what = "the strength of bonds has a Weibull distribution with the same mean";
   e.parameter = {{"bond.weibull_modulus"},   "0", 1.5, 10, Spread::LogUniform,
                  AmplitudeScale::Reciprocal, 1.0};
-  e.moves = "breaks begin earlier and spread over more of the curve; porosity hardly changes";
+  e.moves = "breaks begin earlier and are spread over more of the curve; porosity hardly changes";
   e.source = "Weibull 1951; a modulus of 3-8 is an unsourced prior for NMC, widened here";
   e.law = "weibull_strength.h";
   e.verification = "strength";
@@ -27,11 +27,11 @@ inline Effect pre_cracks() {
   e.layer = "bond";
   e.what = "a fraction of the bonds has no strength from the start";
   e.settings = {{"effects.pre_cracks.fraction", "pre_cracks", "0", 0, 0.9, "",
-                 "of the bonds, without strength"}};
+                 "fraction of the bonds without strength"}};
   e.parameter = strength(e.settings[0], 0.02, 0.5, Spread::LogUniform);
   e.bond_law = "pre_cracks";
-  e.moves =
-      "weaker bodies from the first load on: lower pressure at a displacement, more cracked bodies";
+  e.moves = "bodies are weaker from the first load on: lower pressure at a displacement, more "
+            "cracked bodies";
   e.source = "a random choice of bonds; tomograms show pores and cracks in NMC, an unsourced prior";
   e.law = "pre_cracks.h";
   e.verification = "strength";
@@ -42,13 +42,13 @@ inline Effect body_scatter() {
   Effect e;
   e.name = "body_scatter";
   e.layer = "bond";
-  e.what = "strength of whole bodies scattered by a lognormal law of mean 1";
+  e.what = "the strength of whole bodies has a lognormal distribution with mean 1";
   e.settings = {{"effects.body_scatter.sd_ln", "body_scatter", "0", 0, 1, "",
                  "standard deviation of the logarithm of strength; seed: bond.seed"}};
   e.parameter = strength(e.settings[0], 0.1, 0.8, Spread::LogUniform);
   e.bond_law = "body_scatter";
-  e.moves = "some bodies break early and others not at all: breaks spread over the curve, and the "
-            "cracked bodies are fewer for as many broken bonds";
+  e.moves = "some bodies break early and others not at all: breaks are spread over the curve, and "
+            "there are fewer cracked bodies for the same number of broken bonds";
   e.source = "a Weibull law of modulus m has pi/(m sqrt 6): 0.16-0.43 for 3-8, an unsourced prior "
              "for NMC, widened here";
   e.law = "body_strength.h";
@@ -60,14 +60,14 @@ inline Effect body_size() {
   Effect e;
   e.name = "body_size";
   e.layer = "bond";
-  e.what = "large bodies are weaker: strength goes with a power of the diameter";
+  e.what = "large bodies are weaker: strength follows a power law of the diameter";
   e.settings = {{"effects.body_size.exponent", "body_size_exponent", "0", 0, 3, "",
-                 "a of strength ~ d^-a; 3/m for a Weibull modulus m; 0: none"},
+                 "exponent a in strength ~ d^-a; 3/m for a Weibull modulus m; 0: no effect"},
                 {"effects.body_size.reference_um", "body_reference_um", "4.35", 0.1, 100, "um",
-                 "diameter of a body whose strength is as set; the recipe's particles.median_um"}};
+                 "diameter of a body of unchanged strength; the recipe's particles.median_um"}};
   e.parameter = strength(e.settings[0], 0.2, 2, Spread::LogUniform);
   e.bond_law = "body_size";
-  e.moves = "breaks begin earlier, in the largest bodies; small ones stay whole";
+  e.moves = "breaks begin earlier, in the largest bodies; small bodies stay whole";
   e.source = "Weibull 1939; McDowell & Bolton 1998: 3/m of grains; m 3-8 is an unsourced prior "
              "for NMC, widened here";
   e.law = "body_strength.h";

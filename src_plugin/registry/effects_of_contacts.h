@@ -16,7 +16,7 @@ inline Key hardening(const std::string &key, const std::string &variable) {
           0,
           1000,
           "GPa",
-          "growth of that limit with the yielded overlap over the effective radius"};
+          "increase of this limit with the plastic overlap divided by the effective radius"};
 }
 
 /// The contacts of the carbon-binder domain.
@@ -31,7 +31,7 @@ inline Effect friction() {
   Effect e;
   e.name = "friction";
   e.layer = "contact";
-  e.what = "Coulomb friction between particles at a physical level";
+  e.what = "Coulomb friction between particles at a realistic level";
   e.parameter = {{"material.am.friction", "material.cbd.friction"},
                  "0.001",
                  0.05,
@@ -39,8 +39,9 @@ inline Effect friction() {
                  Spread::Uniform,
                  AmplitudeScale::Difference,
                  0.7};
-  e.moves = "more pressure from 1 to 30 MPa on, more hysteresis, a gradient through the thickness";
-  e.source = "public calendering decks use 0.001; 0.3-0.6 is usual for dry mineral grains";
+  e.moves =
+      "higher pressure from 1 to 30 MPa on, more hysteresis, a gradient through the thickness";
+  e.source = "public calendering scripts use 0.001; 0.3-0.6 is usual for dry mineral grains";
   e.law = "hertz_mindlin.h";
   e.verification = "collision";
   return e;
@@ -50,13 +51,14 @@ inline Effect nmc_plasticity() {
   Effect e;
   e.name = "nmc_plasticity";
   e.layer = "contact";
-  e.what = "contacts of primaries yield at a limiting pressure: elastic-plastic, stiff unloading";
+  e.what =
+      "contacts of primaries yield at a limiting pressure: elastic-plastic, with stiff unloading";
   e.settings = {{"effects.nmc_plasticity.yield_pressure_GPa", "nmc_yield_GPa", "0", 0, 1000, "GPa",
                  "limit of the contact pressure between bodies and at the platen; 0: elastic"},
                 hardening("effects.nmc_plasticity.hardening_GPa", "nmc_yield_hardening_GPa")};
   e.parameter = strength(e.settings[0], 1.5, 12, Spread::LogUniform, AmplitudeScale::Reciprocal, 0);
   e.contact = {&kPlasticContact, {{Phase::Am, Phase::Am}, {Phase::Am, Phase::Platen}}};
-  e.moves = "lower pressure above some 50 MPa, steeper unloading, fewer cracked particles";
+  e.moves = "lower pressure above about 50 MPa, steeper unloading, fewer cracked particles";
   e.source = "Thornton 1997; hardness of NMC grains 1-12 GPa is an unsourced prior";
   e.law = kPlasticContact.header;
   e.verification = "plastic_contact";
@@ -67,28 +69,29 @@ inline Effect cbd_collapse() {
   Effect e;
   e.name = "cbd_collapse";
   e.layer = "contact";
-  e.what = "nanopores of the carbon-binder domain collapse under pressure and stay so";
+  e.what = "nanopores of the carbon-binder domain collapse permanently under pressure";
   const std::string at = "effects.cbd_collapse.";
   e.settings = {
       {at + "yield_pressure_MPa", "cbd_yield_MPa", "0", 0, 1e5, "MPa",
-       "mean pressure of a CBD sphere at which its nanopores begin to collapse; 0: never"},
+       "mean pressure on a CBD sphere at which its nanopores begin to collapse; 0: never"},
       {at + "hardening_MPa", "cbd_hardening_MPa", "50", 0.1, 1e5, "MPa",
        "pressure scale of the decrease above the yield pressure"},
       {at + "initial_nanoporosity", "cbd_initial_phi", "0.5", 0, 0.95, "fraction",
-       "the recipe's cbd.nanoporosity_percent"},
+       "nanoporosity at the start; must agree with the recipe's cbd.nanoporosity_percent"},
       {at + "floor_nanoporosity", "cbd_floor_phi", "0.27", 0, 0.95, "fraction",
-       "lower limit under any pressure"},
+       "lower limit of the nanoporosity"},
       {at + "relaxation_us", "cbd_collapse_us", "0.1", 1e-3, 1e3, "us",
-       "time in which nanopores follow their pressure; some transits of a pressure wave"},
+       "time constant with which nanopores follow their pressure; a few transits of a pressure "
+       "wave"},
       {at + "every_steps", "cbd_collapse_steps", "50", 1, 1e6, "steps",
-       "between updates of the nanopores", "", false, true}};
+       "steps between updates of the nanopores", "", false, true}};
   e.parameter = strength(e.settings[0], 5, 300, Spread::LogUniform, AmplitudeScale::Reciprocal, 0);
   e.relations = {{at + "floor_nanoporosity", Relation::Is::AtMost, at + "initial_nanoporosity",
                   "pores would open under pressure"},
                  {"imposed.cbd_nanoporosity_until_MPa", Relation::Is::NotBoth,
                   at + "yield_pressure_MPa",
                   "nanoporosity follows either the pressure of each sphere or the platen's"}};
-  e.moves = "total porosity falls by some points at a given pressure, and does not come back";
+  e.moves = "total porosity falls by a few points at a given pressure, and does not recover";
   e.source = "Heckel 1961; from 50 % to 27 % nanoporosity as Xu et al. impose it";
   e.law = "nanopore_collapse.h";
   e.verification = "nanopore_collapse";
@@ -102,12 +105,12 @@ inline Effect cbd_viscoelasticity() {
   e.what = "contacts with the carbon-binder domain relax (Prony series of one term)";
   e.settings = {{"effects.cbd_viscoelasticity.relaxed_fraction", "cbd_relaxed_fraction", "0", 0,
                  0.95, "fraction",
-                 "of the stiffness of contacts with CBD that relaxes; 0: elastic"},
+                 "fraction of the stiffness of contacts with CBD that relaxes; 0: elastic"},
                 {"effects.cbd_viscoelasticity.time_us", "cbd_relaxation_us", "1", 1e-3, 1e6, "us",
-                 "relaxation time; the run's own time counts, see platen.speed_m_s"}};
+                 "relaxation time, in the time of the simulation, see platen.speed_m_s"}};
   e.parameter = strength(e.settings[0], 0.05, 0.35, Spread::Uniform);
   e.contact = {&kViscousContact, all_of_cbd()};
-  e.moves = "pressure depends on speed and decays in a dwell; springback is delayed";
+  e.moves = "pressure depends on speed and decays during a dwell; springback is delayed";
   e.source = "Christensen, Theory of Viscoelasticity, ch. 1";
   e.law = kViscousContact.header;
   e.verification = "viscous_contact";
@@ -125,8 +128,8 @@ inline Effect cbd_plasticity() {
                 hardening(at + "hardening_GPa", "cbd_contact_hardening_GPa")};
   e.parameter = strength(e.settings[0], 0.55, 3, Spread::LogUniform, AmplitudeScale::Reciprocal, 0);
   e.contact = {&kPlasticContact, all_of_cbd()};
-  e.moves = "lower pressure and less springback where CBD carries; the cohesion of AM with CBD "
-            "leaves no yield below half a GPa";
+  e.moves = "lower pressure and less springback where CBD carries load; because of the cohesion "
+            "between AM and CBD the yield pressure cannot be below 0.5 GPa";
   e.source = "Thornton 1997; the range is what cohesion allows, an unsourced prior";
   e.law = kPlasticContact.header;
   e.verification = "plastic_contact";
@@ -142,11 +145,12 @@ inline Effect confinement(const std::string &phase, const std::string &what, dou
   e.what = what;
   const std::string at = "effects." + e.name + ".";
   e.settings = {{at + "bulk_modulus_GPa", phase + "_bulk_GPa", "0", 0, 1000, "GPa",
-                 "of a sphere that its contacts enclose; 0: Hertz at any overlap"},
+                 "bulk modulus of a sphere confined by its contacts; 0: Hertz at any overlap"},
                 {at + "free_surface", phase + "_free_surface", "0.5", 0.01, 0.99, "fraction",
-                 "of the sphere, at which its bulk begins to resist"}};
+                 "free fraction of the sphere's surface at which its bulk begins to resist"}};
   e.parameter = strength(e.settings[0], least, most, Spread::LogUniform);
-  e.moves = "more pressure at high density, where overlaps are large, and more springback from it";
+  e.moves =
+      "higher pressure at high density, where overlaps are large, and more springback from there";
   e.source = "Zunker & Kamrin 2024 (MDR, part II); from the bulk modulus of a half-porous solid to "
              "that of the solid, an unsourced prior";
   e.law = kConfinedContact.header;
@@ -156,8 +160,8 @@ inline Effect confinement(const std::string &phase, const std::string &what, dou
 
 inline Effect cbd_confinement() {
   Effect e = confinement("cbd",
-                         "carbon-binder domain that its contacts enclose answers with its bulk, "
-                         "beyond the range of Hertz",
+                         "carbon-binder domain confined by its contacts resists with its bulk "
+                         "modulus, beyond the range of Hertz",
                          0.5, 35);
   e.contact = {&kConfinedContact, all_of_cbd()};
   return e;
@@ -165,8 +169,8 @@ inline Effect cbd_confinement() {
 
 inline Effect nmc_confinement() {
   Effect e = confinement("nmc",
-                         "primaries that their contacts enclose answer with their bulk, beyond the "
-                         "range of Hertz",
+                         "primaries confined by their contacts resist with their bulk modulus, "
+                         "beyond the range of Hertz",
                          20, 200);
   e.contact = {&kConfinedContact, {{Phase::Am, Phase::Am}, {Phase::Am, Phase::Platen}}};
   return e;
@@ -176,15 +180,15 @@ inline Effect collector_indentation() {
   Effect e;
   e.name = "collector_indentation";
   e.layer = "boundary";
-  e.what = "primaries press into the collector's foil beyond a limiting pressure";
+  e.what = "primaries indent the collector above a limiting pressure";
   e.settings = {{"effects.collector_indentation.yield_pressure_GPa", "collector_yield_GPa", "0", 0,
                  1000, "GPa",
                  "limit of the contact pressure of bodies on the collector; 0: elastic"}};
   e.parameter = strength(e.settings[0], 0.1, 1.5, Spread::LogUniform, AmplitudeScale::Reciprocal);
   e.contact = {&kPlasticContact, {{Phase::Am, Phase::Collector}}};
-  e.moves = "a lasting offset of some tenths of a micrometre; fewer breaks near the collector";
+  e.moves = "a permanent offset of some tenths of a micrometre; fewer breaks near the collector";
   e.source =
-      "Thornton 1997; some three times the yield stress of an aluminium foil, an unsourced prior";
+      "Thornton 1997; about three times the yield stress of an aluminium foil, an unsourced prior";
   e.law = kPlasticContact.header;
   e.verification = "plastic_contact";
   return e;
@@ -208,19 +212,21 @@ inline Effect binder_bridges() {
   Effect e;
   e.name = "binder_bridges";
   e.layer = "contact";
-  e.what = "the binder holds CBD to CBD, active material and collector by bonds that break";
+  e.what = "the binder connects CBD to CBD, active material and collector by bonds that can break";
   const std::string at = "effects.binder_bridges.";
-  e.settings = {{at + "strength_MPa", "bridge_MPa", "0", 0, 1000, "MPa",
-                 "tensile strength of bridges from CBD to CBD; 0: none"},
-                bridge_strength("am", "the same to active material"),
-                bridge_strength("collector", "the same to the collector"),
-                {at + "shear_ratio", "bridge_shear_ratio", "2", 0.1, 10, "",
-                 "shear over tensile strength of a bridge"},
-                {at + "modulus_GPa", "bridge_GPa", "1", 0.01, 100, "GPa", "of a bridge"},
-                {at + "radius_ratio", "bridge_radius_ratio", "0.5", 0.05, 1.5, "",
-                 "radius of a bridge over the smaller radius; a sphere's on the collector"},
-                {at + "gap_um", "bridge_gap_um", "0.02", 0, BinderBridges::kMostGap, "um",
-                 "between surfaces, up to which they are bridged at the start"}};
+  e.settings = {
+      {at + "strength_MPa", "bridge_MPa", "0", 0, 1000, "MPa",
+       "tensile strength of bridges from CBD to CBD; 0: none"},
+      bridge_strength("am", "tensile strength of bridges from CBD to active material"),
+      bridge_strength("collector", "tensile strength of bridges from CBD to the collector"),
+      {at + "shear_ratio", "bridge_shear_ratio", "2", 0.1, 10, "",
+       "shear strength divided by tensile strength of a bridge"},
+      {at + "modulus_GPa", "bridge_GPa", "1", 0.01, 100, "GPa", "modulus of a bridge"},
+      {at + "radius_ratio", "bridge_radius_ratio", "0.5", 0.05, 1.5, "",
+       "radius of a bridge divided by the smaller radius of its spheres (on the collector, by that "
+       "of the sphere)"},
+      {at + "gap_um", "bridge_gap_um", "0.02", 0, BinderBridges::kMostGap, "um",
+       "largest gap between surfaces that is bridged at the start"}};
   e.parameter = strength(e.settings[0], 1, 25, Spread::LogUniform);
   for (const char *key : {"strength_MPa", "am_strength_MPa", "collector_strength_MPa"}) {
     e.relations.push_back({at + key, Relation::Is::AtMost, at + "modulus_GPa",
@@ -231,8 +237,8 @@ inline Effect binder_bridges() {
       e.relations.push_back({at + key, Relation::Is::NotBoth, shrinks,
                              "a bridge keeps its length while its spheres would shrink"});
   }
-  e.moves = "stiffer film below some 20 MPa, and springback that what holds together resists; the "
-            "only tensile and adhesive strength of the coating where cohesion is 0";
+  e.moves = "stiffer film below about 20 MPa, and less springback; the only tensile and adhesive "
+            "strength of the coating if cohesion is 0";
   e.source = "Potyondy & Cundall 2004; shear over tensile strength: Luo et al. 2018, of a coating "
              "on its foil; strength below 0.2 GPa, a third of the hardness of the binder phase "
              "(Iyer et al. 2023, doi:10.1016/j.msea.2023.145352), and below 0.1 of the modulus "

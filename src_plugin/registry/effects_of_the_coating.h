@@ -14,7 +14,7 @@ inline Effect cbd_gradient() {
   e.layer = "coating";
   e.what = "more carbon-binder domain at one side of the coating than at the other";
   e.settings = {{"effects.cbd_gradient.slope", "", "0", -1, 1, "",
-                 "content at the surface less that at the collector, over their sum"}};
+                 "CBD content at the surface minus that at the collector, divided by their sum"}};
   e.parameter = strength(e.settings[0], -0.6, 0.9, Spread::Uniform);
   e.in_recipe = true;
   e.moves = "profiles of carbon-binder and porosity over the height, before and after";
@@ -30,15 +30,16 @@ inline Effect drying_stress() {
   e.name = "drying_stress";
   e.layer = "coating";
   e.what = "the binder has shrunk on the foil: binder bridges are under tension before the press";
-  e.settings = {{"effects.drying_stress.shrinkage", "drying_shrinkage", "0", 0,
-                 DryingShrinkage::kMost, "", "of the length of binder bridges; 0: none"},
-                {"effects.drying_stress.time_us", "drying_us", "0.5", 0.01, 100, "us",
-                 "in which they shrink; then as long at rest, before the platen starts"}};
+  e.settings = {
+      {"effects.drying_stress.shrinkage", "drying_shrinkage", "0", 0, DryingShrinkage::kMost, "",
+       "relative shrinkage of the length of binder bridges; 0: none"},
+      {"effects.drying_stress.time_us", "drying_us", "0.5", 0.01, 100, "us",
+       "time in which they shrink; they then rest for the same time before the platen starts"}};
   e.parameter = strength(e.settings[0], 0.001, 0.02, Spread::LogUniform);
   e.relations = {{e.settings[0].name, Relation::Is::Needs, "effects.binder_bridges.strength_MPa",
                   "only binder bridges can shrink"}};
-  e.moves = "film under tension in plane, little where CBD is sparse; bridges that break while it "
-            "dries and at lower pressures";
+  e.moves = "film under tension in its plane, little where CBD is sparse; bridges break during "
+            "drying and at lower pressures";
   e.source = "Croll 1979; binder that swells on the foil of a graphite electrode makes 1-2 MPa "
              "(Sethuraman "
              "et al. 2012, arXiv:1201.2155), which over a modulus of 0.08-0.11 GPa of hard carbon "

@@ -11,14 +11,14 @@ inline Effect machine_compliance() {
   Effect e;
   e.name = "machine_compliance";
   e.layer = "boundary";
-  e.what = "frame and rolls give way in proportion to the pressure";
+  e.what = "frame and rolls deflect in proportion to the pressure";
   e.settings = {{"effects.machine_compliance.um_per_MPa", "compliance_um_MPa", "0", 0, 1, "um/MPa",
-                 "of frame and rolls, in the displacement shown"}};
+                 "deflection of frame and rolls, included in the displacement shown"}};
   e.parameter = strength(e.settings[0], 0.005, 0.2, Spread::LogUniform);
   e.shown = &PressInstruments::compliance;
   e.instrument = true;
-  e.moves = "displacement shown grows with pressure on both ways; thickness after relaxation does "
-            "not";
+  e.moves = "the displacement shown grows with pressure, in compression and release; the thickness "
+            "after relaxation does not change";
   e.source = "Oliver & Pharr 1992: frame and sample as springs in series; an unsourced prior";
   e.law = "press_instruments.h";
   e.verification = "platen";
@@ -29,12 +29,12 @@ inline Effect pressure_calibration() {
   Effect e;
   e.name = "pressure_calibration";
   e.layer = "measurement";
-  e.what = "the pressure shown is the pressure times a factor";
+  e.what = "the pressure shown is the true pressure times a factor";
   e.settings = {{"effects.pressure_calibration.factor", "pressure_factor", "1", 0.2, 5, "",
-                 "pressure shown over pressure"}};
+                 "pressure shown divided by true pressure"}};
   e.parameter = strength(e.settings[0], 0.6, 1.6, Spread::LogUniform, AmplitudeScale::Logarithm);
   e.shown = &PressInstruments::pressure_factor;
-  e.moves = "stretches the pressure axis of every curve, and nothing else";
+  e.moves = "scales the pressure axis of every curve, and nothing else";
   e.source = "pressures converted from a roll gap: 10-25 % systematic is plausible; unsourced, "
              "widened here";
   e.law = "press_instruments.h";
@@ -46,13 +46,14 @@ inline Effect thickness_zero() {
   Effect e;
   e.name = "thickness_zero";
   e.layer = "measurement";
-  e.what = "the thickness shown is off by a constant";
+  e.what = "the thickness shown has a constant error";
   e.settings = {
       {"effects.thickness_zero.offset_um", "", "0", -50, 50, "um", "added to the thickness shown"}};
   e.parameter = strength(e.settings[0], -6, 6, Spread::Uniform);
   e.shown = &PressInstruments::thickness_zero;
   e.instrument = true;
-  e.moves = "the same shift of every thickness and its porosity, at any pressure";
+  e.moves = "shifts every thickness, and the porosity derived from it, by the same amount at any "
+            "pressure";
   e.source = "micrometre zero, foil thickness; table 1 states 0.8 um between samples";
   e.law = "press_instruments.h";
   e.verification = "unit/physics";

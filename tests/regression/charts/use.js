@@ -59,7 +59,7 @@ function checkZoom(chart) {
   mouse(window, 'mousemove', b[0], b[1]);
   mouse(window, 'mouseup', b[0], b[1]);
   check(marksOf(chart) < before && marksOf(chart) > 0, 'zoom: ' + marksOf(chart) + ' of ' + before);
-  press(chart, 'whole');
+  press(chart, 'reset zoom');
   check(marksOf(chart) === before, 'whole: ' + marksOf(chart) + ' of ' + before);
 }
 

@@ -92,7 +92,7 @@ done
 runs=$(find far/rerun/runs -name summary.json | wc -l)
 [ "$runs" -eq 6 ] || fail "$runs runs for three models on two packings"
 diagnose split.toml -o far --bank bank.toml --packings 2 >again.log
-grep -q "6 runs, 6 of them there" again.log || fail "a second diagnosis made its runs again"
+grep -q "6 runs, 6 of them done already" again.log || fail "a second diagnosis made its runs again"
 cp far/gap.json before.json
 diagnose split.toml -o far --bank bank.toml --packings 2 >/dev/null
 cmp before.json far/gap.json || fail "the same runs gave another gap.json"

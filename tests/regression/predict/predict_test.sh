@@ -81,7 +81,7 @@ by_runs() { calendem predict model/model.json other.toml --pressure 10,30 --runs
 by_runs
 cp own/prediction.csv first.csv
 by_runs >again.log
-grep -q "8 runs, 8 of them there" again.log || fail "runs were made twice"
+grep -q "8 runs, 8 of them done already" again.log || fail "runs were made twice"
 cmp first.csv own/prediction.csv || fail "the same runs gave another prediction"
 grep -q '"runs": 4' own/prediction.json || fail "it is not said that runs predict"
 grep -q "by 4 runs of its own" own/prediction.html || fail "the page does not say that runs predict"

@@ -79,11 +79,11 @@ expect 0 env PATH=/nowhere "${slurm[@]}" --slurm-dry-run
 says "packings.sh is written, tasks 1,3; nothing is submitted" "runs.sh is written, tasks 1-3"
 expect 0 bash "$work/out/slurm/packings.sh" 1 # as another scheduler would
 expect 3 bash "$work/out/slurm/runs.sh" 3
-says "its packing is not there"
+says "its packing does not exist"
 expect 0 "$bin/calendem" bank "$work/bank.toml" -o "$work/bank" --slurm-dry-run
 says "runs.sh is written, tasks 1-6"
 expect 3 bash "$work/bank/slurm/runs.sh" 6 # the bank's own verb makes its tasks
-says "run 6: failed, its packing is not there"
+says "run 6: failed, its packing does not exist"
 
 start_cluster
 job=calendem-$(sed -n 's/^#SBATCH --job-name=calendem-\([0-9a-f]*\)-runs$/\1/p' "$work/out/slurm/runs.sh")
@@ -102,7 +102,7 @@ kill -TERM $client
 status=0
 wait $client || status=$?
 [ $status -eq 3 ] || fail "exit status $status of a client that was stopped, expected 3"
-says "Its jobs go on in Slurm's queue" "the same command waits for them again" "scancel --name=$job-packings,$job-runs"
+says "Its jobs stay in Slurm's queue" "the same command waits for them again" "scancel --name=$job-packings,$job-runs"
 
 "${slurm[@]}" >"$work/said" 2>&1 &
 client=$!
@@ -123,7 +123,7 @@ says "runs.sh submitted as job" "tasks 2" "3 of 3 runs done"
 grep -q "^#SBATCH --array=2%2$" "$work/out/slurm/runs.sh" || fail "runs that were done were submitted"
 [ ! -e "$work/out/runs/${runs[1]}/vtk" ] || fail "frames were kept"
 expect 0 "${slurm[@]}"
-says "3 runs, 3 of them there"
+says "3 runs, 3 of them done already"
 if grep -q submitted "$work/said"; then fail "a second call submitted something"; fi
 [ -z "$(squeue -h)" ] || fail "something is left in the queue: $(squeue)"
 

@@ -34,10 +34,10 @@ job=$!
 until [ -s "$work/out/packings/$(column packing | head -n 1)/electrode.json" ]; do sleep 0.05; done
 kill -TERM $job
 wait $job && fail "a study that was stopped must not end with exit status 0"
-grep -q "goes on" "$work/stopped.log" || fail "it is not said how to go on"
+grep -q "continues it" "$work/stopped.log" || fail "the message does not say how to continue"
 study --jobs 2
 study >"$work/again.log"
-grep -q "4 runs, 4 of them there" "$work/again.log" || fail "a second call should find all runs done"
+grep -q "4 runs, 4 of them done already" "$work/again.log" || fail "a second call should find all runs done"
 
 [ "$(column status | sort -u)" = "done" ] || fail "not all runs are done"
 [ "$(column packing | sort -u | wc -l)" = 2 ] || fail "runs of one seed do not share their packing"
@@ -80,7 +80,7 @@ T
 status=0
 "$bin/calendem" bank "$work/bank.toml" -o "$work/bank" --liggghts "$(type -P false)" >"$work/bank.log" 2>&1 || status=$?
 [ $status = 3 ] || { cat "$work/bank.log"; fail "exit status $status of a bank whose runs fail"; }
-grep -q "^study: 2 runs, 0 of them there -> .*full_cell" "$work/bank.log" || { cat "$work/bank.log"; fail "the full cell was not tried"; }
+grep -q "^study: 2 runs, 0 of them done already -> .*full_cell" "$work/bank.log" || { cat "$work/bank.log"; fail "the full cell was not tried"; }
 
 # A bank that is stopped does not begin with the full cell.
 "$bin/calendem" bank "$work/bank.toml" -o "$work/stopped" >"$work/stopped.log" 2>&1 &

@@ -80,7 +80,7 @@ cp "$work/pair" "$pair"
 
 # The same command makes nothing again, and hands out the same.
 make_round >"$work/again.log"
-grep -q "20 runs, 20 of them there" "$work/again.log" || fail "runs were made twice"
+grep -q "20 runs, 20 of them done already" "$work/again.log" || fail "runs were made twice"
 diff -r "$work/round/handed_out" "$work/given/copy" || fail "another round was handed out"
 
 sed -i 's/"claim": "[a-z]*/&!/' "$work/answers/002/gap.json"

@@ -238,14 +238,14 @@ of_other_kind() { # "VERB" FILE TEXT...: the verb refuses the case's file in one
 }
 kind_wrong() {
   of_other_kind run demo/electrode.toml "this is an electrode's recipe (it has 'cell', 'coating')" \
-    "a case is wanted here. Give it to calendem pack"
+    "a case is expected here. Give this file to calendem pack"
   of_other_kind pack demo/case.toml "this is a case" "Give it to calendem run"
-  of_other_kind dry demo/case.toml "this is a case" "the recipe of a film is wanted here"
+  of_other_kind dry demo/case.toml "this is a case" "the recipe of a film is expected here"
   of_other_kind pack chain/film.toml "this is the recipe of a film" "Give it to calendem dry"
-  of_other_kind tomogram demo/electrode.toml "the description of a tomogram is wanted here"
-  of_other_kind study bank/bank.toml "this is a bank" "a study is wanted here"
+  of_other_kind tomogram demo/electrode.toml "the description of a tomogram is expected here"
+  of_other_kind study bank/bank.toml "this is a bank" "a study is expected here"
   of_other_kind bank studies/cells.toml "this is a study" "Give it to calendem study"
-  of_other_kind diagnose demo/case.toml "this is a case" "an experiment is wanted here"
+  of_other_kind diagnose demo/case.toml "this is a case" "an experiment is expected here"
   of_other_kind "withheld make" paper/experiment.toml "this is an experiment" "compare or diagnose"
 }
 kinds_of_file() {
@@ -318,7 +318,10 @@ ranks_not_a_number() {
   done
   expect 1 calendem run "$work/case.toml"
   says "--output is required"
-  expect 1 calendem frobnicate
+  expect 1 calendem pak
+  says "there is no verb 'pak'. Did you mean 'pack'?" "calendem --help"
+  expect 1 calendem
+  says "Usage:" "Many runs" "diagnose"
 }
 too_many_ranks() {
   a_case "$electrode"
@@ -358,9 +361,9 @@ confirming_fails() { # what the emulators say is there
 }
 option_not_a_number() {
   expect 1 calendem design model.json recipe.toml --porosity nan -o "$work/d"
-  says "nan is no number in [1 - 79]"
+  says "nan is not a number in [1 - 79]"
   expect 1 calendem measure "$work" -o "$work/m" --voxel-um nan
-  says "nan is no number in"
+  says "nan is not a number in"
 }
 output_is_a_file() {
   printf '%s\n' '[cell]' 'x_um = 6' 'y_um = 6' | file recipe.toml
@@ -556,7 +559,7 @@ ctrl_c_of_study() { # two runs at once, of the electrode that is there
   done
   ctrl_c
   ended_with 3
-  says "stopped on request" "What was computed is kept" "the same command goes on"
+  says "stopped on request" "What was computed is kept" "the same command continues it"
   nothing_runs_below "$work"
   for run in "${runs[@]}"; do
     ln -sfn "$work/out/runs/$run" "$work/run"

@@ -32,6 +32,20 @@ paths_exist() { # those of the repository that stand in code, and links of the p
       done
   done | report "these are not there"
 }
+# Names in the tables of files of the folders' READMEs, and `library/file` in that of the command line.
+# shellcheck disable=SC2016 # backticks of Markdown
+readmes_name_files() {
+  local folder=tools/calendem page name
+  grep -oE '`(base|electrode|simulate|measure|report|diagnose|predict|withheld|commands)/[a-z_/]+`' -r "$folder" --include=README.md |
+    tr -d '`' | while IFS=: read -r page name; do compgen -G "$folder/$name*" >/dev/null || echo "$page: $name"; done |
+    report "these are not there"
+  for folder in report diagnose/inference; do
+    page=tools/calendem/$folder/README.md
+    grep -q '^| file |' "$page" || { echo "FAILED: $page has no table of files"; exit 1; }
+    awk -F'|' '/^\| file \|/ { on = 1 } !/^\|/ { on = 0 } on { print $2 }' "$page" | { grep -oE '`[a-z_./]+`' || true; } | tr -d '`' |
+      while read -r name; do compgen -G "tools/calendem/$folder/$name*" >/dev/null || echo "$page: $name"; done
+  done | report "these are not there"
+}
 # Lines of commands in blocks of shell, continued lines joined.
 # shellcheck disable=SC2016 # awk's
 commands() {

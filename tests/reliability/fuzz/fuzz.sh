@@ -7,41 +7,47 @@ set -euo pipefail
 target=$1 seconds=${3:-60}
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 core=$(cd "$here/../../../tools/calendem" && pwd)
-[ "${CALENDEM_HEAVY:-0}" = 1 ] || { echo "skipped: fuzz.$target runs with tools/test --all"; exit 77; }
-command -v clang++ >/dev/null || { echo "skipped: no clang++ (Debian: clang, libclang-rt-14-dev)"; exit 77; }
 mkdir -p "$2"
 work=$(cd "$2" && pwd)
+cd "$core"
+# The readers, and of the library electrode all that two of them are linked with.
+sources=(base/*.cpp electrode/*.cpp electrode/*/*.cpp simulate/study_file.cpp diagnose/bank/bank_{spec,table}.cpp
+  diagnose/compare/simulated_run.cpp diagnose/inference/{bank,numerics,quantities}.cpp withheld/round_file.cpp)
+image_sources=(electrode/structure/{data_rows,image_header,label_image,tiff_image,vti_header}.cpp
+  base/{messages,provenance}.cpp)
+for source in "${sources[@]}" "${image_sources[@]}"; do # said by every run of the tests, not only by --all
+  [ -f "$source" ] || { echo "FAILED: $core/$source, which is to be built here, is not there" >&2; exit 1; }
+done
+[ "${CALENDEM_HEAVY:-0}" = 1 ] || { echo "skipped: fuzz.$target runs with tools/test --all"; exit 77; }
+command -v clang++ >/dev/null || { echo "skipped: no clang++ (Debian: clang, libclang-rt-14-dev)"; exit 77; }
 # -fno-sanitize=unreachable: toml++ states what it assumes with __builtin_unreachable, which UBSan takes for a fault.
 options=(-std=c++17 -g -O1 -DNDEBUG "-fsanitize=fuzzer,address,undefined" -fno-sanitize=unreachable
   -fno-sanitize-recover=undefined -DCALENDEM_VERSION='"fuzz"'
   -I "$core" -I "$core/../../src_plugin" -I /usr/include/eigen3)
 
+vtk=$(find /usr/include -maxdepth 1 -name 'vtk-9*' | head -n 1) # the Debian package; its suffix is that of the libraries
+[ -n "$vtk" ] || { echo "skipped: no headers of VTK in /usr/include"; exit 77; }
+options+=(-isystem "$vtk")
+libraries=(-lfmt -lcrypto -lz -ltiff)
+for name in IOImage IOXML ImagingMorphological ImagingGeneral FiltersCore CommonExecutionModel CommonDataModel CommonMath \
+  CommonCore sys; do
+  libraries+=("-lvtk$name${vtk##*/vtk}")
+done
+
 build_readers() {
-  local sources source objects=()
-  cd "$core"
-  sources=(base/*.cpp electrode/structure/{data_rows,existing_structure,particle_data}.cpp
-    electrode/{pack/placement,slurry/film_recipe,tomogram_spec}.cpp simulate/study_file.cpp
-    diagnose/bank/{bank_design,bank_spec,bank_table}.cpp diagnose/compare/simulated_run.cpp
-    diagnose/inference/{bank,numerics,observable,prior}.cpp withheld/round_file.cpp "$here/fuzz_target.cpp")
+  local source objects=()
   rm -rf "$work/objects"
   mkdir -p "$work/objects"
-  for source in "${sources[@]}"; do
+  for source in "${sources[@]}" "$here/fuzz_target.cpp"; do
     while [ "$(jobs -rp | wc -l)" -ge "$(nproc)" ]; do wait -n; done
     objects+=("$work/objects/${source//\//_}.o")
     clang++ "${options[@]}" -c "$source" -o "${objects[-1]}" &
   done
   wait
-  clang++ "${options[@]}" "${objects[@]}" -lfmt -lcrypto -lnlopt -o "$work/readers"
+  clang++ "${options[@]}" "${objects[@]}" "${libraries[@]}" -lnlopt -o "$work/readers"
 }
 build_label_image() {
-  local vtk suffix
-  vtk=$(find /usr/include -maxdepth 1 -name 'vtk-9*' | head -n 1) # the Debian package; its suffix is that of the libraries
-  [ -n "$vtk" ] || { echo "skipped: no headers of VTK in /usr/include"; exit 77; }
-  suffix=${vtk##*/vtk}
-  clang++ "${options[@]}" -isystem "$vtk" "$here/fuzz_image.cpp" \
-    "$core"/electrode/structure/{data_rows,image_header,label_image,tiff_image,vti_header}.cpp \
-    "$core"/base/{messages,provenance}.cpp -lfmt -lz -ltiff \
-    -lvtk{IOImage,IOXML,CommonExecutionModel,CommonDataModel,CommonCore,sys}"$suffix" -o "$work/label_image_reader"
+  clang++ "${options[@]}" "$here/fuzz_image.cpp" "${image_sources[@]}" "${libraries[@]}" -o "$work/label_image_reader"
 }
 program=$work/readers
 case $target in

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "electrode/pack/description.h"
+#include "electrode/pack/electrode_files.h"
 #include "support.h"
 #include <nlohmann/json.hpp>
 

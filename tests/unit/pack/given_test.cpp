@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // From an existing structure to bodies and places: nothing is lost, doubled or lighter than before.
-#include "electrode/pack/description.h"
 #include "electrode/pack/electrode_files.h"
 #include "electrode/pack/from_structure.h"
 #include "electrode/pack/pack.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/provenance.h"
-#include "simulate/progress.h"
+#include "simulate/collect.h"
+#include "simulate/run.h"
 #include "support/test_folder.h"
 #include <gtest/gtest.h>
 

@@ -64,7 +64,7 @@ TEST_F(ARunFolder, TheLastRowOfARunThatGoesOnMayBeCut) {
   EXPECT_EQ(rows_, 2u);
   Mistakes mistakes;
   RunFolder(folder_).must_be_finished(mistakes);
-  expect_parts(mistakes.text(), {"the run is not finished (still running). What to do: go on"});
+  expect_parts(mistakes.text(), {"the run is not finished (still running). What to do: continue"});
 }
 
 TEST_F(ARunFolder, ACutSummaryIsNoFinishedRun) {

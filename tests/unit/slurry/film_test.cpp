@@ -3,7 +3,7 @@
 // checks.
 #include "electrode/pack/body.h"
 #include "electrode/pack/packing_state.h"
-#include "electrode/slurry/film_files.h"
+#include "electrode/slurry/dry.h"
 #include "physics/pi.h"
 #include "support/test_folder.h"
 #include <fstream>

@@ -96,10 +96,10 @@ TEST(ExistingStructure, AMapOfAnotherFileIsRefused) {
   };
   expect_parts(said_of("1 1\n2 1\n37 1\n99 2\n"),
                {"bodies.map: particle 3 of the active material is not in the map",
-                "2 rows name particles that are no active material", "first 37"});
+                "2 rows name particles that are not active material", "first 37"});
   expect_parts(said_of("1 1\n1 2\n2\n3 x\n"),
-               {"bodies.map:2: particle 1 is there twice",
-                "bodies.map:3: '2' is not a row 'id body'", "bodies.map:4:"});
+               {"bodies.map:2: particle 1 occurs twice", "bodies.map:3: '2' is not a row 'id body'",
+                "bodies.map:4:"});
   expect_parts(said_of(""), {"holds no rows"});
 }
 

@@ -46,7 +46,7 @@ TEST(NrrdHeader, ThatDoesNotEndOrSaysItAnotherWayIsRefused) {
   expect_parts(said_of(".nrrd", replaced(good, "sizes: 12 5 4", "sizes: 12 20")), {"0 x 0 x 0"});
   expect_parts(said_of(".nrrd", replaced(good, "dimension: 3", "Dimension: 3")),
                {"no 'dimension'"});
-  expect_parts(said_of(".nrrd", replaced(good, "dimension: 3", "sizes: 12 5 4")), {"there twice"});
+  expect_parts(said_of(".nrrd", replaced(good, "dimension: 3", "sizes: 12 5 4")), {"occurs twice"});
   expect_parts(said_of(".nrrd", replaced(good, "unsigned short", "block")), {"'type' is 'block'"});
   const std::string spread =
       replaced(bytes_of(kData + "unu_raw.nhdr"), "./unu_raw.raw", "s%n.raw 1 3 0");

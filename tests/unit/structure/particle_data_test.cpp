@@ -124,14 +124,14 @@ TEST_P(SpoiltData, IsRefusedWithItsLine) {
 INSTANTIATE_TEST_SUITE_P(
     All, SpoiltData,
     testing::Values(
-        Spoilt{"twice", "7 2 1.3", "1 2 1.3", {":13: particle 1 is there twice", "line 12"}},
+        Spoilt{"twice", "7 2 1.3", "1 2 1.3", {":13: particle 1 occurs twice", "line 12"}},
         Spoilt{"type", "7 2 1.3", "7 3 1.3", {":13: type 3 is not between 1 and 2"}},
-        Spoilt{"type_word", "7 2 1.3", "7 CBD 1.3", {":13: type 'CBD' is no whole number"}},
+        Spoilt{"type_word", "7 2 1.3", "7 CBD 1.3", {":13: type 'CBD' is not a whole number"}},
         Spoilt{"id", "7 2 1.3", "0 2 1.3", {":13: id 0 is not between 1"}},
         Spoilt{"diameter", "7 2 1.3", "7 2 0", {":13: diameter 0 is not above 0"}},
         Spoilt{"density", "1.3 0.9", "1.3 -0.9", {":13: density -0.9 is not above 0"}},
-        Spoilt{"nan", "5 11 8", "5 nan 8", {":13: y 'nan' is no finite number"}},
-        Spoilt{"infinite", "5 11 8", "1e999 11 8", {":13: x '1e999' is no finite number"}},
+        Spoilt{"nan", "5 11 8", "5 nan 8", {":13: y 'nan' is not a finite number"}},
+        Spoilt{"infinite", "5 11 8", "1e999 11 8", {":13: x '1e999' is not a finite number"}},
         Spoilt{"all_of_a_row", "7 2 1.3 0.9", "7 9 -1 x", {":13: type 9", "diameter -1", "'x'"}},
         Spoilt{"outside", "5 11 8", "5 11 -3", {":13: particle 7 lies outside", "z = -3"}},
         Spoilt{"far_away", "5 11 8", "5 1e200 8", {":13: particle 7 lies outside", "10000 boxes"}},
@@ -147,7 +147,8 @@ INSTANTIATE_TEST_SUITE_P(
         Spoilt{"side_of_one", "-1 9 zlo", "9 zlo", {":8: the box side '9 zlo zhi'"}},
         Spoilt{"atoms_of_half", "2 atoms", "1.5 atoms", {":3: the number of atoms is '1.5'"}},
         Spoilt{"tilt", "-1 9 zlo zhi", "-1 9 zlo zhi\n1 0 0 xy xz yz", {":9: the box is tilted"}},
-        Spoilt{"header_word", "2 atom types", "2 atom tipes", {":4: '2 atom tipes' is no header"}},
+        Spoilt{
+            "header_word", "2 atom types", "2 atom tipes", {":4: '2 atom tipes' is not a header"}},
         Spoilt{"section_word", "Atoms # sphere", "Atom", {":10: 'Atom' is neither", "no section"}},
         Spoilt{"no_section", "Atoms # sphere", "", {":12: '1 1 4.4", "no section Atoms"}},
         Spoilt{"second_section", "7 2 1.3", "Atoms\n\n7 2 1.3", {":13: a second section Atoms"}},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "simulate/slurm.h"
+#include "simulate/making.h"
 #include <gtest/gtest.h>
 
 namespace calendem {

@@ -29,7 +29,7 @@ StudyTable table() { return {CsvTable::parse(kTable), kVaried}; }
 TEST(Groups, PackingsOfASettingAreOneGroupAndRunsThatFailedAreNone) {
   const std::vector<StudyGroup> groups = table().groups();
   ASSERT_EQ(groups.size(), 2u);
-  EXPECT_EQ(StudyTable::label(groups[0]), "tensile_strength = 200");
+  EXPECT_EQ(StudyTable::label(groups[0]), "tensile strength = 200 MPa");
   EXPECT_EQ(groups[1].rows, (std::vector<std::size_t>{2, 3}));
   EXPECT_EQ(table().finished(), 4u);
 }
@@ -73,6 +73,8 @@ TEST(Charts, CurvesAreOfTheFirstPackingOfEachSetting) {
 
 TEST(Charts, SettingsAreWrittenInWords) {
   EXPECT_EQ(setting_in_words("case.bond.tensile_strength_MPa"), "bond tensile strength (MPa)");
+  EXPECT_EQ(setting_in_words("case.effects.nmc_plasticity.yield_pressure_GPa"),
+            "nmc plasticity yield pressure (GPa)");
   EXPECT_EQ(setting_in_words("recipe.seed"), "seed");
 }
 

@@ -112,7 +112,7 @@ TEST(StudyFile, EveryMistakeIsReported) {
       {"keep is \"some\"", "at_pressure_MPa is -1", "unknown key 'speed'",
        "Did you mean 'case.bond.tensile_strength_MPa'", "3 entries for 2 keys", "bond.damping is 7",
        "seed is 1.5; it must be a whole number", "none.csv", "bond.damping is -1",
-       "'seed' is no key that can be varied", "is varied twice"});
+       "'seed' is not a key that can be varied", "is varied twice"});
   expect_parts(refusal("[study]\nname = 3\n"),
                {"name must be a text in quotes (for reports), not 3", "'recipe' is missing",
                 "'case' is missing"});

@@ -34,31 +34,35 @@ double solid_thickness_um(const Experiment &e, double loading_mg_cm2) {
 
 const std::vector<Key> &head_keys() {
   static const std::vector<Key> keys = {
-      {"name", "", "", 0, 0, "", "a name for reports", "", true},
+      {"name", "", "", 0, 0, "", "name for reports", "", true},
       {"electrode", "", "", 0, 0, "", "recipe of the electrode before calendering", "", true},
-      {"sample_diameter_mm", "", "0", 1e-3, 1000, "mm", "of the punched disc"},
-      {"foil_thickness_um", "", "0", 1, 100, "um", "of the current collector"},
-      {"foil_density_g_cm3", "", "0", 0.5, 20, "g/cm3", "aluminium 2.70, copper 8.96"},
+      {"sample_diameter_mm", "", "0", 1e-3, 1000, "mm", "diameter of the punched disc"},
+      {"foil_thickness_um", "", "0", 1, 100, "um", "thickness of the current collector"},
+      {"foil_density_g_cm3", "", "0", 0.5, 20, "g/cm3",
+       "density of the current collector; aluminium 2.70, copper 8.96"},
       {"labels_pore", "", "0", -1e9, 1e9, "", "label of pores in the label images", "", false,
        true},
-      {"labels_cbd", "", "-", -1e9, 1e9, "", "label of CBD in them; without: all is AM", "", false,
-       true},
-      {"labels_voxel_um", "", "0", 1e-3, 10, "um", "their voxel size, if not as they state"},
+      {"labels_cbd", "", "-", -1e9, 1e9, "",
+       "label of CBD in the label images; if not given, all solid is AM", "", false, true},
+      {"labels_voxel_um", "", "0", 1e-3, 10, "um",
+       "voxel size of the label images, if it differs from that in the files"},
       {"measured_on", "", "press", 0, 0, "",
-       "simulation: by a run like the bank's; its numerics are no error, specimens alike",
+       "simulation: the data come from a run like those of the bank, so that its numerics are no "
+       "error and specimens do not differ",
        "press|simulation"},
       {"specimen_porosity_points", "", "0.5", 0, 10, "%",
-       "by what specimens of the coating differ in porosity before, and again under pressure (sd)"},
+       "standard deviation between specimens of the porosity before pressing, and again under "
+       "pressure"},
       {"specimen_thickness_percent", "", "1", 0, 20, "%",
-       "by what they differ in thickness (sd), where compared in um"},
+       "standard deviation of the thickness between specimens, where compared in um"},
   };
   return keys;
 }
 
 const std::vector<Key> &condition_keys() {
   static const std::vector<Key> keys = {
-      {"id", "", "", 0, 0, "", "name of the condition, as in split", "", true},
-      {"control", "", "", 0, 0, "", "what the calender was set to",
+      {"id", "", "", 0, 0, "", "name of the condition, as used in split", "", true},
+      {"control", "", "", 0, 0, "", "what the press or calender was set to",
        "pressure|displacement|thickness|roll_gap"},
       {"curve", "", "-", 0, 0, "",
        "CSV: displacement_um,pressure_MPa[,stage]; stage: loading, dwell, unloading", "", true},
@@ -66,35 +70,42 @@ const std::vector<Key> &condition_keys() {
        "label image before calendering, z from the collector up", "", true},
       {"labels_after", "", "-", 0, 0, "", "label image after calendering", "", true},
       {"dwell_s", "", "0", 0, 1e6, "s", "time at the target"},
-      {"curve_sd_um", "", "0", 0, 100, "um", "of the curve's displacements, independent"},
-      {"curve_drift_um", "", "0", 0, 100, "um", "of the displacement at the curve's end (sd)"},
+      {"curve_sd_um", "", "0", 0, 100, "um",
+       "standard deviation of the curve's displacements, independent from row to row"},
+      {"curve_drift_um", "", "0", 0, 100, "um",
+       "standard deviation of the drift of displacement at the end of the curve"},
       {"curve_zero_um", "", "0", 0, 100, "um",
-       "of the first touch, from which displacements count (sd)"},
+       "standard deviation of the position of first touch, where the displacement is 0"},
       {"specimen", "", "-", 0, 0, "",
-       "the piece that was pressed, where conditions share one; default: one of its own", "", true},
+       "name of the piece that was pressed, if conditions share one; default: each has its own", "",
+       true},
   };
   return keys;
 }
 
 const std::vector<Quantity> &quantities() {
   static const std::vector<Quantity> list = {
-      {{"roll_gap_um", "", "-", 0, 1000, "um", "between the rolls"}, &Condition::roll_gap_um},
-      {{"displacement_um", "", "-", 0.01, 1000, "um", "of the platen, from first touch"},
+      {{"roll_gap_um", "", "-", 0, 1000, "um", "gap between the rolls"}, &Condition::roll_gap_um},
+      {{"displacement_um", "", "-", 0.01, 1000, "um",
+        "displacement of the platen from first touch"},
        &Condition::displacement_um},
-      {{"thickness_at_max_um", "", "-", 1, 1000, "um", "of the loaded coating, without foil"},
+      {{"thickness_at_max_um", "", "-", 1, 1000, "um",
+        "thickness of the coating at the maximum pressure, without foil"},
        &Condition::thickness_at_max_um},
-      {{"max_pressure_MPa", "", "-", 0.1, 2000, "MPa", "at the maximum"},
+      {{"max_pressure_MPa", "", "-", 0.1, 2000, "MPa", "maximum pressure"},
        &Condition::max_pressure_MPa},
-      {{"loading_mg_cm2", "", "-", 0.5, 100, "mg/cm2", "of this sample, without foil"},
+      {{"loading_mg_cm2", "", "-", 0.5, 100, "mg/cm2", "loading of this sample, without foil"},
        &Condition::loading_mg_cm2},
-      {{"porosity_before_percent", "", "-", 1, 90, "%", "total, of this sample, not pressed yet"},
+      {{"porosity_before_percent", "", "-", 1, 90, "%",
+        "total porosity of this sample before pressing"},
        &Condition::porosity_before_percent},
-      {{"porosity_after_percent", "", "-", 1, 90, "%", "total, after calendering"},
+      {{"porosity_after_percent", "", "-", 1, 90, "%", "total porosity after calendering"},
        &Condition::porosity_after_percent},
-      {{"thickness_after_um", "", "-", 1, 1000, "um", "after calendering"},
+      {{"thickness_after_um", "", "-", 1, 1000, "um", "thickness after calendering"},
        &Condition::thickness_after_um},
-      {{"mass_mg", "", "-", 0.01, 1e5, "mg", "of the sample"}, &Condition::mass_mg},
-      {{"cracked_bodies_fraction", "", "-", 0, 1, "fraction", "of secondary particles"},
+      {{"mass_mg", "", "-", 0.01, 1e5, "mg", "mass of the sample"}, &Condition::mass_mg},
+      {{"cracked_bodies_fraction", "", "-", 0, 1, "fraction",
+        "fraction of secondary particles that are cracked"},
        &Condition::cracked_bodies_fraction},
   };
   return list;
@@ -171,9 +182,9 @@ bool check_columns(const std::string &path, const CsvTable &table, int line, Mis
     const auto wrong =
         std::find_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
     if (wrong != values.end())
-      mistakes.add(line, fmt::format("'{}': {} of row {} is no finite number. Correct the row or "
-                                     "take it out.",
-                                     path, column, wrong - values.begin() + 1));
+      mistakes.add(
+          line, fmt::format("'{}': {} of row {} is not a finite number. Correct or remove the row.",
+                            path, column, wrong - values.begin() + 1));
   }
   if (!table.bad_lines().empty())
     mistakes.add(line, fmt::format("'{}': line {} has another number of columns than the first "

@@ -53,8 +53,9 @@ private:
                                 "file.",
                                 key.name, name, path));
     else if (fs::is_directory(path, none))
-      mistakes_.add(line_of(*t.get(key.name)),
-                    fmt::format("{} = \"{}\" is a folder; a file is wanted.", key.name, name));
+      mistakes_.add(
+          line_of(*t.get(key.name)),
+          fmt::format("{} = \"{}\" is a folder; give the path of a file.", key.name, name));
     else
       return path;
     return "";

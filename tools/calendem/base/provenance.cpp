@@ -99,7 +99,7 @@ void write_file(const std::string &given, const std::string &content) {
   const std::string name =
       fs::is_symlink(given, no_link) ? fs::weakly_canonical(given, no_link).string() : given;
   if (fs::exists(name, no_link) && !fs::is_regular_file(name, no_link))
-    throw Failure(kBadInput, fmt::format("'{}' is no regular file and cannot be written. Give "
+    throw Failure(kBadInput, fmt::format("'{}' is not a regular file and cannot be written. Give "
                                          "another name.",
                                          given));
   // Of this process: tasks of a cluster may write the same file at the same time.

@@ -172,7 +172,7 @@ bool RunFolder::rows_are_whole(const std::string &name, Mistakes &mistakes, Mist
     const std::string what = fmt::format("line {} is cut short or has cells too many", line);
     if (line == table(name).last_line() && !unfinished().empty()) {
       notes.add(path_of(name), what + "; it is left out: the run was still writing it",
-                "let the run go on (calendem run --resume)");
+                "continue the run with calendem run --resume");
       continue;
     }
     mistakes.add(path_of(name), what, "run the case again");
@@ -199,7 +199,7 @@ Curve RunFolder::curve(const std::vector<std::string> &columns, Mistakes &mistak
     const bool raw = has("curve_raw.csv");
     mistakes.add(
         file, raw ? "missing, though curve_raw.csv is there: the run was interrupted" : "missing",
-        raw ? "go on with calendem run CASE.toml -o DIR --resume"
+        raw ? "continue with calendem run CASE.toml -o DIR --resume"
             : "give a folder made by calendem run");
     return {};
   }
@@ -210,7 +210,7 @@ Curve RunFolder::curve(const std::vector<std::string> &columns, Mistakes &mistak
   const CsvTable &rows = table(name);
   if (rows.rows() < kLeastRows) {
     mistakes.add(file, fmt::format("{} rows, at least {} are needed", rows.rows(), kLeastRows),
-                 "let the run go on (calendem run --resume)");
+                 "continue the run with calendem run --resume");
     return {};
   }
   Curve out;
@@ -242,7 +242,7 @@ void RunFolder::must_be_finished(Mistakes &mistakes) {
     return;
   if (const std::string why = unfinished(); !why.empty())
     mistakes.add(folder_, fmt::format("the run is not finished ({})", why),
-                 "go on with calendem run --resume");
+                 "continue with calendem run --resume");
 }
 
 } // namespace calendem

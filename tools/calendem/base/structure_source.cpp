@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "base/structure_source.h"
+#include "base/recipe.h"
 #include <filesystem>
 #include <fmt/format.h>
 #include <sstream>
@@ -59,7 +59,7 @@ void check_files(const Settings &s, const StructureSource &source, Mistakes &mis
   if (!source.body_map.empty() && !source.clusters)
     mistakes.add(s.line("structure.body_map"),
                  "structure.body_map names given bodies, but structure.bodies is \"shapes\". Give "
-                 "structure.bodies = \"clusters\" or take the map out.");
+                 "structure.bodies = \"clusters\" or remove the map.");
 }
 
 // Keys that a structure makes idle: whoever gives them expects something else.
@@ -71,7 +71,7 @@ void check_idle(const Settings &s, bool clusters, Mistakes &mistakes) {
   for (const std::string &key : idle)
     if (s.line(key) > 0)
       mistakes.add(s.line(key), fmt::format("{} has no effect beside [structure], which gives the "
-                                            "{}. Take one of them out.",
+                                            "{}. Remove one of them.",
                                             key, clusters ? "bodies" : "sizes"));
 }
 
@@ -105,11 +105,15 @@ const std::vector<Key> &structure_keys() {
       {"structure.file", "", "none", 0, 0, "", "LAMMPS or LIGGGHTS data file with the particles",
        "", true},
       {"structure.atom_style", "", "sphere", 0, 0, "",
-       "of its script; hybrid: sphere or granular first", "sphere|granular|bpm/sphere|hybrid"},
-      {"structure.units", "", "none", 0, 0, "", "of its script; needed", "micro|si|cgs|lj"},
-      {"structure.lj_length_um", "", "0", 0, 1e6, "um", "one unit of length of units lj"},
-      {"structure.lj_density_g_cm3", "", "0", 0, 1e6, "g/cm3", "one unit of density of units lj"},
-      {"structure.boundary", "", "p p f", 0, 0, "", "of its script; z goes up from the collector",
+       "atom_style of the script that wrote the file; hybrid: sphere or granular first",
+       "sphere|granular|bpm/sphere|hybrid"},
+      {"structure.units", "", "none", 0, 0, "", "units of the script that wrote the file; required",
+       "micro|si|cgs|lj"},
+      {"structure.lj_length_um", "", "0", 0, 1e6, "um", "length of one unit, with units lj"},
+      {"structure.lj_density_g_cm3", "", "0", 0, 1e6, "g/cm3",
+       "density of one unit, with units lj"},
+      {"structure.boundary", "", "p p f", 0, 0, "",
+       "boundary of the script that wrote the file; z points up from the collector",
        "p p f|p p s|p p m|p p p"},
       {"structure.am_types", "", "none", 0, 0, "", "atom types of active material, \"1 2 3\"", "",
        true},
@@ -117,12 +121,12 @@ const std::vector<Key> &structure_keys() {
       {"structure.left_out_types", "", "none", 0, 0, "", "atom types to leave out (solvent, walls)",
        "", true},
       {"structure.bodies", "", "shapes", 0, 0, "",
-       "each AM sphere becomes a body of its volume, or given clusters are kept",
+       "shapes: each AM sphere becomes a body of its volume; clusters: given clusters are kept",
        "shapes|clusters"},
       {"structure.body_map", "", "none", 0, 0, "",
-       "rows 'id body' for clusters; none: molecule ids", "", true},
-      {"structure.densities", "", "file", 0, 0, "", "whose densities the particles have",
-       "file|recipe"},
+       "file with rows 'id body' for clusters; none: molecule ids are used", "", true},
+      {"structure.densities", "", "file", 0, 0, "",
+       "densities of the particles: those of the file or those of the recipe", "file|recipe"},
   };
   return keys;
 }

@@ -25,7 +25,7 @@ std::string read_text(const std::string &file, Mistakes &mistakes) {
     return text;
   }
   if (fs::is_directory(file, none)) {
-    mistakes.add(0, "is a folder; a TOML file is wanted here.");
+    mistakes.add(0, "is a folder; a TOML file is expected here.");
     return text;
   }
   std::ifstream in(file, std::ios::binary);
@@ -147,7 +147,7 @@ TomlFile parse_toml(const std::string &file, FileKind wanted, Mistakes &mistakes
   if (!found.empty() && is != kinds().end() && !fits(*right))
     throw Failure(
         kBadInput,
-        fmt::format("{}: this is {} (it has '{}'); {} is wanted here. Give it to calendem "
+        fmt::format("{}: this is {} (it has '{}'); {} is expected here. Give this file to calendem "
                     "{}; input_scripts/cases/ has examples of each.",
                     file, is->what, fmt::join(found, "', '"), right->what, is->verbs));
   return out;

@@ -65,9 +65,9 @@ void run_calibrate(const CalibrateOptions &o) {
 void add_calibrate_verb(CLI::App &app) {
   auto o = std::make_shared<CalibrateOptions>();
   o->bank = input_scripts() + "/cases/coatings/bank.toml";
-  CLI::App *verb = app.add_subcommand(
-      "calibrate", "What measured films say of the material: parameters and effects with their "
-                   "uncertainty, each film predicted from the others");
+  CLI::App *verb =
+      app.add_subcommand("calibrate", "Infer a material's parameters and effects from measured "
+                                      "films; predict each film from the others");
   verb->add_option("EXPERIMENT", o->experiments, "experiment files (TOML)")->required();
   verb->add_option("-o,--output", o->folder, "folder for model.json, case.toml and model.html")
       ->required();

@@ -2,6 +2,7 @@
 #include "commands/commands.h"
 #include "base/registry.h"
 #include "registry/settings.h"
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
@@ -179,6 +180,17 @@ std::vector<GeneratedFile> generated_files() {
                            {"input_scripts/common/effects.in", effects_in()},
                            {"input_scripts/common/bond_laws.in", bond_laws_in()}});
   return all;
+}
+
+CLI::Validator finite_range(double low, double high) {
+  const std::string range = fmt::format("in [{:g} - {:g}]", low, high);
+  return {[=](std::string &text) {
+            double value = 0.0;
+            const bool good =
+                CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+            return good ? std::string() : fmt::format("{} is not a number {}", text, range);
+          },
+          "FLOAT " + range};
 }
 
 } // namespace calendem

@@ -11,7 +11,8 @@
 
 namespace CLI {
 class App;
-}
+class Validator;
+} // namespace CLI
 
 namespace calendem {
 
@@ -35,6 +36,9 @@ void add_design_verb(CLI::App &app); ///< design MODEL.json RECIPE.toml --porosi
 void add_effects_verb(CLI::App &app);  ///< effects [NAME] [--json]
 void add_registry_verb(CLI::App &app); ///< registry DIR [--check]
 void add_validate_verb(CLI::App &app); ///< validate FILE...
+
+/// A finite number from `low` to `high`; CLI11's own check of a range lets NaN through.
+CLI::Validator finite_range(double low, double high);
 
 struct StudyOptions;
 /// The options of all verbs that make a study. `options` must outlive `verb`.

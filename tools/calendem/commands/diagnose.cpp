@@ -3,7 +3,6 @@
 #include "base/output_folder.h"
 #include "base/provenance.h"
 #include "commands/commands.h"
-#include "commands/finite_range.h"
 #include "diagnose/page.h"
 #include "diagnose/rerun.h"
 #include <CLI/CLI.hpp>
@@ -168,7 +167,7 @@ void add_diagnose_verb(CLI::App &app) {
   o->bank = input_scripts() + "/cases/bank/bank.toml";
   o->rerun.study.liggghts = liggghts_program();
   CLI::App *verb = app.add_subcommand(
-      "diagnose", "Where simulation and experiment disagree, and which effect explains it");
+      "diagnose", "Find where simulation and experiment disagree, and which effect explains it");
   verb->add_option("EXPERIMENT", o->experiment, "experiment file (TOML)")->required();
   verb->add_option("-o,--output", o->folder, "folder for gap.json and gap.html")->required();
   verb->add_option("--before", o->before,

@@ -88,7 +88,7 @@ void add_effects_verb(CLI::App &app) {
   };
   auto a = std::make_shared<Arguments>();
   CLI::App *verb = app.add_subcommand(
-      "effects", "Effects beyond the base model that can be switched on in a case");
+      "effects", "List the effects beyond the base model that can be switched on");
   verb->add_option("NAME", a->name, "everything about this one");
   verb->add_flag("--json", a->json, "as JSON");
   verb->callback([a] {

@@ -4,7 +4,6 @@
 #include "base/provenance.h"
 #include "base/recipe.h"
 #include "commands/commands.h"
-#include "commands/finite_range.h"
 #include "predict/pages.h"
 #include "predict/prediction.h"
 #include <CLI/CLI.hpp>
@@ -355,9 +354,9 @@ void add_run_options(CLI::App &verb, PredictOptions &o, const char *name, const 
 void add_predict_verb(CLI::App &app) {
   auto o = std::make_shared<PredictOptions>();
   o->pressures = "20:300";
-  CLI::App *verb = app.add_subcommand(
-      "predict", "Porosity, springback and cracked particles of films that were not measured, "
-                 "against pressure, with intervals");
+  CLI::App *verb =
+      app.add_subcommand("predict", "Predict porosity, springback and cracked particles of a film "
+                                    "against pressure, with intervals");
   add_common_options(*verb, *o);
   verb->add_option("--pressure", o->pressures, "MPa: 20,50,80 or a range 20:300 (default)");
   add_run_options(*verb, *o, "--runs",
@@ -371,7 +370,7 @@ void add_design_verb(CLI::App &app) {
   auto o = std::make_shared<PredictOptions>();
   o->pressures = "20:300";
   CLI::App *verb = app.add_subcommand(
-      "design", "Which pressure gives a porosity with few cracked particles, and how sure that is");
+      "design", "Choose the pressure that meets a target, with the probability that it does");
   add_common_options(*verb, *o);
   verb->add_option("--porosity", o->porosity, "wanted total porosity after release [%]")
       ->required()

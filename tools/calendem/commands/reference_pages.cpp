@@ -7,10 +7,15 @@
 #include "electrode/tomogram.h"
 #include "registry/settings.h"
 #include <algorithm>
+#include <cctype>
 #include <fmt/format.h>
+#include <regex>
+#include <utility>
 
 namespace calendem {
 namespace {
+
+constexpr double kAnyWhole = 1e9; // no limit that a reader needs
 
 constexpr const char *kMade =
     "<!-- Made from the rows of the program by `calendem registry`; not to be edited. -->\n\n";
@@ -30,6 +35,22 @@ std::string default_of(const Key &key) {
   return key.fallback.empty() ? "**required**" : fmt::format("`{}`", key.fallback);
 }
 
+/// Text of the rows as print has it: µm, g/cm³, a minus before a number, a dash between two.
+std::string typeset(std::string text) {
+  static const std::pair<std::regex, const char *> rules[] = {
+      {std::regex("\\bum\\b"), "µm"},
+      {std::regex("\\bus\\b"), "µs"},
+      {std::regex("\\b(m|cm|µm)2\\b"), "$1²"},
+      {std::regex("\\b(m|cm|µm)3\\b"), "$1³"},
+      {std::regex("/s2\\b"), "/s²"},
+      {std::regex("([0-9])-([0-9])"), "$1–$2"},
+      {std::regex("(^|[ (^])-([0-9a-z])"), "$1−$2"},
+      {std::regex("e\\+0*([0-9])"), "e$1"}};
+  for (const auto &[what, by] : rules)
+    text = std::regex_replace(text, what, by);
+  return text;
+}
+
 std::string range_of(const Key &key) {
   if (!key.choices.empty()) {
     std::string out = "`" + key.choices + "`";
@@ -39,8 +60,10 @@ std::string range_of(const Key &key) {
   }
   if (key.text)
     return "text";
+  if (key.whole && key.high >= kAnyWhole)
+    return "whole number";
   const std::string range = fmt::format("{:g} to {:g}", key.low, key.high);
-  return range + (key.unit.empty() ? "" : " " + key.unit) + (key.whole ? ", whole" : "");
+  return typeset(range + (key.unit.empty() ? "" : " " + key.unit)) + (key.whole ? ", whole" : "");
 }
 
 /// In a cell of a table a bar would end it.
@@ -54,7 +77,7 @@ const char *const kHead = "| key | default | range | meaning |\n|---|---|---|---
 
 std::string row(const Key &key) {
   return fmt::format("| `{}` | {} | {} | {} |\n", in_table(key), default_of(key), range_of(key),
-                     in_cell(key.meaning));
+                     in_cell(typeset(key.meaning)));
 }
 
 /// A heading and a table for each TOML table of the keys.
@@ -76,23 +99,24 @@ std::string page(const std::string &title, const std::string &text, const std::s
 }
 
 std::string case_page() {
-  return page("Keys of a case",
-              "A case is a TOML file that says what `calendem run` simulates. Only `electrode` is "
-              "required.\nPaths are relative to the file. The run's folder keeps `case.toml` with "
-              "every default filled in.\n\n"
-              "Keys under `[effects...]` switch on what the base model leaves out: see "
-              "[Effects](effects.md).\nThe input scripts know the same settings by the names in "
-              "`input_scripts/common/defaults.in`.",
-              tables(case_keys()));
+  return page(
+      "Keys of a case",
+      "A case is a TOML file that describes what `calendem run` simulates. Only `electrode` "
+      "is required.\nPaths are relative to the file. The folder of a run contains "
+      "`case.toml` with every default filled in.\n\n"
+      "Keys under `[effects...]` switch on physics that the base model leaves out: see "
+      "[Effects](effects.md).\nThe input scripts have the same settings, by the names in "
+      "`input_scripts/common/defaults.in`.",
+      tables(case_keys()));
 }
 
 std::string recipe_page() {
   return page("Keys of a recipe",
               "A recipe is a TOML file from which `calendem pack` makes an electrode. No key is "
-              "required: the defaults\nare the electrode of the paper on a cell of 15 × 15 µm.\n"
-              "`[shapes]` takes particles from a tomogram, `[structure]` from a data file of "
-              "LAMMPS or LIGGGHTS.\n`calendem dry` reads a recipe with two more tables: see "
-              "[Keys of a film](film.md).",
+              "required: the defaults\ngive the electrode of the paper in a cell of 15 × 15 µm.\n"
+              "`[shapes]` takes the shapes of particles from a tomogram, `[structure]` takes all "
+              "particles from a data file of\nLAMMPS or LIGGGHTS. `calendem dry` reads a recipe "
+              "with two more tables: see [Keys of a film](film.md).",
               tables(recipe_keys()));
 }
 
@@ -102,15 +126,15 @@ std::string film_page() {
     if (const std::string table = table_of(key); table == "slurry" || table == "drying")
       keys.push_back(key);
   return page("Keys of a film",
-              "The recipe of a film that `calendem dry` makes by simulation of slurry and drying: "
-              "the keys of a\n[recipe](recipe.md), and these.",
+              "The recipe of a film that `calendem dry` makes by simulating slurry and drying has "
+              "the keys of a\n[recipe](recipe.md) and these.",
               tables(keys));
 }
 
 std::string tomogram_page() {
   return page("Keys of a synthetic tomogram",
               "`calendem tomogram` makes a label image whose particles are known, to try the "
-              "way from an image to an\nelectrode.",
+              "steps from an image to an\nelectrode.",
               tables(tomogram_keys()));
 }
 
@@ -125,11 +149,12 @@ std::string experiment_page() {
     return out;
   };
   return page("Keys of an experiment",
-              "An experiment file says what was measured, for `calendem compare` and "
-              "`calendem diagnose`.\n`calendem validate` reports every mistake in it.",
+              "An experiment file contains the measured data for `calendem compare`, "
+              "`calendem diagnose` and\n`calendem calibrate`. `calendem validate` reports every "
+              "mistake in it.",
               "\n## `[experiment]`\n\n" + rows(head_keys()) +
-                  "| `split` | none | `{ train = [ids], test = [ids] }` | conditions to calibrate "
-                  "on, and those held out |\n"
+                  "| `split` | none | `{ train = [ids], test = [ids] }` | ids of the conditions to "
+                  "calibrate on, and of those held out |\n"
                   "\n## `[[condition]]`\n\nOne table for each sample or pressure.\n\n" +
                   rows(condition_keys()) +
                   "\n### Measured values of a condition\n\nA number, `{ value, sd }` or "
@@ -145,23 +170,26 @@ std::string unit_of(const Effect &e) {
 
 std::string effect_section(const Effect &e) {
   const EffectParameter &p = e.parameter;
-  std::string out = fmt::format("\n## `{}`\n\n{} (layer: {}).\n\n", e.name, e.what, e.layer);
+  std::string what = e.what;
+  what[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(what[0])));
+  std::string out = fmt::format("\n## `{}`\n\n{} (layer: {}).\n\n", e.name, what, e.layer);
   if (!e.settings.empty()) {
     out += kHead;
     for (const Key &key : e.settings)
       out += row(key);
     out += "\n";
   }
-  out += "Moved by\n: ";
+  out += "Switched on by\n: ";
   for (const std::string &key : p.keys)
     out += (key == p.keys.front() ? "`" : ", `") + key + "`";
   out += fmt::format("{}; off at {}\n\n", e.in_recipe ? " of the recipe" : "", p.off);
   out += fmt::format(
-      "Range and prior\n: {:g} to {:g}{}, {}{}\n\n", p.low, p.high, unit_of(e),
+      "Prior of the diagnosis\n: {}, {}{}\n\n",
+      typeset(fmt::format("{:g} to {:g}{}", p.low, p.high, unit_of(e))),
       p.spread == Spread::Uniform ? "uniform" : "log-uniform",
       p.scale == AmplitudeScale::Reciprocal ? "; a smaller value is a stronger effect" : "");
-  out += fmt::format("What it changes\n: {}\n\n", e.moves);
-  out += fmt::format("Source\n: {}\n\n", e.source);
+  out += fmt::format("What it changes\n: {}\n\n", typeset(e.moves));
+  out += fmt::format("Source\n: {}\n\n", typeset(e.source));
   out += fmt::format("Law and verification\n: `src_plugin/physics/{}`, `tests/{}`\n", e.law,
                      folder_of_tests(e));
   return out;
@@ -175,12 +203,12 @@ std::string effects_page() {
   }
   return page(
       "Effects",
-      "What the base model leaves out. Each effect is off by default, is a law of its own "
-      "in `src_plugin/physics`,\nand is switched on by a key of the [case](case.md), or of the "
-      "[recipe](recipe.md). "
-      "`calendem effects NAME` prints the same.\n\n"
-      "A contact follows one law: of the effects on the same pair of phases one may be on.\n"
-      "The range is the prior of the diagnosis, not the limit of the key.",
+      "Effects are physics that the base model leaves out. Each is off by default, has a law of "
+      "its own in\n`src_plugin/physics`, and is switched on by a key of the [case](case.md) or "
+      "of the [recipe](recipe.md).\n`calendem effects NAME` prints the same. Equations are in "
+      "[How the model works](../model/effects.md).\n\n"
+      "A contact follows one law, so only one of the effects on the same pair of phases can be "
+      "on. The prior is that\nof the diagnosis; a key may have values outside it.",
       list + sections);
 }
 

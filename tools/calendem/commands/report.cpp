@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// report, compare, measure: what is read off runs.
 #include "report/report.h"
 #include "base/messages.h"
 #include "base/output_folder.h"
 #include "base/provenance.h"
 #include "commands/commands.h"
 #include "diagnose/compare/gap.h"
+#include "measure/structure.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 namespace calendem {
-
 namespace {
 
 struct Options {
@@ -63,7 +67,8 @@ void compare(const Options &o) {
 
 void add_compare_verb(CLI::App &app) {
   auto o = std::make_shared<Options>();
-  CLI::App *verb = app.add_subcommand("compare", "Where simulation and experiment disagree");
+  CLI::App *verb = app.add_subcommand(
+      "compare", "Compare runs with an experiment: every residual with its uncertainty");
   verb->add_option("EXPERIMENT", o->experiment, "experiment file (TOML)")->required();
   verb->add_option("DIR", o->runs,
                    "directories made by calendem run; several packings per "
@@ -81,7 +86,7 @@ void add_report_verb(CLI::App &app) {
   };
   const auto options = std::make_shared<Options>();
   CLI::App *verb = app.add_subcommand(
-      "report", "One self-contained page with charts and pictures of one or more runs");
+      "report", "Write one self-contained page with charts and pictures of one or more runs");
   verb->add_option("DIR", options->directories, "Directories made by calendem run")
       ->required()
       ->type_name("");
@@ -90,6 +95,135 @@ void add_report_verb(CLI::App &app) {
                    "in the run's directory, or here if there are several")
       ->type_name("FILE.html");
   verb->callback([options] { report::write_report(options->directories, options->page); });
+}
+
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double kLargestForPorosity = 0.2; // um
+
+struct Arguments {
+  std::string input, output;
+  MeasureOptions options;
+  double voxel_um = 0.0, nanoporosity_percent = 50.0;
+  std::int32_t cbd_label = 0;
+  bool without_tortuosity = false, images = false;
+};
+
+std::string folder_for(const Arguments &a, bool is_run) {
+  if (a.output.empty() && !is_run)
+    throw CLI::RequiredError("--output");
+  std::string folder = a.output.empty() ? a.input : a.output;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw Failure(kBadInput, fmt::format("cannot write into the folder '{}': {}. Give a folder "
+                                         "that you may write to with -o.",
+                                         folder, error.message()));
+  return folder;
+}
+
+void print(const StructureMeasures &m) {
+  const auto percent = [](double v) {
+    return std::isfinite(v) ? fmt::format("{:.2f} %", 100 * v) : std::string("not known");
+  };
+  fmt::print(
+      "measure: {}: thickness {:.2f} um, porosity total {}, macro {}, pore-solid area {:.3f} "
+      "/um\n",
+      m.moment, m.thickness_um, percent(m.porosity.total), percent(m.porosity.macro),
+      m.surface.pore_solid());
+  if (m.coordination)
+    fmt::print("measure: {}: a body touches {:.2f} bodies and {:.2f} CBD spheres\n", m.moment,
+               m.coordination->am_am, m.coordination->am_cbd);
+  for (size_t axis = 0; axis < m.tortuosity.size(); ++axis) {
+    const Tortuosity &t = m.tortuosity[axis];
+    fmt::print("measure: {}: tau along {} {:.3f}{}\n", m.moment, "xyz"[axis], t.tau,
+               t.effective <= 0.0 ? ": no path of pore voxels leads through"
+               : t.extrapolated   ? ""
+                                  : ", an upper bound: no path on voxels of twice the size");
+  }
+  const double largest = m.voxel.maxCoeff();
+  if (largest > kLargestForPorosity + 1e-9)
+    fmt::print(stderr, "note: voxels of {:.3g} um; porosity is defined on {} um or less\n", largest,
+               kLargestForPorosity);
+}
+
+nlohmann::json provenance(const Arguments &a, bool is_run) {
+  nlohmann::json p = {{"calendem", version()}, {"source", a.input}, {"hashes", "64-bit FNV-1a"}};
+  p[is_run ? "curve" : "image"] =
+      is_run ? hash_of_file(a.input + "/curve.csv") : hash_of_image(a.input);
+  return p;
+}
+
+/// Every moment as a label image: pores 0, CBD -1, bodies from 1.
+void write_images(const Arguments &a, const std::string &folder) {
+  for (const RunMoment &moment : moments_of_run(a.input)) {
+    const SimulatedStructure &s = moment.structure;
+    const std::string file = folder + "/" + moment.name + ".mha";
+    write_label_image(
+        voxelise(s.spheres, s.cell, s.lattice, a.options.voxel_um.value_or(kSimulatedVoxel)), file);
+    fmt::print("measure: {}: pores 0, CBD -1, particles from 1\n", file);
+  }
+}
+
+void measure(Arguments a, const CLI::App &verb) {
+  const bool is_run = fs::is_directory(a.input);
+  if (a.images && !is_run)
+    throw Failure(kBadInput, fmt::format("--images is for a run; '{}' is not a folder.", a.input));
+  const std::string folder = folder_for(a, is_run);
+  if (a.voxel_um > 0.0)
+    a.options.voxel_um = a.voxel_um;
+  if (verb.count("--cbd-label") > 0) {
+    a.options.cbd_label = a.cbd_label;
+    a.options.nanoporosity = 0.01 * a.nanoporosity_percent;
+  }
+  a.options.tortuosity = !a.without_tortuosity;
+  const std::vector<StructureMeasures> moments =
+      is_run ? measure_run(a.input, a.options)
+             : std::vector<StructureMeasures>{measure_image(a.input, a.options)};
+  nlohmann::json j = {{"definitions", structure_definitions()},
+                      {"moments", nlohmann::json::array()},
+                      {"provenance", provenance(a, is_run)}};
+  for (const StructureMeasures &m : moments) {
+    print(m);
+    j["moments"].push_back(to_json(m));
+  }
+  write_file(folder + "/structure.csv", profile_table(moments));
+  write_file(folder + "/structure.json", j.dump(2) + "\n");
+  fmt::print("measure: {0}/structure.csv, {0}/structure.json\n", folder);
+  if (a.images)
+    write_images(a, folder);
+}
+
+} // namespace
+
+void add_measure_verb(CLI::App &app) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App *verb = app.add_subcommand(
+      "measure",
+      "Measure porosity, profiles, surface, contacts and tortuosity of a run or a label image");
+  verb->add_option("DIR|IMAGE", a->input,
+                   "directory of a run, or a label image whose z runs from collector to platen")
+      ->required();
+  verb->add_option("-o,--output", a->output,
+                   "folder for structure.csv and structure.json (default: the run's)");
+  verb->add_option("--voxel-um", a->voxel_um,
+                   "voxel size: of a run 0.15; of an image, if its file states none or another")
+      ->check(finite_range(0.01, 2.0));
+  verb->add_option("--slice-um", a->options.slice_um, "thickness of a slice of the profiles")
+      ->capture_default_str()
+      ->check(finite_range(0.01, 100.0));
+  verb->add_flag("--without-tortuosity", a->without_tortuosity, "it takes most of the time");
+  verb->add_flag("--images", a->images,
+                 "write a run's moments as label images too: before.mha, max.mha, after.mha");
+  verb->add_option("--background", a->options.background, "label of an image's pores")
+      ->capture_default_str();
+  verb->add_option("--cbd-label", a->cbd_label, "label of an image's CBD; without it, all is AM");
+  verb->add_option("--cbd-nanoporosity-percent", a->nanoporosity_percent,
+                   "of an image's CBD, for the total porosity")
+      ->capture_default_str()
+      ->check(finite_range(0.0, 99.0));
+  verb->callback([a, verb] { measure(*a, *verb); });
 }
 
 } // namespace calendem

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// pack, dry, tomogram, run, collect: electrodes, and what a press does to one.
 #include "simulate/run.h"
 #include "base/case.h"
 #include "base/provenance.h"
 #include "base/run_folder.h"
 #include "commands/commands.h"
+#include "electrode/pack/pack.h"
+#include "electrode/slurry/dry.h"
+#include "electrode/tomogram.h"
 #include "simulate/collect.h"
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -21,7 +25,7 @@ std::string checked(const Key &key, const std::string &value, Mistakes &mistakes
   const bool is_text = key.text || !key.choices.empty();
   double number = 0.0;
   if (!is_text && !CLI::detail::lexical_cast(value, number))
-    mistakes.add(0, fmt::format("{} is '{}', which is no number. Run the scripts again.",
+    mistakes.add(0, fmt::format("{} is '{}', which is not a number. Run the scripts again.",
                                 key.variable, value));
   return value;
 }
@@ -105,8 +109,7 @@ void add_collect_verb(CLI::App &app) {
   };
   auto a = std::make_shared<Arguments>();
   CLI::App *verb = app.add_subcommand(
-      "collect",
-      "Curve, summary, bodies and ParaView series of a run made with plain input scripts");
+      "collect", "Make the files of a run from what the plain input scripts left");
   verb->add_option("DIR", a->folder, "what the scripts were given as -var out")->required();
   verb->add_option("--electrode", a->electrode, "folder of the electrode, if it has moved");
   verb->callback([a] { collect_folder(fs::absolute(a->folder).string(), a->electrode); });
@@ -119,16 +122,83 @@ void add_run_verb(CLI::App &app) {
   };
   auto a = std::make_shared<Arguments>();
   a->options.liggghts = liggghts_program();
-  CLI::App *verb = app.add_subcommand("run", "One compression and relaxation of an electrode");
+  CLI::App *verb =
+      app.add_subcommand("run", "Press an electrode and release it, by running LIGGGHTS");
   verb->footer(list_of_keys(case_keys()));
   verb->add_option("CASE", a->spec, "case (TOML)")->required();
   verb->add_option("-o,--output", a->options.folder, "folder of the run")->required();
   verb->add_option("--ranks", a->options.ranks, "MPI ranks")->check(CLI::Range(1, 4096));
-  verb->add_flag("--resume", a->options.resume, "go on from the newest restart file");
+  verb->add_flag("--resume", a->options.resume, "continue from the newest restart file");
   verb->add_flag("--force", a->options.force,
                  "overwrite a run of another case or an unfinished one");
   verb->add_option("--liggghts", a->options.liggghts, "program with the plugin");
   verb->callback([a] { run_case(read_case(a->spec), a->options); });
+}
+
+void add_pack_verb(CLI::App &app) {
+  struct Arguments {
+    std::string spec;
+    long seed = -1;
+    PackOptions options;
+  };
+  auto a = std::make_shared<Arguments>();
+  a->options.liggghts = liggghts_program();
+  CLI::App *verb =
+      app.add_subcommand("pack", "Make an electrode from a recipe by running LIGGGHTS");
+  verb->footer(list_of_keys(recipe_keys()));
+  verb->add_option("SPEC", a->spec, "recipe (TOML)")->required();
+  verb->add_option("-o,--output", a->options.folder, "folder of the electrode")->required();
+  verb->add_option("--seed", a->seed, "instead of the recipe's")
+      ->check(CLI::Range(0L, 4000000000L));
+  verb->add_option("--ranks", a->options.ranks, "MPI ranks")->check(CLI::Range(1, 4096));
+  verb->add_option("--liggghts", a->options.liggghts, "program with the plugin");
+  verb->callback([a] {
+    Recipe recipe = read_recipe(a->spec);
+    if (a->seed >= 0) {
+      recipe.seed = static_cast<unsigned long>(a->seed);
+      recipe.settings.set("seed", fmt::format("{}", a->seed));
+    }
+    pack_electrode(recipe, a->options);
+  });
+}
+
+void add_dry_verb(CLI::App &app) {
+  struct Arguments {
+    std::string spec;
+    DryOptions options;
+  };
+  auto a = std::make_shared<Arguments>();
+  a->options.liggghts = liggghts_program();
+  CLI::App *verb = app.add_subcommand(
+      "dry", "Simulate slurry and drying of a recipe, by running LIGGGHTS: a film for pack");
+  verb->footer(list_of_keys(film_keys()));
+  verb->add_option("SPEC", a->spec, "recipe with [slurry] and [drying] (TOML)")->required();
+  verb->add_option("-o,--output", a->options.folder, "folder of the film")->required();
+  verb->add_option("--ranks", a->options.ranks, "MPI ranks")->check(CLI::Range(1, 4096));
+  verb->add_option("--liggghts", a->options.liggghts, "program with the plugin");
+  verb->callback([a] { dry_film(read_film_recipe(a->spec), a->options); });
+}
+
+void add_tomogram_verb(CLI::App &app) {
+  struct Arguments {
+    std::string spec, file;
+  };
+  auto a = std::make_shared<Arguments>();
+  CLI::App *verb =
+      app.add_subcommand("tomogram", "Make a synthetic label image whose particles are known");
+  verb->footer(list_of_keys(tomogram_keys()));
+  verb->add_option("SPEC", a->spec, "what the image shows (TOML)")->required();
+  verb->add_option("-o,--output", a->file, "image (.mhd, .mha or .vti); beside it NAME.truth.csv")
+      ->required();
+  verb->callback([a] {
+    const Tomogram t = make_tomogram(read_tomogram_spec(a->spec));
+    write_label_image(t.image, a->file);
+    const std::string truth =
+        std::filesystem::path(a->file).replace_extension(".truth.csv").string();
+    write_file(truth, truth_table(t.truth));
+    fmt::print("tomogram: {} x {} x {} voxels of {} um, {} particles -> {}, {}\n", t.image.n[0],
+               t.image.n[1], t.image.n[2], t.image.voxel[0], t.truth.size(), a->file, truth);
+  });
 }
 
 } // namespace calendem

@@ -96,8 +96,8 @@ void make_bank(const Options &o) {
 
 void add_bank_verb(CLI::App &app) {
   auto o = std::make_shared<Options>();
-  CLI::App *verb = app.add_subcommand(
-      "bank", "The simulations that the diagnosis learns from, with and without each effect");
+  CLI::App *verb =
+      app.add_subcommand("bank", "Make the simulations that diagnose or calibrate learns from");
   verb->add_option("BANK", o->study.file, "bank (TOML)")->required();
   add_study_options(*verb, o->study);
   verb->add_flag("--full-cell", o->full_cell, "only the runs on the full cell, in that folder");
@@ -143,13 +143,14 @@ void add_study_verb(CLI::App &app) {
     bool page = false;
   };
   auto a = std::make_shared<Arguments>();
-  CLI::App *verb = app.add_subcommand("study", "Many runs of one electrode and case, settings "
-                                               "varied; a table of what they gave");
-  verb->footer("[study] name, recipe, case, at_pressure_MPa (list), keep (all|tables)\n"
-               "[[vary]] keys, values - or normal = {mean, sd, cells}, or design, a CSV file - : "
-               "every combination of the groups is a run.\nKeys are those of the recipe "
-               "(recipe.seed) and of the case "
-               "(case.bond.tensile_strength_MPa).\nThe same command again goes on where it was.");
+  CLI::App *verb = app.add_subcommand(
+      "study", "Make many runs with varied settings, and a table of their results");
+  verb->footer(
+      "[study] name, recipe, case, at_pressure_MPa (list), keep (all|tables)\n"
+      "[[vary]] keys, values - or normal = {mean, sd, cells}, or design, a CSV file - : "
+      "every combination of the groups is a run.\nKeys are those of the recipe "
+      "(recipe.seed) and of the case "
+      "(case.bond.tensile_strength_MPa).\nThe same command continues a study that was stopped.");
   verb->add_option("STUDY", a->options.file, "study (TOML)")->required();
   add_study_options(*verb, a->options);
   verb->add_flag("--page", a->page, "draw the page of the table that lies in the folder, no more");
@@ -179,7 +180,7 @@ void add_sample_verb(CLI::App &app) {
   };
   auto a = std::make_shared<Arguments>();
   CLI::App *verb = app.add_subcommand(
-      "sample", "Runs of cells of different loading as one sample that lies under one press");
+      "sample", "Combine runs of cells of different loading into one sample under one press");
   verb->footer("gap: a rigid platen or roll; the runs have platen.control = \"thickness\" and the "
                "same thickness_um.\npressure: a press that gives way with every cell; the runs "
                "have the same max_pressure_MPa.\nA study makes the runs: [[vary]] keys = "

@@ -102,8 +102,7 @@ void validate(const std::vector<std::string> &files) {
 void add_validate_verb(CLI::App &app) {
   auto files = std::make_shared<std::vector<std::string>>();
   CLI::App *verb =
-      app.add_subcommand("validate", "Every mistake in recipes, cases, tomograms, films, studies, "
-                                     "banks, withheld rounds and experiment files, at once");
+      app.add_subcommand("validate", "Check TOML files of any kind and list all mistakes at once");
   verb->add_option("FILE", *files, "TOML files")->required();
   verb->footer(
       list_of_experiment_keys() +

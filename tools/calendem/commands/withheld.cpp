@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/provenance.h"
 #include "commands/commands.h"
-#include "commands/finite_range.h"
 #include "withheld/answer.h"
 #include "withheld/make.h"
 #include "withheld/rehearsal.h"
@@ -100,7 +99,8 @@ void add_rehearse(CLI::App &app) {
 } // namespace
 
 void add_withheld_verb(CLI::App &app) {
-  CLI::App *verb = app.add_subcommand("withheld", "The sealed test of the diagnosis");
+  CLI::App *verb =
+      app.add_subcommand("withheld", "Test the diagnosis on cases whose truth it cannot see");
   verb->require_subcommand(1);
   verb->footer("make and score are for whoever keeps the truths, answer for whoever does not;\n"
                "rehearse needs neither, it asks a bank about itself.\n"

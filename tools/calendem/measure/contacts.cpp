@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "electrode/structure/shape_library.h"
+#include "electrode/structure/measured_shape.h"
 #include "measure/structure.h"
 #include <algorithm>
 #include <cmath>

@@ -208,7 +208,7 @@ Eigen::VectorXd solve(const Problem &problem, const DiffusionGrid &grid, Diffusi
   if (solver.info() != Eigen::Success)
     throw Failure(kCheckFailed,
                   fmt::format("diffusion did not converge: residual {:.1e} after {} iterations, "
-                              "{:.0e} is wanted. Please report this with the structure.",
+                              "{:.0e} is required. Please report this with the structure.",
                               out.residual, out.iterations, kTolerance));
   return u;
 }

@@ -93,7 +93,7 @@ std::vector<FrameFile> read_series(const std::string &pvd, Mistakes &mistakes) {
       frames.push_back({time, (fs::path(pvd).parent_path() / file).string()});
   }
   if (frames.empty())
-    mistakes.add(pvd, "no frame is listed: truncated, or no ParaView collection", kRunAgain);
+    mistakes.add(pvd, "no frame is listed: truncated, or not a ParaView collection", kRunAgain);
   std::stable_sort(frames.begin(), frames.end(),
                    [](const FrameFile &a, const FrameFile &b) { return a.time_us < b.time_us; });
   return frames;

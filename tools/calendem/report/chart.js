@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Draws a chart (chart.h) with d3. The drawing's data-marks is the number of values in view. All looks
+// Draws a chart (page.h) with d3. The drawing's data-marks is the number of values in view. All looks
 // are attributes of the drawing, so that it stands alone as SVG.
 var Plot = (function() {
 'use strict';
@@ -152,7 +152,7 @@ Plot.prototype.drawLegend = function() {
       return;
     var g = self.svg.append('g').style('cursor', 'pointer').attr('data-series', k);
     g.attr('opacity', self.hidden[k] ? 0.35 : 1);
-    g.append('title').text('Click: hide or show');
+    g.append('title').text('Click to hide or show');
     if (s.mark === 'area')
       g.append('rect').attr(
           {y : -7, width : 30, height : 14, fill : self.fill[k], stroke : '#444'});

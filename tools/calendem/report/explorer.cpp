@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 
-#include "report/explorer.h"
+#include "report/report.h"
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -102,7 +102,7 @@ Explorer.prototype.makeControls = function() {
     return b;
   });
   var cbd = document.createElement('button');
-  cbd.textContent = 'carbon-binder on/off';
+  cbd.textContent = 'carbon-binder spheres on/off';
   cbd.onclick = function() {
     self.showCbd = !self.showCbd;
     self.show();
@@ -234,7 +234,7 @@ Explorer.prototype.show = function() {
 
 Explorer.prototype.report = function(m, counts) {
   var text =
-      'Click a particle to see its bonds. Drag to turn, wheel to come nearer, right button to shift.';
+      'Click a particle to see its bonds. Drag to rotate, wheel to zoom, right button to move.';
   var row = this.bodies.filter(function(b) { return b.body === this.body; }, this)[0];
   if (this.body)
     text =
@@ -244,7 +244,7 @@ Explorer.prototype.report = function(m, counts) {
                    (100 * row.largest_fragment).toFixed(0) + ' % of it; depth ' +
                    row.depth_um.toFixed(1) + ' µm; ' + (row.cracked ? 'cracked.' : 'not cracked.')
              : '') +
-        ' Click beside it for the whole electrode.';
+        ' Click the background for the whole electrode.';
   this.root.querySelector('.view-text').textContent = text;
 };
 
@@ -279,7 +279,7 @@ function start() {
       roots[i].dataset.error = e.message;
       roots[i].querySelector('canvas').style.display = 'none';
       roots[i].querySelector('.view-text').textContent =
-          'This browser shows no 3-D graphics (WebGL): ' + e.message;
+          'This browser does not show 3-D graphics (WebGL): ' + e.message;
     }
 }
 start();

@@ -98,28 +98,29 @@ Chart cracked_by_pressure(const std::vector<Run> &runs) {
                         {"bodies_split", "split: largest below 90 %", "#0064b0", "9 4"}},
                        true);
   chart.note =
-      "Of the secondary particles that have bonds, up to the maximum pressure. Tomography of "
-      "the paper: intact at 80 MPa, obvious cracks in some at 150 MPa.";
+      "Secondary particles that have bonds, up to the maximum pressure. The paper's tomograms show "
+      "intact particles at 80 MPa and obvious cracks in some of them at 150 MPa.";
   return chart;
 }
 
 Chart crack_surface(const std::vector<Run> &runs) {
-  Chart chart = axes("crack-surface", "Surface of cracks against pressure",
+  Chart chart = axes("crack-surface", "Crack surface against pressure",
                      "Pressure on the platen (MPa)", "Surface (µm²)");
   chart.series =
       against_pressure(runs,
                        {{"crack_surface_um2", "all broken bonds", "#c8321e", ""},
                         {"parted_surface_um2", "between different fragments", "#0064b0", "9 4"}},
                        false);
-  chart.note = "A broken bond stands for one face of its lattice cell, counted once; a crack opens "
-               "twice as much new surface.";
+  chart.note = "Each broken bond counts as one face of its lattice cell; a crack opens twice this "
+               "area of new surface.";
   return chart;
 }
 
 Chart thresholds(const Run &run, bool single) {
-  Chart chart = axes("thresholds",
-                     titled("Does a share of broken bonds identify a cracked body?", run, single),
-                     "Threshold (% of a particle's bonds)", "Secondary particles (%)");
+  Chart chart =
+      axes("thresholds",
+           titled("Does the fraction of broken bonds identify a cracked particle?", run, single),
+           "Threshold (% of a particle's bonds)", "Secondary particles (%)");
   const Columns &t = run.fracture.thresholds;
   if (t.empty())
     return chart;
@@ -148,8 +149,8 @@ Chart thresholds(const Run &run, bool single) {
     chart.series.push_back(std::move(*all[k]));
   }
   chart.note =
-      "At the end of the run. Apart: more than one fragment, chips count; split: the largest "
-      "fragment has less than 90 % of the primaries. The paper takes 8–12 %, and 13 %.";
+      "At the end of the run. Apart: more than one fragment, chips included. Split: the largest "
+      "fragment has less than 90 % of the primaries. The paper uses 8–12 %, elsewhere 13 %.";
   return chart;
 }
 
@@ -164,7 +165,7 @@ Chart fragments(const Run &run, bool single) {
 
 Chart broken_by_depth(const Run &run, bool single) {
   Chart chart = axes("depth", titled("Broken bonds of each particle by depth", run, single),
-                     "Depth of its centre below the film's surface, before (µm)",
+                     "Depth below the surface before pressing (µm)",
                      "Broken bonds of the particle (%)");
   chart.series = body_points(
       run, [](const Columns &b, std::size_t i) { return b.at("depth_um")[i]; },
@@ -202,7 +203,8 @@ Chart one_body(const Run &run, bool single) {
         std::upper_bound(times.begin(), times.end(), run.curve["time_us"][row]) - times.begin()));
   }
   chart.series = {std::move(pressure), std::move(broken)};
-  chart.note = "The particle with most broken bonds, in compression: the paper's Figure 5b.";
+  chart.note =
+      "The particle with the most broken bonds, in compression, like the paper's Figure 5b.";
   return chart;
 }
 

@@ -63,23 +63,23 @@ function addButtons(plot) {
     b.onclick = action;
     return bar.appendChild(b);
   }
-  plot.whole = button('whole', 'All of the chart again (double click does it too)', function() {
+  plot.whole = button('reset zoom', 'Show the whole chart again (or double-click)', function() {
     plot.zoom = null;
     plot.draw();
   });
   if (plot.canBeLogarithmic())
-    plot.logarithmic = button('log', 'Left axis logarithmic or linear', function() {
+    plot.logarithmic = button('log', 'Switch the left axis between linear and logarithmic', function() {
       plot.log = !plot.log;
       plot.zoom = null;
       plot.draw();
     });
-  button('SVG', 'Save as a drawing',
+  button('SVG', 'Save as a vector drawing',
          function() { save(drawing(plot), 'image/svg+xml', id + '.svg'); });
-  button('PNG', 'Save as a picture', function() { savePicture(plot, id + '.png'); });
+  button('PNG', 'Save as an image', function() { savePicture(plot, id + '.png'); });
   button('CSV', 'Save the numbers',
          function() { save(csvOf(plot.chart), 'text/csv', id + '.csv'); });
   bar.appendChild(document.createElement('span')).textContent =
-      'drag: zoom · point: value · name: hide';
+      'drag to zoom, hover for values';
 }
 
 function nearest(plot, at) {

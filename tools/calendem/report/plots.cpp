@@ -95,8 +95,8 @@ Chart pressure_displacement(const std::vector<Run> &runs) {
   chart.series.push_back(paper_points("paper, broken (right)", x, y, Symbol::diamond));
   chart.series.back().right_axis = true;
   chart.note =
-      "The paper gives its broken fractions by pressure (20, 90, 146 MPa): its points stand "
-      "where this run first reaches that pressure.";
+      "The paper gives broken fractions at pressures (20, 90, 146 MPa); its points are drawn where "
+      "this run first reaches the pressure.";
   return chart;
 }
 
@@ -161,8 +161,8 @@ Chart porosity_by_pressure(const std::vector<Run> &runs) {
   chart.series.push_back(
       paper_points("Table 1, total after relaxation ± s.d.", x, y, Symbol::circle));
   chart.series.back().y_error = sd;
-  chart.note = "Lines: under load, up and down. Points: after relaxation, at the maximum pressure "
-               "the electrode has seen; only these compare with Table 1.";
+  chart.note = "Lines: under load, in compression and release. Points: after relaxation, at the "
+               "maximum pressure of the run; only these can be compared with Table 1.";
   return chart;
 }
 
@@ -179,9 +179,8 @@ Chart both_pressures(const std::vector<Run> &runs) {
     chart.series.push_back(line(prefix(runs, runs[i]) + "collector (bottom)", c["time_us"],
                                 c["pressure_bottom_MPa"], kRed, "5 4", look_of(runs, i)));
   }
-  chart.note =
-      "Equal pressures mean that no stress wave carries the load. How far they differ, and "
-      "whether the run counts as quasi-static: next chart.";
+  chart.note = "Where the two are equal, no stress wave carries the load. The next chart shows "
+               "their difference and the limit for a quasi-static run.";
   return chart;
 }
 
@@ -193,9 +192,8 @@ Chart quasi_static_check(const std::vector<Run> &runs) {
   chart.y_label = "|P top − P bottom| / P top (%)";
   chart.limits = {{kImbalanceLimit, "limit 5 % above 5 MPa"}};
   chart.y_top = 2 * kImbalanceLimit;
-  chart.note =
-      "Both pressures averaged over the window stated under quasi static (0.5 µs unless the "
-      "curve's own is longer): waves after a burst of breaks are shorter.";
+  chart.note = "Both pressures are averaged over 0.5 µs, or over the curve's own window if that is "
+               "longer; stress waves after a burst of breaks are shorter.";
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const Curve &c = runs[i].curve;
     const Column difference = imbalance(c);
@@ -261,8 +259,8 @@ Chart energy_ledger(const Run &run, bool single) {
   }
   if (chart.series.size() > 1 && run.curve.has(kLedger[0].column)) {
     chart.series.push_back(line("rest", run.curve["time_us"], rest, "#777777", "1 5", plain));
-    chart.note = "Since the first row. Rest: work of the platen less everything else shown, that "
-                 "is, what curve.csv has no column for, and the error of the ledger.";
+    chart.note = "Counted from the first row. Rest: work of the platen minus all other terms "
+                 "shown, that is, terms without a column in curve.csv and the error of the ledger.";
   }
   return chart;
 }
@@ -294,7 +292,7 @@ Chart break_modes(const Run &run, bool single) {
     chart.series.push_back(std::move(series));
     base = std::move(top);
   }
-  chart.note = "Mode of a break: the largest of the four shares of its stress.";
+  chart.note = "Mode of a break: the largest of the four contributions to its stress.";
   return chart;
 }
 

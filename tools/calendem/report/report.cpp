@@ -2,7 +2,6 @@
 #include "report/report.h"
 #include "base/provenance.h"
 #include "measure/run_directory.h"
-#include "report/explorer.h"
 #include "report/page.h"
 #include "report/pictures.h"
 #include "report/plots.h"

@@ -88,8 +88,8 @@ Chart porosity_profiles(const std::vector<Run> &runs) {
   chart.x_label = "Height above the collector / thickness";
   chart.y_label = "Macro porosity (%)";
   chart.series = series_of(runs, [](const StructureRow &row) { return kPercent * row.macro; });
-  chart.note = "Slices of about 1 µm on voxels. Before: the film as packed, below the platen; its "
-               "rough top counts as pore.";
+  chart.note = "Slices of about 1 µm. Before: the film as packed, up to the platen; the space "
+               "above its rough surface counts as pore.";
   return chart;
 }
 
@@ -102,7 +102,7 @@ Chart broken_profiles(const std::vector<Run> &runs) {
   chart.series = series_of(runs, [](const StructureRow &row) {
     return row.moment == "before" || !(row.bonds > 0) ? NAN : kPercent * row.broken / row.bonds;
   });
-  chart.note = "A bond counts in the slice that holds its mid-point at that moment.";
+  chart.note = "A bond belongs to the slice that contains its midpoint at that moment.";
   bool any = false;
   for (const Series &series : chart.series)
     for (const double y : series.y)
@@ -159,8 +159,8 @@ Chart sphericities(const Run &run, bool single) {
     }
   if (!bars.x.empty())
     chart.series.push_back(std::move(bars));
-  chart.note = "Surface of the sphere of equal volume over the surface of the smooth shape that "
-               "the primaries fill; the first class holds everything below it.";
+  chart.note = "Sphericity: surface of the sphere of equal volume, divided by the surface of the "
+               "smooth shape that the primaries fill. The first bar includes all smaller values.";
   return chart;
 }
 

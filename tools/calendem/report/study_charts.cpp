@@ -80,8 +80,8 @@ Chart porosity_chart(const StudyTable &table) {
     measured.y_error.push_back(p.sd_percent);
   }
   chart.series.push_back(measured);
-  chart.note = "Mean and standard deviation over packings. At 0 MPa the porosity is the recipe's "
-               "input. The measured pressures are uncertain by 10-25 %.";
+  chart.note = "Mean and standard deviation over packings. The porosity at 0 MPa is an input from "
+               "the recipe. The measured pressures are uncertain by 10–25 %.";
   return chart;
 }
 
@@ -104,7 +104,8 @@ Chart broken_chart(const StudyTable &table) {
     chart.series.push_back(s);
   }
   chart.series.push_back(paper_broken());
-  chart.note = "When the pressure is first reached; mean and standard deviation over packings.";
+  chart.note =
+      "Where compression first reaches the pressure; mean and standard deviation over packings.";
   return chart;
 }
 
@@ -191,7 +192,10 @@ std::vector<Chart> charts_of_setting(const StudyTable &table, const std::string 
 } // namespace
 
 std::string setting_in_words(const std::string &key) {
-  const auto fact = report::facts_of({{key.substr(key.find('.') + 1), nullptr}}, {})[0];
+  std::string path = key.substr(key.find('.') + 1);
+  if (path.rfind("effects.", 0) == 0)
+    path.erase(0, 8);
+  const auto fact = report::facts_of({{path, nullptr}}, {})[0];
   std::string name = fact["name"], unit = fact["unit"];
   std::replace(name.begin(), name.end(), '.', ' ');
   return unit.empty() ? name : name + " (" + unit + ")";

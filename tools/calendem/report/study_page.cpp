@@ -45,15 +45,6 @@ MeanAndSd mean_and_sd(const std::vector<double> &values) {
   return s;
 }
 
-std::string short_name(const std::string &key) {
-  std::string name = key.substr(key.rfind('.') + 1);
-  for (const char *unit : {"_MPa", "_GPa", "_m_s", "_um", "_us", "_mg_cm2", "_percent"})
-    if (name.size() > std::string(unit).size() &&
-        name.compare(name.size() - std::string(unit).size(), std::string::npos, unit) == 0)
-      return name.substr(0, name.size() - std::string(unit).size());
-  return name;
-}
-
 StudyTable::StudyTable(CsvTable table, const std::vector<std::string> &varied)
     : table_(std::move(table)) {
   const std::vector<std::string> status = table_.texts("status");
@@ -97,8 +88,12 @@ std::vector<StudyGroup> StudyTable::groups(const std::vector<std::string> &apart
 
 std::string StudyTable::label(const StudyGroup &group) {
   std::string out;
-  for (const auto &[column, value] : group.settings)
-    out += fmt::format("{}{} = {}", out.empty() ? "" : ", ", short_name(column), value);
+  for (const auto &[column, value] : group.settings) {
+    const auto fact = report::facts_of({{column.substr(column.rfind('.') + 1), nullptr}}, {})[0];
+    const std::string name = fact["name"], unit = fact["unit"];
+    out += fmt::format("{}{} = {}{}", out.empty() ? "" : ", ", name, value,
+                       unit.empty() ? "" : " " + unit);
+  }
   return out;
 }
 
@@ -183,9 +178,9 @@ nlohmann::json head(const StudyTable &table) {
   out.push_back("maximum pressure (MPa)");
   for (const double p : table.pressures("broken_fraction"))
     out.push_back(fmt::format("broken at {:g} MPa (%)", p));
-  for (const char *name : {"broken: distance to paper (points)", "porosity at maximum (%)",
+  for (const char *name : {"broken: distance from paper (points)", "porosity at maximum (%)",
                            "porosity after relaxation (%)", "minus Table 1 (points)",
-                           "springback (%)", "pressures differ by (%)"})
+                           "springback (%)", "pressure difference (%)"})
     out.push_back(name);
   return out;
 }

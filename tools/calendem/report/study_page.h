@@ -35,7 +35,7 @@ public:
   std::vector<std::string> numeric_settings() const;
   /// Finished runs that share all settings but those in `apart`; in the order of the table.
   std::vector<StudyGroup> groups(const std::vector<std::string> &apart = {}) const;
-  /// "criterion = signed, strength = 500"; empty where nothing is varied.
+  /// "criterion = signed, tensile strength = 500 MPa"; empty where nothing is varied.
   static std::string label(const StudyGroup &group);
 
   std::vector<double> numbers(const StudyGroup &group, const std::string &column) const;
@@ -50,9 +50,6 @@ private:
   std::vector<std::string> settings_;
   std::vector<std::size_t> finished_;
 };
-
-/// Last part of a key without its unit: "tensile_strength".
-std::string short_name(const std::string &key);
 
 /// The curve.csv of a run by its name in the table; a table without rows if it is not there.
 using CurveOfRun = std::function<CsvTable(const std::string &run)>;

@@ -79,9 +79,9 @@ Chart force_beyond_range(const std::vector<Run> &runs) {
   chart.x_label = "Pressure on the platen (MPa)";
   chart.y_label = "Share of the contact force (%)";
   chart.note =
-      "Sum of the elastic normal forces of contacts whose overlap is beyond a fraction of R, over "
-      "that of all contacts but those inside bodies. R: smaller radius of the pair, the sphere's "
-      "at a wall. Hertz' law asks for contacts that are small beside both spheres.";
+      "Elastic normal forces of contacts whose overlap exceeds a fraction of R, as a share of all "
+      "contacts except those inside bodies. R: smaller radius of the pair; at a wall, the radius "
+      "of the sphere. Hertz' law requires contacts that are small compared with both spheres.";
   for (std::size_t i = 0; i < runs.size(); ++i)
     for (const RangeLimit &limit : kLimits)
       if (runs[i].curve.has(limit.column)) {

@@ -99,8 +99,8 @@ std::string speed_warning(const nlohmann::json &check) {
   return over == 0
              ? ""
              : fmt::format("the pressures on platen and collector differ by more than 5 % in {} of "
-                           "{} rows above 5 MPa (by {:.1f} % at most): there the run is not "
-                           "quasi-static. A lower platen.speed_m_s makes it so",
+                           "{} rows above 5 MPa (by {:.1f} % at most): the run is not quasi-static "
+                           "there. Lower platen.speed_m_s",
                            over, check["rows_above_5_MPa"].get<int>(),
                            100.0 * check["pressure_difference_max_above_5_MPa"].get<double>());
 }

@@ -80,7 +80,7 @@ std::set<long> read_atoms(const std::string &file, ElectrodeFacts &e, Mistakes &
       return tags;
     }
     if (!tags.insert(static_cast<long>(row[0])).second)
-      mistakes.add(number, fmt::format("particle {} is there twice. {}", row[0], kAgain));
+      mistakes.add(number, fmt::format("particle {} occurs twice. {}", row[0], kAgain));
     primaries.add(row);
   }
   e.primary = primaries.mean();

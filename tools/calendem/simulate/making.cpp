@@ -87,7 +87,7 @@ void Making::make(int k) {
     return;
   }
   if (o_.step == StudyStep::Run && !packed(k))
-    return lost(k, "its packing is not there");
+    return lost(k, "its packing does not exist");
   set_status(k, "running");
   std::string failed = o_.step == StudyStep::Run ? "" : pack(k);
   if (failed.empty())

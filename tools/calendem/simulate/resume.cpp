@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "simulate/resume.h"
 #include "base/case.h"
 #include "base/liggghts_job.h"
 #include "base/provenance.h"
 #include "base/run_folder.h"
 #include "simulate/collect.h"
+#include "simulate/run.h"
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -124,7 +124,7 @@ bool find_restart(const std::string &folder, long atoms) {
     throw Failure(
         kBadInput,
         fmt::format("'{}' is cut or damaged ({} bytes) and there is no older one: the run "
-                    "cannot go on. What was computed is kept; start again with --force, "
+                    "cannot be continued. What was computed is kept; start again with --force, "
                     "or in another folder with -o.",
                     newest, fs::exists(newest) ? fs::file_size(newest) : 0));
   fmt::print("run: {} is cut; going on from the one before it\n", newest);

@@ -2,7 +2,7 @@
 #include "simulate/rolling.h"
 #include "base/provenance.h"
 #include "simulate/collect.h"
-#include "simulate/resume.h"
+#include "simulate/run.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "simulate/slurm.h"
 #include "base/liggghts_job.h"
 #include "base/messages.h"
 #include "base/provenance.h"
+#include "simulate/making.h"
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
@@ -316,7 +316,7 @@ private:
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     if (stop_requested())
       throw Failure(kSimulationFailed,
-                    fmt::format("study: stopped on request. Its jobs go on in Slurm's queue; the "
+                    fmt::format("study: stopped on request. Its jobs stay in Slurm's queue; the "
                                 "same command waits for them again. To end them: scancel "
                                 "--name={},{}",
                                 packings_.name, runs_.name));
@@ -352,7 +352,7 @@ private:
     if (const std::string s = state_in_accounts(task.job, number(k), runs_.folder); !s.empty())
       state = s;
     making_.lost(k, fmt::format("{}task {}_{} ended as {} and printed {}/{}.{}.log",
-                                unpacked ? "its packing is not there; " : "", task.job, number(k),
+                                unpacked ? "its packing does not exist; " : "", task.job, number(k),
                                 state, runs_.folder, runs_.file, number(k)));
   }
 };

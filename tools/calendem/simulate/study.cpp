@@ -5,7 +5,6 @@
 #include "base/provenance.h"
 #include "base/run_folder.h"
 #include "simulate/making.h"
-#include "simulate/slurm.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -21,7 +20,7 @@ namespace {
 void stop_if_failed(const Making &making) {
   if (stop_requested())
     throw Failure(kSimulationFailed, "study: stopped on request. What was computed is kept; the "
-                                     "same command goes on.");
+                                     "same command continues it.");
   if (const std::string failures = making.failures(); !failures.empty())
     throw Failure(making.count("failed") > 0 ? kSimulationFailed : kCheckFailed,
                   "study: some runs are not usable:" + failures);
@@ -49,7 +48,7 @@ void make_study(const Study &study, StudyOptions o) {
   fs::create_directories(o.folder + "/runs");
   Making making(study, o);
   write_file(o.folder + "/study.json", making.description().dump(2) + "\n");
-  fmt::print("study: {} runs, {} of them there -> {}\n", n, n - making.runs_to_make().size(),
+  fmt::print("study: {} runs, {} of them done already -> {}\n", n, n - making.runs_to_make().size(),
              o.folder);
   std::cout << std::flush;
   if (o.slurm.on)

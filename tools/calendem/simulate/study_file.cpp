@@ -42,7 +42,7 @@ std::string unknown_key(const std::string &name) {
       all.push_back("case." + k.name);
   for (const Key &k : recipe_keys())
     all.push_back("recipe." + k.name);
-  return fmt::format("'{}' is no key that can be varied. Did you mean '{}'?", name,
+  return fmt::format("'{}' is not a key that can be varied. Did you mean '{}'?", name,
                      closest(name, all));
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "electrode/pack/description.h"
 #include "base/provenance.h"
 #include "electrode/pack/body.h"
+#include "electrode/pack/electrode_files.h"
 #include "electrode/pack/from_structure.h"
 #include "electrode/pack/packing_state.h"
 #include "physics/pi.h"
@@ -208,8 +208,8 @@ void check_targets(const nlohmann::json &j, const Recipe &r, const std::string &
   const int bonds = j["bonds"], pairs = j["lattice_pairs"];
   at_most("bonds that are not the lattice's:", std::abs(bonds - pairs), 0, other);
   if (!missed.empty())
-    throw Failure(kCheckFailed, "the packing misses its targets; its files are kept for a look, "
-                                "but electrode.json is not written\n" +
+    throw Failure(kCheckFailed, "the packing misses its targets; its files are kept for "
+                                "inspection, but electrode.json is not written\n" +
                                     missed.text());
 }
 

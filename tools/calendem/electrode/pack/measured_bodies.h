@@ -4,7 +4,7 @@
 #define CALENDEM_ELECTRODE_PACK_MEASURED_BODIES_H
 
 #include "electrode/pack/body.h"
-#include "electrode/structure/shape_library.h"
+#include "electrode/structure/measured_shape.h"
 #include <nlohmann/json_fwd.hpp>
 
 namespace calendem {

@@ -3,7 +3,6 @@
 #include "base/liggghts_job.h"
 #include "base/output_folder.h"
 #include "base/provenance.h"
-#include "electrode/pack/description.h"
 #include "electrode/pack/electrode_files.h"
 #include "electrode/pack/measured_bodies.h"
 #include "physics/pi.h"
@@ -74,10 +73,10 @@ void check_machine(const Recipe &r, const PackOptions &o) {
                spheres = primaries + r.cbd_solid_column() * r.area() /
                                          (kPi / 6.0 * std::pow(r.cbd_diameter, 3));
   if (!r.structure.given() && spheres > kMost)
-    mistakes.add(0,
-                 fmt::format("a cell of {} x {} um needs about {:.2g} spheres; {:g} are the most. "
-                             "Make the cell smaller, or the spheres larger.",
-                             r.cell_x, r.cell_y, spheres, kMost));
+    mistakes.add(
+        0, fmt::format("a cell of {} x {} um needs about {:.2g} spheres; at most {:g} are allowed. "
+                       "Make the cell smaller, or the spheres larger.",
+                       r.cell_x, r.cell_y, spheres, kMost));
   mistakes.stop_if_any();
 }
 
@@ -143,8 +142,8 @@ void warn_of_sizes(const nlohmann::json &electrode) {
   const double cut = electrode.value(kCutOff, 0.0);
   if (cut > kWarned)
     fmt::print(
-        "pack: {:.0f} % of the volume of the recipe's particles is wider than this cell takes "
-        "({:.1f} um); smaller ones stand for it. A larger cell takes more.\n",
+        "pack: {:.0f} % of the volume of the recipe's particles is in particles wider than this "
+        "cell can hold ({:.1f} um); smaller ones take its place. A larger cell holds more.\n",
         100.0 * cut, electrode.value(kLargest, 0.0));
 }
 

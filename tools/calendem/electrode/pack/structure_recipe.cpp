@@ -165,7 +165,7 @@ void check_sizes(const Recipe &r, const std::vector<ExistingSphere> &am, Mistake
     const ExistingSphere &p = *std::find_if(am.begin(), am.end(), small);
     mistakes.add(0, fmt::format("{} spheres of the structure have less than half the volume of a "
                                 "primary's cell, first particle {} of {:.4g} um; {:.4g} um is the "
-                                "least. Give finer primaries (particles.lattice_um and "
+                                "minimum. Give finer primaries (particles.lattice_um and "
                                 "primary_diameter_um).",
                                 n, p.id, p.diameter, smallest));
   }

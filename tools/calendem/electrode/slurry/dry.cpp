@@ -6,7 +6,6 @@
 #include "electrode/pack/electrode_files.h"
 #include "electrode/pack/measured_bodies.h"
 #include "electrode/pack/packing_state.h"
-#include "electrode/slurry/film_files.h"
 #include "physics/pi.h"
 #include <chrono>
 #include <cmath>
@@ -207,18 +206,21 @@ const std::vector<Key> &film_keys() {
       if (key.name.rfind("structure.", 0) != 0)
         all.push_back(key);
     const std::vector<Key> own = {
-        {"slurry.solid_content_percent", "", "69", 20, 90, "%", "mass of solids in the slurry"},
-        {"slurry.solvent_density_g_cm3", "", "1.028", 0.5, 2, "g/cm3", "NMP at 25 C"},
+        {"slurry.solid_content_percent", "", "69", 20, 90, "%",
+         "mass fraction of solids in the slurry"},
+        {"slurry.solvent_density_g_cm3", "", "1.028", 0.5, 2, "g/cm3",
+         "density of the solvent; default: NMP at 25 C"},
         {"slurry.sphere_fraction", "", "0.55", 0.1, 0.6, "",
-         "of the slurry's volume: AM and CBD spheres swollen with solvent"},
+         "volume fraction of AM and CBD spheres, swollen with solvent, in the slurry"},
         {"drying.stop", "", "thickness", 0, 0, "",
-         "what ends it: the recipe's thickness, or the film bears the capillary pressure",
+         "what ends drying: the recipe's thickness is reached, or the film carries the capillary "
+         "pressure",
          "thickness|pressure"},
         {"drying.capillary_pressure_MPa", "", "0.1", 1e-3, 10, "MPa",
-         "the most that the liquid's surface presses with"},
+         "largest pressure of the liquid's surface on the particles"},
         {"drying.porosity_tolerance_points", "", "0", 0, 20, "",
-         "of total porosity against the recipe's, percentage points; 0: one CBD diameter of "
-         "thickness"},
+         "allowed difference of total porosity from the recipe's, in percentage points; 0: what "
+         "one CBD diameter of thickness makes"},
     };
     all.insert(all.end(), own.begin(), own.end());
     return all;

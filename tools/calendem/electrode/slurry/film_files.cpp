@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "electrode/slurry/film_files.h"
 #include "base/random.h"
 #include "electrode/pack/electrode_files.h"
 #include "electrode/pack/packing_state.h"
+#include "electrode/slurry/dry.h"
 #include "physics/pi.h"
 #include <algorithm>
 #include <cmath>
@@ -47,9 +47,9 @@ void at_most(Mistakes &missed, const char *what, double value, double limit, con
 
 void stop(const Mistakes &missed, const char *what) {
   if (!missed.empty())
-    throw Failure(kCheckFailed, fmt::format("{} misses its targets; its files are kept for a "
-                                            "look\n{}",
-                                            what, missed.text()));
+    throw Failure(kCheckFailed,
+                  fmt::format("{} misses its targets; its files are kept for inspection\n{}", what,
+                              missed.text()));
 }
 
 } // namespace
@@ -165,7 +165,8 @@ void check_film(const nlohmann::json &d, const FilmRecipe &f, const std::string 
   at_most(missed, "rms speed of the film's particles in m/s is", d["rms_speed_m_s"], kAtRest_m_s,
           "Let it relax longer (relax_us in in.drying).");
   at_most(missed, "1 - mixing index of the film is", 1.0 - d["mixing_index"].get<double>(),
-          1.0 - kWellMixed, "Active material and carbon binder parted: dry slower (dry_m_s).");
+          1.0 - kWellMixed,
+          "Active material and carbon binder separated: dry more slowly (dry_m_s).");
   stop(missed, "the dried film");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "electrode/structure/data_rows.h"
+#include "electrode/structure/particle_data.h"
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -41,7 +41,7 @@ public:
   double number(const std::string &name, size_t column, bool positive) {
     const std::optional<double> v = number_in(words_[column]);
     if (!v || !std::isfinite(*v))
-      note(fmt::format("{} '{}' is no finite number", name, words_[column].substr(0, 40)));
+      note(fmt::format("{} '{}' is not a finite number", name, words_[column].substr(0, 40)));
     else if (positive && !(*v > 0.0))
       note(fmt::format("{} {} is not above 0", name, words_[column].substr(0, 40)));
     return v.value_or(0.0);
@@ -49,7 +49,7 @@ public:
   long whole(const std::string &name, size_t column, long low, long high, const char *why = "") {
     const std::optional<long> v = whole_number_in(words_[column]);
     if (!v)
-      note(fmt::format("{} '{}' is no whole number", name, words_[column].substr(0, 40)));
+      note(fmt::format("{} '{}' is not a whole number", name, words_[column].substr(0, 40)));
     else if (*v < low || *v > high)
       note(fmt::format("{} {} is not between {} and {}{}", name, *v, low, high, why));
     return v.value_or(0);
@@ -129,9 +129,11 @@ void AtomRows::read(int line, const std::vector<std::string> &words, long types)
   }
   const auto [seen, fresh] = line_of_id_.emplace(p.id, line);
   if (!fresh)
-    mistakes_.add(line, fmt::format("particle {} is there twice, first in line {}. Every id may "
-                                    "stand once; take the copy out.",
-                                    p.id, seen->second));
+    mistakes_.add(
+        line,
+        fmt::format(
+            "particle {} occurs twice, first in line {}. Every id may occur once; remove the copy.",
+            p.id, seen->second));
   else
     good_.push_back(p);
 }
@@ -187,9 +189,10 @@ void DataHeader::read(int line, const std::vector<std::string> &words) {
   else if (name == "xy xz yz" || name == "avec" || name == "bvec" || name == "cvec")
     read_tilt(line, words, numbers);
   else if (std::find(std::begin(kOthers), std::end(kOthers), name) == std::end(kOthers))
-    mistakes_.add(line, fmt::format("'{}' is no header line such as '100 atoms', '4 atom types' or "
-                                    "'0 12 xlo xhi'. Correct or remove it.",
-                                    joined(words).substr(0, 60)));
+    mistakes_.add(line,
+                  fmt::format("'{}' is not a header line such as '100 atoms', '4 atom types' or "
+                              "'0 12 xlo xhi'. Correct or remove it.",
+                              joined(words).substr(0, 60)));
 }
 
 void DataHeader::read_count(int line, const std::string &name, const std::string &word,

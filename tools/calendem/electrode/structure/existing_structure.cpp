@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/structure/existing_structure.h"
 #include "base/provenance.h"
-#include "electrode/structure/data_rows.h"
+#include "electrode/structure/particle_data.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -52,7 +52,7 @@ std::map<long, long> read_body_map(const std::string &file, Mistakes &mistakes) 
       mistakes.add(number, fmt::format("'{}' is not a row 'id body' with whole numbers from 1.",
                                        joined(words).substr(0, 60)));
     else if (!out.emplace(id, body).second)
-      mistakes.add(number, fmt::format("particle {} is there twice; every primary belongs to one "
+      mistakes.add(number, fmt::format("particle {} occurs twice; every primary belongs to one "
                                        "body.",
                                        id));
   }
@@ -74,7 +74,7 @@ void set_clusters(std::map<long, long> body, std::vector<ExistingSphere> &am, Mi
                                   p.id));
   }
   if (!body.empty())
-    mistakes.add(0, fmt::format("{} rows name particles that are no active material of the data "
+    mistakes.add(0, fmt::format("{} rows name particles that are not active material in the data "
                                 "file, first {}. Give the map of this data file.",
                                 body.size(), body.begin()->first));
 }

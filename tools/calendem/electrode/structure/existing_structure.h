@@ -3,7 +3,7 @@
 #ifndef CALENDEM_ELECTRODE_STRUCTURE_EXISTING_STRUCTURE_H
 #define CALENDEM_ELECTRODE_STRUCTURE_EXISTING_STRUCTURE_H
 
-#include "base/structure_source.h"
+#include "base/recipe.h"
 #include "physics/pi.h"
 #include <Eigen/Core>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/structure/image_header.h"
 #include "base/messages.h"
-#include "electrode/structure/data_rows.h"
 #include "electrode/structure/label_image.h"
+#include "electrode/structure/particle_data.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -61,7 +61,7 @@ bool ImageHeader::take(int number, const std::string &line) {
                                     number, separator_ == "=" ? " =" : ":", line.substr(0, 60)));
   if (!fields_.emplace(name, trimmed(line.substr(at + separator_.size()))).second)
     refuse_image(file_,
-                 fmt::format("line {}: '{}' is there twice in the header. Save the image anew.",
+                 fmt::format("line {}: '{}' occurs twice in the header. Save the image again.",
                              number, name));
   return name == "ElementDataFile";
 }
@@ -95,25 +95,25 @@ void ImageHeader::check_numbers(const std::string &name, size_t wanted) const {
     return std::isfinite(number_in(w).value_or(NAN));
   };
   if (has(name) && (words.size() != wanted || !std::all_of(words.begin(), words.end(), finite)))
-    refuse_image(file_,
-                 fmt::format("the header's '{}' is '{}'; it must be {} numbers. Save the image "
-                             "anew.",
-                             name, text(name).substr(0, 60), wanted));
+    refuse_image(
+        file_,
+        fmt::format("the header's '{}' is '{}'; it must be {} numbers. Save the image again.", name,
+                    text(name).substr(0, 60), wanted));
 }
 
 void ImageHeader::check_is(const std::string &name, const std::vector<std::string> &allowed) const {
   if (has(name) && std::find(allowed.begin(), allowed.end(), text(name)) == allowed.end())
     refuse_image(file_,
-                 fmt::format("the header's '{}' is '{}'; allowed is {}. Save the image anew.", name,
-                             text(name).substr(0, 60), fmt::join(allowed, " or ")));
+                 fmt::format("the header's '{}' is '{}'; allowed is {}. Save the image again.",
+                             name, text(name).substr(0, 60), fmt::join(allowed, " or ")));
 }
 
 void ImageHeader::need(const std::string &name) const {
   if (!has(name))
-    refuse_image(file_,
-                 fmt::format("the header has no '{}': it is cut or of another format. Save the "
-                             "image anew.",
-                             name));
+    refuse_image(
+        file_,
+        fmt::format("the header has no '{}': it is cut or of another format. Save the image again.",
+                    name));
 }
 
 void check_axes(const std::string &file, const std::array<long, 3> &n, long bytes,
@@ -121,8 +121,8 @@ void check_axes(const std::string &file, const std::array<long, 3> &n, long byte
   const double voxels = double(n[0]) * double(n[1]) * double(n[2]);
   if (std::min({n[0], n[1], n[2]}) < 1 || voxels > double(kMostVoxels))
     refuse_image(file,
-                 fmt::format("the header announces {} x {} x {} voxels; three whole numbers from "
-                             "1 are wanted, {} voxels in all at most. Save the image anew, or a "
+                 fmt::format("the header announces {} x {} x {} voxels; three whole numbers from 1 "
+                             "are needed, at most {} voxels in all. Save the image again, or a "
                              "part of it.",
                              n[0], n[1], n[2], kMostVoxels));
   if (voxels > most_per_byte * double(bytes))
@@ -229,7 +229,7 @@ void check_nrrd(const std::string &file) {
   if (encoding == "ascii" || encoding == "text" || encoding == "txt" || encoding == "ASCII")
     refuse_image(file,
                  fmt::format("encoding: {} is not read, because VTK's reader takes wrong numbers "
-                             "from it; allowed are raw and gzip. Save it anew (unu save -e gzip).",
+                             "from it; allowed are raw and gzip. Save it again (unu save -e gzip).",
                              encoding));
   h.need("encoding");
   h.need("dimension");
@@ -245,7 +245,7 @@ void check_nrrd(const std::string &file) {
   check_axes(file, n, there, encoding == "raw" ? kAnyNumber : kDeflate / double(size));
   if (n[0] < 10)
     refuse_image(file,
-                 fmt::format("the first axis has {} voxels; VTK takes one below 10 for colours. "
+                 fmt::format("the first axis has {} voxels; VTK takes fewer than 10 for colours. "
                              "Save the image with an empty border, or as .mhd.",
                              n[0]));
   if (encoding == "raw")

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the header of an image announces, and whether the file can hold it. VTK's readers take what
-// they find: they fill up what is missing without an error, allocate what a wrong number asks for,
-// divide by zero, wait for lines that never come. So the header is checked before VTK sees the
-// file.
+// What the header of an image announces, and whether the file can hold it; TIFF read whole. VTK's
+// readers take what they find: they fill up what is missing without an error, allocate what a wrong
+// number asks for, divide by zero, wait for lines that never come. So the header is checked before
+// VTK sees the file.
 #ifndef CALENDEM_ELECTRODE_STRUCTURE_IMAGE_HEADER_H
 #define CALENDEM_ELECTRODE_STRUCTURE_IMAGE_HEADER_H
 
@@ -11,6 +11,9 @@
 #include <map>
 #include <string>
 #include <vector>
+
+class vtkImageData;
+template <class T> class vtkSmartPointer;
 
 namespace calendem {
 
@@ -77,6 +80,14 @@ constexpr double kDeflate = 1032.0;
 /// Bytes that the stream at `offset` of `file`, at most `length` long, unpacks to; stops above
 /// `most`. -1: the stream is cut or damaged.
 long unpacked_bytes(const std::string &file, long offset, long length, long most);
+
+// Label images in TIFF files, by libtiff: VTK's reader changes the numbers of files that show 0 as
+// white, cannot read tiles in a stack and turns a single page upside down, but not a stack.
+
+/// All pages, the first one at the bottom, with rows and numbers as the file stores them, whatever
+/// colours and orientation it gives them. Throws Failure(2) unless the file is whole and its pages
+/// have one size and one number per voxel.
+vtkSmartPointer<vtkImageData> read_tiff(const std::string &file);
 
 } // namespace calendem
 

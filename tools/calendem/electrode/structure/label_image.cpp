@@ -3,7 +3,6 @@
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "electrode/structure/image_header.h"
-#include "electrode/structure/tiff_image.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -101,7 +100,8 @@ vtkSmartPointer<vtkImageData> read_one(const std::string &file) {
     image = read_tiff(file);
   }
   if (!image || image->GetNumberOfPoints() == 0 || !image->GetPointData()->GetScalars())
-    refuse_image(file, "it holds no voxels. Point data with one whole number per voxel is wanted.");
+    refuse_image(file,
+                 "it holds no voxels. Point data with one whole number per voxel are needed.");
   return image;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Single particles of a label image: where each label lies, its voxels with pores closed, its surface
 // without the voxels' stairs; and its outer shape, coarse enough for a small file: cells inside or
-// outside, and the distance to the surface made of them.
+// outside, and the distance to the surface made of them. And libraries of such shapes.
 #ifndef CALENDEM_ELECTRODE_STRUCTURE_MEASURED_SHAPE_H
 #define CALENDEM_ELECTRODE_STRUCTURE_MEASURED_SHAPE_H
 
@@ -83,6 +83,40 @@ MeasuredShape shape_from_json(const nlohmann::json &j);
 /// Saito and Toriwaki, Pattern Recognition 27 (1994) 1551, as VTK has it.
 std::vector<float> signed_distance(const std::vector<char> &inside, const std::array<int, 3> &n,
                                    double cell);
+
+// Shapes of measured particles: made from a label image, kept as a folder (one JSON per shape,
+// shapes.csv as a list) that electrodes of any size are packed from without the image.
+
+struct ShapeLibrary {
+  std::vector<MeasuredShape> shapes; ///< by equivalent diameter, smallest first
+  std::string source;                ///< file name of the image
+  std::string source_hash;
+  int labels = 0;                   ///< in the image
+  std::vector<std::int32_t> cut;    ///< labels dropped because the border cuts them
+  std::vector<std::int32_t> coarse; ///< labels dropped because they have too few voxels
+  long loose_voxels = 0;            ///< dropped: not connected to their particle
+
+  /// Equivalent diameter [um] below which the fraction q of the number lies, each shape counted
+  /// with its weight; between shapes linear in ln d.
+  double quantile(double q) const;
+  /// Fraction of the number below `diameter` [um].
+  double number_below(double diameter) const;
+  /// Fraction of the volume in shapes larger than `diameter` [um].
+  double volume_above(double diameter) const;
+  /// Equivalent diameter [um] below which the fraction q of the volume lies.
+  double volume_quantile(double q) const;
+};
+
+/// Labels with fewer voxels than this have no measurable shape.
+constexpr long kFewestVoxels = 200;
+
+/// Throws Failure(2) if no particle is left.
+ShapeLibrary make_library(const LabelImage &image, std::int32_t background,
+                          const std::string &source);
+
+void write_library(const ShapeLibrary &library, const std::string &folder);
+/// Throws Failure(2) with every file that cannot be read.
+ShapeLibrary read_library(const std::string &folder);
 
 } // namespace calendem
 

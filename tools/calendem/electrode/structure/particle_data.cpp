@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/structure/particle_data.h"
-#include "base/structure_source.h"
-#include "electrode/structure/data_rows.h"
+#include "base/recipe.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -82,7 +81,7 @@ private:
 
   void section(const std::string &name, const std::string &comment) {
     if (name == "Atoms" && atoms_.rows() > 0)
-      mistakes_.add(number_, "a second section Atoms: every particle may stand once. Give one "
+      mistakes_.add(number_, "a second section Atoms: every particle may occur once. Give one "
                              "structure for each file.");
     else if (name == "Atoms" || std::find(std::begin(kOtherSections), std::end(kOtherSections),
                                           name) != std::end(kOtherSections)) {
@@ -99,8 +98,8 @@ private:
   void check_counts(bool ends_with_newline) {
     const long announced = header_.atoms(), rows = long(atoms_.rows());
     if (number_ > 0 && !rows_.count("Atoms"))
-      mistakes_.add(0, "it has no section Atoms: it is cut or no data file. A dump is none; write "
-                       "the structure with write_data.");
+      mistakes_.add(0, "it has no section Atoms: it is cut or not a data file. A dump is not one; "
+                       "write the structure with write_data.");
     else if (announced > 0 && rows != announced)
       mistakes_.add(0, fmt::format("line {} announces {} atoms, the section Atoms has {} rows: the "
                                    "file is cut or was changed by hand. Give the whole file.",
@@ -202,9 +201,10 @@ bool named_style_fits(const std::string &stated, const std::string &style, Mista
   const std::string name = columns_name(style);
   const auto is = [&](const char *known) { return name == known; };
   if (std::any_of(std::begin(kNoSpheres), std::end(kNoSpheres), is))
-    mistakes.add(0, fmt::format("its section says 'Atoms # {}'; atoms of that style are no spheres "
-                                "with diameter and density. Write it with atom_style sphere.",
-                                style));
+    mistakes.add(0,
+                 fmt::format("its section says 'Atoms # {}'; atoms of that style are not spheres "
+                             "with diameter and density. Write it with atom_style sphere.",
+                             style));
   else if (std::none_of(std::begin(kStyles), std::end(kStyles), is))
     return false;
   else if (columns_name(stated) != name)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "electrode/structure/shape_library.h"
 #include "base/messages.h"
 #include "base/provenance.h"
+#include "electrode/structure/measured_shape.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -156,9 +156,9 @@ ShapeLibrary read_library(const std::string &folder) {
       l.shapes.push_back(shape_from_json(nlohmann::json::parse(in)));
       l.source_hash = hash_of_text(l.source_hash + hash_of_file(file));
     } catch (const std::exception &e) {
-      mistakes.add(0, fmt::format("'{}' is not a shape: {}. Make the library again, or take the "
-                                  "file away.",
-                                  fs::path(file).filename().string(), e.what()));
+      mistakes.add(
+          0, fmt::format("'{}' is not a shape: {}. Make the library again, or remove the file.",
+                         fs::path(file).filename().string(), e.what()));
     }
   if (files.empty())
     mistakes.add(0, "it holds no shapes (shape_*.json). Give a folder 'shapes' that calendem pack "

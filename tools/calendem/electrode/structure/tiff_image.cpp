@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "electrode/structure/tiff_image.h"
 #include "electrode/structure/image_header.h"
 #include <algorithm>
 #include <cstdarg>
@@ -93,7 +92,7 @@ private:
   std::unique_ptr<TIFF, Close> tiff_;
 
   [[noreturn]] void refuse_page(long number) const {
-    refuse_image(file_, fmt::format("page {} cannot be read: {}. The file is cut, damaged or no "
+    refuse_image(file_, fmt::format("page {} cannot be read: {}. The file is cut, damaged or not a "
                                     "TIFF file. Copy it again.",
                                     number, said.empty() ? "it contradicts itself" : said));
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The elements of a .vti file that say how large the image is.
-#include "electrode/structure/data_rows.h"
 #include "electrode/structure/image_header.h"
+#include "electrode/structure/particle_data.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,10 +41,9 @@ Extent extent_of(const std::string &file, const std::string &element, const std:
     good = std::abs(e[k]) <= kMostVoxels;
   }
   if (!good)
-    refuse_image(
-        file, fmt::format("its header has no {}=\"...\" of six whole numbers: it is cut or no .vti "
-                          "file. Save the image anew.",
-                          name));
+    refuse_image(file, fmt::format("its header has no {}=\"...\" of six whole numbers: it is cut "
+                                   "or not a .vti file. Save the image again.",
+                                   name));
   return e;
 }
 
@@ -97,8 +96,8 @@ void check_array(const std::string &file, const std::string &text, size_t at, do
                              "the labels, not a rendering.",
                              n->substr(0, 20)));
   if (attribute(array, "NumberOfTuples"))
-    refuse_image(file,
-                 "an array of an image states NumberOfTuples: it is no .vti file. Save it anew.");
+    refuse_image(
+        file, "an array of an image states NumberOfTuples: it is not a .vti file. Save it again.");
   const std::string format = attribute(array, "format").value_or("ascii");
   if (!attribute(head, "compressor") || format == "ascii")
     return;
@@ -135,10 +134,10 @@ void check_vti(const std::string &file) {
     if (extent_of(file, element(text, "Piece", at), "Extent") != whole)
       refuse_image(
           file,
-          "it comes in pieces; a label image is wanted in one. Save it anew as one .vti file.");
+          "it comes in pieces; a label image must be in one. Save it again as one .vti file.");
   if (pieces != 1)
     refuse_image(file,
-                 fmt::format("it has {} pieces; a label image has one. Save it anew.", pieces));
+                 fmt::format("it has {} pieces; a label image has one. Save it again.", pieces));
   const double voxels = double(whole[1] - whole[0] + 1) * double(whole[3] - whole[2] + 1) *
                         double(whole[5] - whole[4] + 1);
   for (size_t at = 0; (at = text.find("<DataArray", at)) != std::string::npos; ++at)
