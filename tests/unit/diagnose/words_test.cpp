@@ -20,6 +20,8 @@ Json claimed(const std::string &claim) {
                                      {"probability", 0.53},
                                      {"acts_like", 0.08}}})},
             {"effects", Json::array()},
+            {"beside", Json::array()},
+            {"short_runs", Json::array()},
             {"next_measurement",
              {{"what", "cracks of p30"}, {"now", 0.5}, {"expected_probability", 0.83}}},
             {"evidence", Json::array({{{"hypothesis", "unknown"}, {"place", "relaxation"}}})}}},
@@ -65,6 +67,11 @@ TEST(ClaimInWords, EveryClaimSaysWhatItMeansAndWhatToDo) {
   Json alike = claimed("unknown");
   alike["which"]["evidence"][0]["place"] = "like friction";
   expect_parts(alike, {"It acts most like friction, but friction does not fit."});
+  Json beyond = claimed("undecided");
+  beyond["which"]["short_runs"] =
+      Json::array({{{"effect", "friction"}, {"rival", "cbd_collapse"}}});
+  expect_parts(beyond, {"; more of cbd_collapse than the bank has run",
+                        "The gap is beyond what the bank has run"});
   expect_parts(claimed("undecided"),
                {"one of these",
                 "One of these: friction or thickness_zero, or something that acts so (53 %); ",
@@ -110,6 +117,20 @@ TEST(ClaimInWords, AnEffectIsSwitchedOnAndAnInstrumentIsChecked) {
   EXPECT_EQ(all_of(claim_in_words(gap)).find("Coulomb"), std::string::npos);
   gap["which"]["claim"] = "friction + thickness_zero";
   expect_parts(gap, {"Explained by friction + thickness_zero", "Switch it on"});
+}
+
+// An effect that acts with others is half an explanation.
+TEST(ClaimInWords, WhatMayActBesideAClaimIsNamed) {
+  Json gap = claimed("friction");
+  gap["which"]["effects"] = Json::array({fitted("friction", "material.am.friction")});
+  EXPECT_EQ(claim_in_words(gap)["headline"], "Explained by friction");
+  gap["which"]["beside"] = Json::array({{{"effect", "pre_cracks"}, {"probability", 0.4}},
+                                        {{"effect", "thickness_zero"}, {"probability", 0.1}},
+                                        {{"effect", "body_size"}, {"probability", 0.01}}});
+  EXPECT_EQ(claim_in_words(gap)["headline"],
+            "Explained by friction, perhaps with pre_cracks or thickness_zero");
+  expect_parts(gap,
+               {"Beside it these data do not exclude: pre_cracks; thickness_zero; body_size."});
 }
 
 // Below what noise leaves, a cause neither shrinks nor enlarges the gap.

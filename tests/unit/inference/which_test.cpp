@@ -69,6 +69,41 @@ TEST(Which, IsCalibratedInLinearWorlds) {
   RecordProperty("wrong", c.wrong);
 }
 
+// Truths are none, an unknown that no data show, or one that sits anywhere, in the shares of their
+// priors where nothing known is in the table: what is too small to be seen is not called none more
+// surely than it is none.
+TEST(Which, TheUnknownIsCalibratedWhereMuchOfItIsTooSmallToBeSeen) {
+  WhichSettings settings = quick();
+  settings.priors.none = 0.5;
+  settings.priors.unknown = 0.5;
+  double expected = 0.0, variance = 0.0;
+  int unknown = 0;
+  for (int w = 0; w < 300; ++w) {
+    const LinearWorld world(8, 2, 0, std::uint64_t(4100 + w));
+    Random random(std::uint64_t(w), 28);
+    Vector mean = world.draw(
+        world.centre,
+        Matrix(world.sensitivity * world.sensitivity.transpose() + 1e-9 * world.covariance),
+        random);
+    const bool acts = random.uniform() < 0.5;
+    const double of_place = random.uniform(), size = kUnknownSize.value(random.normal());
+    if (acts && of_place > 0.25) {
+      const int only = of_place > 0.625 ? -1 : int(random.uniform() * 8);
+      for (Eigen::Index f = 0; f < 8; ++f)
+        mean[f] += only < 0 || only == f
+                       ? size * std::sqrt(world.covariance(f, f)) * random.normal()
+                       : 0.0;
+    }
+    unknown += acts;
+    const Which found = which(world.problem(world.draw(mean, world.covariance, random)), settings);
+    const double p = found.of("unknown").probability;
+    expected += p;
+    variance += p * (1.0 - p);
+  }
+  EXPECT_NEAR(unknown, expected, 3.0 * std::sqrt(variance));
+  RecordProperty("expected", std::to_string(expected));
+}
+
 TEST(Which, NullsAreRarelyCalledAnEffect) {
   WhichSettings settings = quick();
   const int kWorlds = 300;
@@ -255,14 +290,14 @@ TEST(Decide, WhatFitsBadlySpeaksForTheUnknownByDegrees) {
 
 // Split over pairs, no set has 0.8; the effect in all of them has.
 TEST(Decide, AnEffectIsNamedByWhatAllItsPairsHave) {
-  const auto decided = [](double log_b, double p = 0.5) {
+  const auto decided = [](double log_b, double p = 0.5, double log_ac = 7.0) {
     Which w;
     w.judged = {given(Hypothesis::none, {}, "none", 0.0),
                 given(Hypothesis::effects, {0}, "a", 4.0),
                 given(Hypothesis::effects, {1}, "b", log_b),
                 given(Hypothesis::effects, {2}, "c", 0.0),
                 given(Hypothesis::effects, {0, 1}, "a + b", 7.0),
-                given(Hypothesis::effects, {0, 2}, "a + c", 7.0),
+                given(Hypothesis::effects, {0, 2}, "a + c", log_ac),
                 given(Hypothesis::unknown, {}, "unknown", 0.0)};
     for (Judged &j : w.judged)
       j.adequacy_p = j.hypothesis.name == "none" ? 1.0 : p;
@@ -277,8 +312,18 @@ TEST(Decide, AnEffectIsNamedByWhatAllItsPairsHave) {
   EXPECT_NE(w.why.find("together with something else"), std::string::npos) << w.why;
   EXPECT_GT(w.inclusion.at("a"), 0.9);
   EXPECT_LT(w.inclusion.at("b"), 0.6);
+  // Pairs have e^3 times the evidence of a alone, and 0.1 of its prior among the three of them.
+  const double pair = 0.1 * std::exp(3.0), alone = 0.9;
+  ASSERT_EQ(w.beside.size(), 2u);
+  EXPECT_EQ(w.beside[0].effect, "b");
+  EXPECT_NEAR(w.beside[0].probability, pair / (2.0 * pair + alone), 1e-12);
+  EXPECT_NEAR(w.beside[0].prior, 0.1 / 1.1, 1e-12);
+  const Which without_c = decided(0.0, 0.5, 3.0); // e^-1 times the evidence of a alone
+  ASSERT_EQ(without_c.beside.size(), 1u);
+  EXPECT_EQ(without_c.beside[0].effect, "b");
   const Which open = decided(6.0); // b alone does as well
   EXPECT_EQ(open.claim, "undecided");
+  EXPECT_TRUE(open.beside.empty());
   char most[16]; // not that of the most probable set
   std::snprintf(most, sizeof most, "has %.3g;",
                 std::max(open.inclusion.at("a"), open.inclusion.at("b")));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A whole round on a bank of formulas: sealed, handed out, answered, scored, tampered with.
 #include "base/messages.h"
+#include "base/random.h"
 #include "diagnose/bank/bank_table.h"
 #include "diagnose/diagnose.h"
 #include "support/test_folder.h"
@@ -10,6 +11,7 @@
 #include "withheld/sealing.h"
 #include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 
 namespace {
@@ -53,6 +55,8 @@ protected:
   std::string round_ = (at_ / "round").string(), given_ = (at_ / "given/handed_out").string(),
               answers_ = (at_ / "answers").string();
 
+  virtual int samples() const { return 1; }
+
   void SetUp() override {
     std::ofstream(at_ / "electrode.toml")
         << "[coating]\nloading_mg_cm2 = 4\n[cell]\nx_um = 6\ny_um = 6\n"; // 9.15 um of solid
@@ -60,22 +64,33 @@ protected:
     std::ofstream(at_ / "bank.toml") << kBank;
     std::ofstream(at_ / "round.toml")
         << "[round]\nbank = \"bank.toml\"\nnull_packings = 1\nnull_draws = 2\namplitudes = 0\n"
-           "faults = [\"friction\", \"thickness_zero\"]\nopen = [\"displacement_scale\"]\n";
+           "faults = [\"friction\", \"thickness_zero\"]\nopen = [\"displacement_scale\"]\n"
+        << fmt::format("samples = {}\n", samples());
     const Round round = read_round((at_ / "round.toml").string());
     write_table(round.bank);
     std::vector<PressedTruth> pressed;
     for (const Truth &t : draw_truths(round, "secret")) {
       pressed.push_back({t, {}, {}});
       for (const double target : {30.0, 50.0}) {
-        pressed.back().shown.push_back({shown_of(t, target)});
+        pressed.back().shown.push_back(samples_of(t, target));
         if (has_cause(t))
-          pressed.back().without_cause.push_back({shown_of(without_cause(t), target)});
+          pressed.back().without_cause.push_back(samples_of(without_cause(t), target));
       }
     }
     fs::create_directories(round_ + "/sealed");
     seal_round(round_, round, pressed, "secret");
     fs::create_directories(at_ / "given");
     fs::copy(round_ + "/handed_out", given_, fs::copy_options::recursive);
+  }
+
+  PressedSamples samples_of(const Truth &t, double target) const {
+    PressedSamples out(std::size_t(samples()), shown_of(t, target));
+    for (std::size_t k = 0; k < out.size() && samples() > 1 && has_cause(t); ++k) {
+      const double chance = k % 2 == 0 ? 0.3 : -0.3;
+      out[k].thickness_at_max += chance;
+      out[k].thickness_after += chance;
+    }
+    return out;
   }
 
   static SimulatedRun shown_of(const Truth &t, double target) {
@@ -164,6 +179,63 @@ TEST_F(Withheld, TheKeepersPairsShowHowLargeAGapIsAndWhere) {
   EXPECT_EQ(strong, 2);
   std::ofstream(table, std::ios::app) << "\n";
   EXPECT_THROW(add_true_gaps(round_, answers_, bank, table, cases), Failure);
+}
+
+// Differences of runs that a cause did not make: 8 features, sd 1 each. Their length is about 2.8
+// whatever the cause; its expected square is the number of features too large.
+TEST(TrueGap, ChanceBetweenTwoRunsIsNoSignal) {
+  constexpr int kFeatures = 8, kDraws = 4000;
+  for (const double signal : {0.0, 3.0})
+    for (const int samples : {2, 4}) {
+      double square = 0.0;
+      int visible = 0;
+      for (int d = 0; d < kDraws; ++d) {
+        Random random(std::uint64_t(d), 77);
+        inference::Matrix each(kFeatures, samples);
+        for (double &v : each.reshaped())
+          v = random.normal();
+        each.row(0).array() += signal;
+        const double all = each.rowwise().sum().squaredNorm(), own = each.squaredNorm();
+        const double length = common_length(each);
+        square += (all - own) / (samples * (samples - 1.0)) / kDraws;
+        visible += length >= kVisible;
+        EXPECT_NEAR(length * length, std::max(0.0, (all - own) / (samples * (samples - 1.0))),
+                    1e-9);
+      }
+      // variance of d_1 . d_2 about s^2: n + 2 s^2; more samples lessen it
+      const double sd = std::sqrt((kFeatures + 2.0 * signal * signal) / kDraws);
+      EXPECT_NEAR(square, signal * signal, 3.0 * sd) << samples;
+      if (signal == 0.0) {
+        EXPECT_LT(visible, 0.02 * kDraws) << samples;
+      }
+    }
+  EXPECT_DOUBLE_EQ(common_length(inference::Matrix::Constant(1, 1, -5.0)), 5.0);
+}
+
+/// Every truth of two samples, which chance makes 0.3 um thicker or thinner where a cause is on.
+class WithheldInTwo : public Withheld {
+protected:
+  int samples() const override { return 2; }
+};
+
+TEST_F(WithheldInTwo, TheSignalIsWhatTheSamplesHaveInCommon) {
+  answer();
+  std::vector<ScoredCase> cases = open_round(round_, answers_);
+  add_true_gaps(round_, answers_, (at_ / "bank.toml").string(), (at_ / "bank.csv").string(), cases);
+  std::vector<ScoredCase> by_mean = cases;
+  fs::rename(round_ + "/sealed/samples", round_ + "/samples");
+  add_true_gaps(round_, answers_, (at_ / "bank.toml").string(), (at_ / "bank.csv").string(),
+                by_mean);
+  fs::rename(round_ + "/samples", round_ + "/sealed/samples");
+  for (std::size_t k = 0; k < cases.size(); ++k)
+    if (cases[k].block == "fault") { // s + c and s - c have less in common than their mean, s
+      EXPECT_GT(cases[k].signal_to_noise, kStrongEnough);
+      EXPECT_LT(cases[k].signal_to_noise, by_mean[k].signal_to_noise);
+      EXPECT_EQ(cases[k].true_places, by_mean[k].true_places);
+    }
+  const std::string sample = fs::directory_iterator(round_ + "/sealed/samples")->path().string();
+  change(sample + "/1_without/experiment.toml");
+  EXPECT_EQ(status_of_opening(), kCheckFailed);
 }
 
 // Learning takes most of the time of a diagnosis; it depends on no measured value.

@@ -78,6 +78,22 @@ TEST(Scores, AnswersByHandGetTheNumbersThatCanBeCounted) {
   EXPECT_NEAR(named(m, "log score").value, log_score, 1e-12);
 }
 
+// One half of a pair is neither right nor wrong where the answer leaves room for the other half.
+TEST(Scores, HalfAPairIsRightInPartOnlyIfTheOtherHalfIsNotExcluded) {
+  std::vector<ScoredCase> cases;
+  for (const char *claim : {"a + b", "a", "b", "a", "c"})
+    cases.push_back(scored("pair", int(cases.size()), "a + b", claim, {{claim, 0.9}}));
+  cases[1].beside = {"b"};
+  cases[2].beside = {"a", "c"};
+  cases[3].beside = {"c"};
+  cases[4].beside = {"a", "b"};
+  const std::vector<Metric> m = metrics_of(cases);
+  EXPECT_DOUBLE_EQ(named(m, "pair: claimed in part").value, 0.4);
+  EXPECT_DOUBLE_EQ(named(m, "pair: claimed wrong").value, 0.4);
+  EXPECT_DOUBLE_EQ(named(m, "wrong share among claims of").value, 2.0 / 3.0);
+  EXPECT_DOUBLE_EQ(named(m, "wrong share among claims, were").value, 0.8);
+}
+
 TEST(Scores, ShrinkageIsJudgedWhereModelsWereRunAgain) {
   std::vector<ScoredCase> cases = round_by_hand();
   const auto run_again = [&](int k, double predicted, double rerun, double placebo) {
@@ -164,7 +180,10 @@ TEST(Scores, AnEffectLeftOutIsACaseOfItsOwnWhereItWasTheTruth) {
   const nlohmann::json gap = {
       {"where", {{{"significant", true}, {"condition", "a"}, {"stage", "b"}, {"observable", "c"}}}},
       {"which",
-       {{"claim", "friction"}, {"probability", {{"friction", 0.9}}}, {"set95", {"friction"}}}},
+       {{"claim", "friction"},
+        {"probability", {{"friction", 0.9}}},
+        {"beside", {{{"effect", "pre_cracks"}, {"probability", 0.2}}}},
+        {"set95", {"friction"}}}},
       {"parameters",
        {{{"parameter", "E"}, {"low90", 1.0}, {"high90", 2.0}, {"low95", 1.6}, {"high95", 2.0}}}},
       {"fitted_effects", {{{"effect", "friction"}, {"low90", 0.1}, {"high90", 0.2}}}},
@@ -192,6 +211,7 @@ TEST(Scores, AnEffectLeftOutIsACaseOfItsOwnWhereItWasTheTruth) {
   EXPECT_EQ(cases[1].truth, "unknown");
   EXPECT_EQ(cases[0].covered, std::vector<bool>{true});
   EXPECT_EQ(cases[0].covered_by_average, std::vector<bool>{false});
+  EXPECT_EQ(cases[0].beside, std::set<std::string>{"pre_cracks"});
   EXPECT_EQ(cases[0].places, std::set<std::string>{"a|b|c"});
   EXPECT_EQ(cases[0].covered_amplitude, std::vector<bool>{false}); // 0.3 is not in 0.1 to 0.2
   EXPECT_NEAR(cases[0].signal_to_noise, 3.0 * std::sqrt(6.0), 1e-9);

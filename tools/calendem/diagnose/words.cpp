@@ -2,6 +2,7 @@
 #include "base/gap_file.h"
 #include "diagnose/compare/gap.h"
 #include "diagnose/diagnose.h"
+#include "diagnose/effects_in_words.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -14,21 +15,13 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kListed = 5;    // of a list of explanations
 constexpr double kWorthSaying = 0.01; // probability
+constexpr double kPerhaps =
+    0.1; // probability of an effect beside what is claimed, to be in its name
 
 struct Words {
   std::string headline, meaning;
   std::vector<std::string> next;
 };
-
-std::string keys_of(const Json &row) {
-  return fmt::format("{}", fmt::join(row["keys"].get<std::vector<std::string>>(), ", "));
-}
-
-/// "effects.x.y = 0.3 (95 %: 0.2 to 0.4)"
-std::string setting_of(const Json &row) {
-  return fmt::format("{} = {} (95 %: {} to {})", keys_of(row), shown(row["value"], "{:.3g}"),
-                     shown(row["value_low95"], "{:.3g}"), shown(row["value_high95"], "{:.3g}"));
-}
 
 std::string percent(double probability) {
   return probability > 0.995 && probability < 1.0 ? "more than 99 %"
@@ -163,6 +156,8 @@ std::vector<std::string> explanations(const Json &which) {
     add("none", "none of them", 0.0);
   add("noise", "errors larger than stated", 0.0);
   add("unknown", "something that no model here has", like);
+  for (const Json &row : which["short_runs"])
+    out.push_back(fmt::format("more of {} than the bank has run", row["rival"].get<std::string>()));
   return out;
 }
 
@@ -172,6 +167,9 @@ Words undecided(const Json &gap) {
                                [](const Json &row) { return row["significant"] == true; });
   const std::vector<std::string> all = explanations(which);
   Words w{"One of these: " + leading(all), "", {measurement_of(which)}};
+  if (!which["short_runs"].empty())
+    w.next.push_back("The gap is beyond what the bank has run: run more of what is named last, and "
+                     "diagnose again.");
   if (!any)
     w.meaning = "No difference is significant, but weak effects could be hidden in the noise. ";
   w.meaning += fmt::format("These data do not distinguish effects with \"or\" between them. "
@@ -184,7 +182,24 @@ bool names(const std::string &claim, const std::string &effect) {
   return (" + " + claim + " + ").find(" + " + effect + " + ") != std::string::npos;
 }
 
-/// How probable it is that something else acts too.
+/// Effects that may act beside what is claimed, from that probability on.
+std::vector<std::string> beside(const Json &which, double least) {
+  std::vector<std::string> out;
+  for (const Json &row : which["beside"])
+    if (row["probability"].get<double>() >= least)
+      out.push_back(row["effect"]);
+  return out;
+}
+
+/// "friction, perhaps with pre_cracks"
+std::string with_companions(const Json &which) {
+  const std::string claim = which["claim"];
+  const std::vector<std::string> names = beside(which, kPerhaps);
+  return names.empty() ? claim
+                       : fmt::format("{}, perhaps with {}", claim, fmt::join(names, " or "));
+}
+
+/// How probable it is that something else acts too, and what.
 std::string with_others(const Json &which) {
   const std::string claim = which["claim"];
   double acts = 0.0;
@@ -192,15 +207,19 @@ std::string with_others(const Json &which) {
     if (names(claim, name))
       acts = acts == 0.0 ? inclusion.get<double>() : std::min(acts, inclusion.get<double>());
   const double more = acts - which["probability"].value(claim, 0.0);
-  return more < kWorthSaying
-             ? ""
-             : fmt::format(" Something else acts too with a probability of {}.", percent(more));
+  const std::vector<std::string> others = beside(which, 0.0);
+  std::string text;
+  if (more >= kWorthSaying)
+    text += fmt::format(" Something else acts too with a probability of {}.", percent(more));
+  if (!others.empty())
+    text += fmt::format(" Beside it these data do not exclude: {}.", leading(others));
+  return text;
 }
 
 Words named(const Json &gap) {
   const Json &which = gap["which"];
   const std::string claim = which["claim"];
-  Words w{"Explained by " + claim, "", {}};
+  Words w{"Explained by " + with_companions(which), "", {}};
   bool instrument = true;
   std::string settings;
   for (const Json &row : which["effects"]) {
@@ -259,117 +278,6 @@ std::string shrinkage_in_words(const Json &shrink) {
   if (both && after <= floor)
     return fmt::format("{}; {}: what is left may be nothing.", gaps, noise);
   return fmt::format("{}; {}.", gaps, noise);
-}
-
-namespace {
-
-void add_units(const ExperimentData &data, Json &gap) {
-  Json &rows = gap["predictions"]["observables"];
-  for (std::size_t k = 0; k < data.labels.size(); ++k) {
-    rows[k]["name"] = data.labels[k].name;
-    rows[k]["unit"] = data.labels[k].unit;
-    rows[k]["pressure_MPa"] = data.labels[k].pressure;
-  }
-  for (Json &place : gap["where"])
-    for (const Json &row : rows)
-      if (row["observable"] == place["observable"] && row["stage"] == place["stage"] &&
-          row["condition"] == place["condition"])
-        place["unit"] = row["unit"];
-}
-
-/// The key's value at an amplitude; null where there is no amplitude.
-Json value_at(const EffectParameter &p, const Json &amplitude) {
-  const bool known = amplitude.is_number() && std::isfinite(amplitude.get<double>());
-  return known ? Json(p.value(amplitude.get<double>())) : Json();
-}
-
-bool is_poor(const Json &gap, const std::string &effect, double &error, int &runs) {
-  for (const Json &row : gap["emulators"])
-    if (row["effect"] == effect && row["poor"] == true) {
-      error = row["error"];
-      runs = row["runs"];
-      return true;
-    }
-  return false;
-}
-
-/// What may be said of one effect on these data.
-std::string said_of(const Json &gap, const Json &row) {
-  const std::string name = row["effect"], keys = keys_of(row);
-  double error = 0.0;
-  int runs = 0;
-  if (is_poor(gap, name, error, runs))
-    return fmt::format(
-        "{}: cannot be named: after {} runs its emulators are off by {:.2g} standard "
-        "deviations of these data, 1 is allowed; about {:.0f} runs are needed, as "
-        "errors fall with the root of their number. Its range is as uncertain",
-        name, runs, error, std::ceil(error * error * runs));
-  if (row["inclusion"].get<double>() >= 0.5)
-    return fmt::format("{}: {}", name, setting_of(row));
-  if (row["limited"] != true)
-    return fmt::format("{}: not limited", name);
-  if (row["two_sided"] == true)
-    return fmt::format("{}: {} between {} and {} (95 %)", name, keys,
-                       shown(row["value_low95"], "{:.2g}"), shown(row["value_high95"], "{:.2g}"));
-  return fmt::format("{}: {} {} {} (95 %)", name, keys,
-                     row["weak_is_large"] == true ? "above" : "below",
-                     shown(row["value_limit95"], "{:.2g}"));
-}
-
-void add_ranges(Json &gap) {
-  for (Json &row : gap["which"]["effects"]) {
-    const EffectParameter &p = find_effect(row["effect"]).parameter;
-    row["keys"] = p.keys;
-    row["value"] = value_at(p, row["amplitude"]);
-    row["value_low95"] = value_at(p, row["low95"]);
-    row["value_high95"] = value_at(p, row["high95"]);
-    row["value_limit95"] = value_at(p, row["below95"]);
-    row["weak_is_large"] = row["value_low95"] > row["value_high95"];
-    if (row["weak_is_large"] == true)
-      std::swap(row["value_low95"], row["value_high95"]);
-    row["said"] = said_of(gap, row);
-  }
-}
-
-void add_amplitudes(Json &gap) {
-  for (Json &row : gap["fitted_effects"]) {
-    const EffectParameter &p = find_effect(row["effect"]).parameter;
-    row["keys"] = p.keys;
-    row["off"] = p.off;
-    row["value"] = value_at(p, row["mode"]);
-    row["value_low90"] = value_at(p, row["low90"]);
-    row["value_high90"] = value_at(p, row["high90"]);
-    if (row["value_low90"] > row["value_high90"]) // a small value is a strong effect
-      std::swap(row["value_low90"], row["value_high90"]);
-  }
-  if (gap["confounding"].contains("detection_limit"))
-    for (Json &row : gap["confounding"]["detection_limit"]) {
-      const EffectParameter &p = find_effect(row["effect"]).parameter;
-      row["keys"] = p.keys;
-      row["value"] = value_at(p, row["amplitude"]);
-    }
-}
-
-void add_prices(const BankTable &bank, Json &gap) {
-  Json rows = Json::array();
-  for (const MeasurementPrice &price : bank.spec.prices)
-    if (price.unit.empty() || (price.name == kUnloadingCurve && !has_release(bank)))
-      rows.push_back({{"what", price.what}, {"cost", price.hours}});
-  gap["which"]["not_in_bank"] = rows;
-  gap["which"]["cost_unit"] = "working hours";
-}
-
-} // namespace
-
-void put_in_words(const ExperimentData &data, const BankTable &bank, Json &gap) {
-  add_units(data, gap);
-  add_amplitudes(gap);
-  add_ranges(gap);
-  add_prices(bank, gap);
-  gap["which"].update(claim_in_words(gap));
-  for (const Json &place : gap["where"])
-    if (place["significant"] == true)
-      gap["said"].push_back(in_words(place, "the recalibrated base model"));
 }
 
 } // namespace calendem

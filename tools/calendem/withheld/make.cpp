@@ -69,6 +69,19 @@ std::vector<Case> shuffled_cases(const std::vector<PressedTruth> &truths,
   return cases;
 }
 
+/// The samples' own experiments with the cause and without it, as if they were the whole case.
+void seal_samples(const std::string &folder, const std::string &id, const Round &round,
+                  const PressedTruth &pressed, std::uint64_t noise) {
+  for (std::size_t k = 0; k < std::size_t(round.samples); ++k)
+    for (const bool with : {true, false}) {
+      std::vector<PressedSamples> one;
+      for (const PressedSamples &all : with ? pressed.shown : pressed.without_cause)
+        one.push_back({all[k]});
+      hand_out(fmt::format("{}/{}{}", folder, k, with ? "" : "_without"), id, round,
+               with ? pressed.truth : without_cause(pressed.truth), one, noise);
+    }
+}
+
 } // namespace
 
 void seal_round(const std::string &folder, const Round &round,
@@ -80,9 +93,10 @@ void seal_round(const std::string &folder, const Round &round,
   nlohmann::json open = {{"commitment", "SHA-256 of a salt, a line's end and the truth"},
                          {"calendem", version()},
                          {"cases", nlohmann::json::object()}};
-  const std::string without = folder + "/sealed/without_cause/";
-  fs::remove_all(folder + "/handed_out");
-  fs::remove_all(without);
+  const std::string without = folder + "/sealed/without_cause/",
+                    samples = folder + "/sealed/samples/";
+  for (const std::string &old : {folder + "/handed_out", without, samples})
+    fs::remove_all(old);
   for (std::size_t k = 0; k < cases.size(); ++k) {
     const PressedTruth &pressed = truths[std::size_t(cases[k].truth)];
     const std::string id = fmt::format("{:03}", k + 1), here = folder + "/handed_out/" + id;
@@ -92,6 +106,10 @@ void seal_round(const std::string &folder, const Round &round,
     if (!pressed.without_cause.empty()) {
       hand_out(without + id, id, round, without_cause(pressed.truth), pressed.without_cause, noise);
       t["without_cause_sha256"] = sha256_of_files(without + id);
+      if (round.samples > 1) {
+        seal_samples(samples + id, id, round, pressed, noise);
+        t["samples_sha256"] = sha256_of_samples(samples + id);
+      }
     }
     t["id"] = id;
     t["point"] = cases[k].truth;

@@ -32,7 +32,8 @@ struct PressedTruth {
 };
 
 /// The part without runs: hands out and seals. Beside the truth it seals what would have been handed
-/// out without its cause, with the same errors of measurement: sealed/without_cause/NNN.
+/// out without its cause, with the same errors of measurement: sealed/without_cause/NNN, and both of
+/// each sample alone: sealed/samples/NNN/K and K_without.
 void seal_round(const std::string &folder, const Round &round,
                 const std::vector<PressedTruth> &truths, const std::string &secret);
 

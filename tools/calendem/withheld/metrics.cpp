@@ -140,6 +140,12 @@ std::string ScoredCase::ranked(int n) const {
   return n < int(order.size()) ? order[std::size_t(n)].second : "";
 }
 
+bool ScoredCase::right_in_part() const {
+  return std::any_of(beside.begin(), beside.end(), [&](const std::string &other) {
+    return truth == claim + " + " + other || truth == other + " + " + claim;
+  });
+}
+
 Metric share_of(const std::string &name, const std::vector<ScoredCase> &all, const CaseTest &chosen,
                 const CaseTest &hit) {
   Metric m = statistic_of(name, chosen_of(all, chosen), [&](const Cases &drawn) {
@@ -173,6 +179,9 @@ CaseTest in_block(const std::set<std::string> &blocks) {
 }
 bool right(const ScoredCase &c) { return c.ranked(0) == c.truth; }
 bool names_something(const ScoredCase &c) { return c.claim != "undecided" && c.claim != "none"; }
+/// Claims that can be right or wrong: one that is right in part is neither.
+bool judged_claim(const ScoredCase &c) { return names_something(c) && !c.right_in_part(); }
+bool wrong(const ScoredCase &c) { return c.claim != c.truth; }
 bool run_again(const ScoredCase &c) {
   return std::isfinite(c.predicted_shrinkage) && std::isfinite(c.shrinkage);
 }
@@ -240,8 +249,7 @@ void add_gates_of_answers(const All &cases, std::vector<Metric> &out) {
           [](const auto &c) { return single(c, kVisible, kStrongEnough); },
           [](const auto &c) { return c.claim == c.truth || holds(c); }),
       ">= 0.80", 0.80);
-  add(share("wrong share among claims of an effect, noise or unknown", names_something,
-            [](const auto &c) { return c.claim != c.truth; }),
+  add(share("wrong share among claims of an effect, noise or unknown", judged_claim, wrong),
       "<= 0.05", -INFINITY, 0.05);
   add(share("false claims on nulls", in_block({"null"}), names_something), "<= 0.03", -INFINITY,
       0.03);
@@ -324,6 +332,10 @@ void add_reported(const All &cases, std::vector<Metric> &out) {
   between("from there to signal-to-noise 6", kDetectable, kStrongEnough);
   out.push_back(share_of("pair: a measurement that would decide is named", cases,
                          in_block({"pair"}), [](const auto &c) { return c.next_named; }));
+  out.push_back(share_of("pair: claimed in part, the other half not excluded", cases,
+                         in_block({"pair"}), [](const auto &c) { return c.right_in_part(); }));
+  out.push_back(share_of("wrong share among claims, were those in part wrong", cases,
+                         names_something, wrong));
   out.push_back(share_of("nulls: none claimed", cases, in_block({"null"}), claims_right));
   out.push_back(share_of("nulls: a block beyond the threshold", cases, in_block({"null"}),
                          [](const auto &c) { return !c.places.empty(); }));
@@ -331,7 +343,7 @@ void add_reported(const All &cases, std::vector<Metric> &out) {
     out.push_back(
         share_of(std::string(block) + ": claimed right", cases, in_block({block}), claims_right));
     out.push_back(share_of(std::string(block) + ": claimed wrong", cases, in_block({block}),
-                           [](const auto &c) { return c.claim != c.truth && names_something(c); }));
+                           [](const auto &c) { return wrong(c) && judged_claim(c); }));
     out.push_back(share_of(std::string(block) + ": the 95 % set holds the truth", cases,
                            in_block({block}), holds));
   }

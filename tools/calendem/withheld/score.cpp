@@ -17,70 +17,7 @@ namespace calendem {
 
 namespace {
 
-using inference::Matrix;
-using inference::Vector;
-
-/// Of `data`, at the observables of `wanted`. A row of a curve that only `wanted` reaches differs by as
-/// much as the row before it.
-Vector values_for(const ExperimentData &wanted, const ExperimentData &data) {
-  Vector out(wanted.experiment.values.size());
-  double difference = 0.0; // of the row before
-  for (Eigen::Index k = 0; k < out.size(); ++k) {
-    const auto &all = data.experiment.of;
-    const auto at = std::find_if(all.begin(), all.end(), [&](const auto &o) {
-      return inference::key_of(o) == inference::key_of(wanted.experiment.of[std::size_t(k)]);
-    });
-    if (at != all.end())
-      difference = data.experiment.values[at - all.begin()] - wanted.experiment.values[k];
-    out[k] = wanted.experiment.values[k] + difference;
-  }
-  return out;
-}
-
-} // namespace
-
-TrueGap true_gap(const Experiment &handed_out, const Experiment &without_cause,
-                 const std::vector<double> &base, const BankTable &table, SharedModels &models) {
-  const ExperimentData data = data_of(handed_out, table, {});
-  const Vector without = values_for(data, data_of(without_cause, table, {}));
-  inference::ModelSettings settings;
-  settings.packings_in_sample = cells_of(handed_out, table.spec);
-  settings.specimens = data.specimens;
-  const auto model = models.of(data, settings);
-  const inference::Problem problem = model->problem(data.experiment.values);
-  Vector scores(Eigen::Index(base.size()));
-  for (Eigen::Index j = 0; j < scores.size(); ++j)
-    scores[j] = data.bank.base[std::size_t(j)].prior.score(base[std::size_t(j)]);
-  inference::Linearised about = inference::linearise(problem, scores);
-  const Vector difference = problem.observed - model->problem(without).observed;
-  const Vector weighted =
-      inference::Cholesky(inference::recalibrated_covariance(about)).solve(difference);
-  TrueGap out;
-  out.signal_to_noise = std::sqrt(difference.dot(weighted));
-  about.mean = problem.observed - about.covariance * weighted; // what recalibration leaves
-  for (const inference::WhereRow &row : inference::where(problem, about, {}).rows)
-    if (const inference::Block &b = problem.blocks[std::size_t(row.block)]; row.significant)
-      out.places.insert(fmt::format("{}|{}|{}", b.condition, b.stage, b.name));
-  return out;
-}
-
-namespace {
-
 using Json = nlohmann::json;
-
-Json json_of(const std::string &file) {
-  const Json j = Json::parse(bytes_of(file), nullptr, false);
-  if (!j.is_object())
-    throw Failure(kBadInput, fmt::format("{} is cut or damaged: it holds no JSON object.", file));
-  return j;
-}
-
-void must_be(const std::string &is, const std::string &should, const std::string &what) {
-  if (is != should)
-    throw Failure(kCheckFailed, fmt::format("{} is not what its hash says: SHA-256 {}, written "
-                                            "down is {}. Nothing is scored.",
-                                            what, is, should.empty() ? "none" : should));
-}
 
 /// Signal-to-noise of a single effect: it grows with the amplitude.
 double signal_to_noise(const Json &gap, const std::string &effect, double amplitude) {
@@ -135,6 +72,8 @@ ScoredCase case_of(const Json &truth, const Json &gap) {
   c.parameters = truth.at("parameters").get<std::map<std::string, double>>();
   c.probability = which.at("probability").get<std::map<std::string, double>>();
   c.set95 = which.at("set95").get<std::vector<std::string>>();
+  for (const Json &row : which.value("beside", Json::array()))
+    c.beside.insert(row.at("effect").get<std::string>());
   c.next_named =
       which.contains("next_measurement") && which["next_measurement"].value("what", "") != "";
   for (const Json &row : gap.at("where"))
@@ -190,6 +129,9 @@ std::vector<ScoredCase> open_round(const std::string &folder, const std::string 
     if (const std::string sealed_too = truth.value("without_cause_sha256", ""); !sealed_too.empty())
       must_be(sha256_of_files(folder + "/sealed/without_cause/" + id), sealed_too,
               "what case " + id + " is without its cause");
+    if (const std::string sealed_too = truth.value("samples_sha256", ""); !sealed_too.empty())
+      must_be(sha256_of_samples(folder + "/sealed/samples/" + id), sealed_too,
+              "what the samples of case " + id + " are alone");
     Json answer[4] = {{}, {}, {}, Json::object()};
     const char *const files[] = {"gap.json", "gap_without.json", "baselines.json", "shrink.json"};
     for (int k = 0; k < 4; ++k) {
@@ -203,30 +145,6 @@ std::vector<ScoredCase> open_round(const std::string &folder, const std::string 
     add_cases(truth, answer[0], answer[1], answer[2], answer[3], out);
   }
   return out;
-}
-
-void add_true_gaps(const std::string &folder, const std::string &answers, const std::string &bank,
-                   const std::string &table, std::vector<ScoredCase> &cases) {
-  const Json made_with = json_of(answers + "/answers.json").at("provenance");
-  must_be(sha256(bytes_of(bank)), made_with.value("bank_sha256", ""), bank);
-  must_be(sha256(bytes_of(table)), made_with.value("bank_table_sha256", ""), table);
-  const BankTable learnt = read_bank_table(read_bank_spec(bank), table);
-  SharedModels models;
-  std::map<std::string, TrueGap> gaps;
-  for (ScoredCase &c : cases) {
-    const std::string pair = folder + "/sealed/without_cause/" + c.id;
-    if (!std::filesystem::exists(pair))
-      continue;
-    std::vector<double> base;
-    for (const BankParameter &p : learnt.spec.parameters)
-      base.push_back(c.parameters.at(p.name));
-    if (!gaps.count(c.id))
-      gaps[c.id] = true_gap(read_experiment(folder + "/handed_out/" + c.id + "/experiment.toml"),
-                            read_experiment(pair + "/experiment.toml"), base, learnt, models);
-    c.paired = true;
-    c.signal_to_noise = gaps[c.id].signal_to_noise;
-    c.true_places = gaps[c.id].places;
-  }
 }
 
 void score_round(const ScoreOptions &o) {
@@ -290,6 +208,8 @@ OrderedJson scores_of(const std::vector<ScoredCase> &cases, const std::string &r
          {"probability_of_truth",
           number_or_null(c.probability.count(c.truth) ? c.probability.at(c.truth) : 0.0)},
          {"headline", c.headline},
+         {"beside", c.beside},
+         {"right_in_part", c.right_in_part()},
          {"signal_to_noise", c.signal_to_noise},
          {"paired", c.paired},
          {"places", c.places},

@@ -23,10 +23,22 @@ struct TrueGap {
   std::set<std::string> places;
 };
 
-/// `handed_out` and `without_cause` share all errors of measurement. Recalibration is linear about
-/// the true base parameters `base` (in the bank's order and units); the bank serves for what it
-/// absorbs and for the covariance only, not for the difference.
-TrueGap true_gap(const Experiment &handed_out, const Experiment &without_cause,
+/// The same specimens with a cause and without it.
+struct PairedExperiments {
+  Experiment with, without;
+};
+
+/// Two runs of one packing differ by chance, too: the least change makes other bonds break. What
+/// the samples' differences (columns, in units of noise) have in common is the cause's: the mean of
+/// d_i . d_j over all pairs of samples is free of what each has by itself. Its root, 0 where it is
+/// negative; of a single sample the length, which chance makes too large.
+double common_length(const inference::Matrix &differences);
+
+/// Both share all errors of measurement. Recalibration is linear about the true base parameters
+/// `base` (in the bank's order and units); the bank serves for what it absorbs and for the
+/// covariance only, not for the difference. `samples`: each alone; fewer than two: the
+/// signal-to-noise is that of their mean.
+TrueGap true_gap(const PairedExperiments &all, const std::vector<PairedExperiments> &samples,
                  const std::vector<double> &base, const BankTable &table, SharedModels &models);
 
 // How good the answers of a round are. Pure: cases in, numbers with intervals out.
@@ -39,6 +51,7 @@ struct ScoredCase {
   std::string claim, headline; ///< headline: gap.json's "answer"
   std::map<std::string, double> probability; ///< of hypotheses
   std::vector<std::string> set95;
+  std::set<std::string> beside; ///< effects that the answer does not exclude beside its claim
   std::set<std::string> places,
       true_places;              ///< "condition|stage|observable": reported, by paired runs
   bool paired = false;          ///< the keeper ran the same samples without the cause
@@ -56,6 +69,8 @@ struct ScoredCase {
 
   /// The n-th most probable hypothesis, from 0; empty beyond the last.
   std::string ranked(int n) const;
+  /// A pair of which one half is claimed and the other is not excluded beside it.
+  bool right_in_part() const;
 };
 
 using CaseTest = std::function<bool(const ScoredCase &)>;

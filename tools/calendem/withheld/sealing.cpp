@@ -42,6 +42,34 @@ std::string sha256_of_files(const std::string &folder) {
   return sha256(all);
 }
 
+std::vector<std::string> samples_in(const std::string &folder) {
+  std::vector<std::string> out;
+  while (std::filesystem::exists(fmt::format("{}/{}", folder, out.size())))
+    out.push_back(fmt::format("{}/{}", folder, out.size()));
+  return out;
+}
+
+std::string sha256_of_samples(const std::string &folder) {
+  std::string hashes;
+  for (const std::string &sample : samples_in(folder))
+    hashes += sha256_of_files(sample) + sha256_of_files(sample + "_without");
+  return sha256(hashes);
+}
+
+void must_be(const std::string &is, const std::string &should, const std::string &what) {
+  if (is != should)
+    throw Failure(kCheckFailed, fmt::format("{} is not what its hash says: SHA-256 {}, written "
+                                            "down is {}. Nothing is scored.",
+                                            what, is, should.empty() ? "none" : should));
+}
+
+nlohmann::json json_of(const std::string &file) {
+  const nlohmann::json j = nlohmann::json::parse(bytes_of(file), nullptr, false);
+  if (!j.is_object())
+    throw Failure(kBadInput, fmt::format("{} is cut or damaged: it holds no JSON object.", file));
+  return j;
+}
+
 std::string random_secret() {
   std::ifstream in("/dev/urandom", std::ios::binary);
   unsigned char bytes[32];

@@ -7,12 +7,23 @@
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 namespace calendem {
 
 /// Of the files of a folder (no folders in it), by name and bytes, in the order of their names.
 /// Throws Failure(2) for anything that is no plain file: a link may lead elsewhere.
 std::string sha256_of_files(const std::string &folder);
+
+/// Of a case's samples alone: folders 0, 1, ... with the cause, each beside K_without.
+std::vector<std::string> samples_in(const std::string &folder);
+std::string sha256_of_samples(const std::string &folder);
+
+/// Throws Failure(4) if a hash is not the one that was written down.
+void must_be(const std::string &is, const std::string &should, const std::string &what);
+
+/// A JSON object. Throws Failure(2) if the file holds none.
+nlohmann::json json_of(const std::string &file);
 
 /// The bytes of a file. Throws Failure(2) if it cannot be read.
 std::string bytes_of(const std::string &file);

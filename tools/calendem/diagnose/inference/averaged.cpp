@@ -30,8 +30,9 @@ void sort(std::vector<Weighted> &values) {
                    [](const Weighted &a, const Weighted &b) { return a.value < b.value; });
 }
 
-Range95 range_of(const std::vector<Weighted> &sorted) {
-  return {quantile(sorted, 0.5), quantile(sorted, 0.025), quantile(sorted, 0.975)};
+Range range_of(const std::vector<Weighted> &sorted) {
+  return {quantile(sorted, 0.5), quantile(sorted, 0.05), quantile(sorted, 0.95),
+          quantile(sorted, 0.025), quantile(sorted, 0.975)};
 }
 
 bool has(const Judged &j, int effect) {
@@ -45,9 +46,8 @@ double weight_of(const Judged &j) {
 }
 
 /// Draws of one score, as values of its parameter.
-void add_draws(const Judged &j, Eigen::Index score, const Prior &prior, double weight,
+void add_draws(const Matrix &draws, Eigen::Index score, const Prior &prior, double weight,
                std::vector<Weighted> &to) {
-  const Matrix &draws = j.evidence.draws;
   for (Eigen::Index k = 0; k < draws.cols(); ++k)
     to.push_back({prior.value(draws(score, k)), weight / double(draws.cols())});
 }
@@ -60,6 +60,11 @@ int amplitude_of(const ModelledEffect &effect) {
   return 0;
 }
 
+const Matrix &base_draws(const Judged &j) {
+  return j.base_draws.size() > 0 ? j.base_draws : j.evidence.draws;
+}
+
+/// Place of an effect's first parameter among the scores.
 Eigen::Index score_of(const Problem &problem, const Judged &j, int effect) {
   Eigen::Index score = problem.base_parameters;
   for (const int e : j.hypothesis.on) {
@@ -67,17 +72,27 @@ Eigen::Index score_of(const Problem &problem, const Judged &j, int effect) {
       break;
     score += Eigen::Index(problem.effects[std::size_t(e)].parameters.size());
   }
-  return score + amplitude_of(problem.effects[std::size_t(effect)]);
+  return score;
+}
+
+/// Values of a parameter of an effect in all hypotheses in which it acts, sorted.
+std::vector<Weighted> values_of(const Problem &problem, const Which &which, int effect,
+                                int parameter) {
+  const Prior &prior =
+      problem.effects[std::size_t(effect)].parameters[std::size_t(parameter)].prior;
+  std::vector<Weighted> values;
+  for (const Judged &j : which.judged)
+    if (const Eigen::Index score = score_of(problem, j, effect) + parameter;
+        has(j, effect) && j.evidence.draws.rows() > score)
+      add_draws(j.evidence.draws, score, prior, weight_of(j), values);
+  sort(values);
+  return values;
 }
 
 EffectRange range_of(const Problem &problem, const Which &which, int effect) {
   const ModelledEffect &e = problem.effects[std::size_t(effect)];
   const Prior &prior = e.parameters[std::size_t(amplitude_of(e))].prior;
-  std::vector<Weighted> values;
-  for (const Judged &j : which.judged)
-    if (has(j, effect) && j.evidence.draws.rows() > score_of(problem, j, effect))
-      add_draws(j, score_of(problem, j, effect), prior, weight_of(j), values);
-  sort(values);
+  const std::vector<Weighted> values = values_of(problem, which, effect, amplitude_of(e));
   EffectRange r;
   r.effect = e.name;
   const auto at = which.inclusion.find(e.name);
@@ -86,7 +101,7 @@ EffectRange range_of(const Problem &problem, const Which &which, int effect) {
   r.below95 = quantile(values, 0.95);
   const auto of_prior = [&](double share) { return prior.value(normal_quantile(share)); };
   r.two_sided = of_prior(0.025) < 0.0;
-  r.limited = r.two_sided ? r.amplitude.high - r.amplitude.low <
+  r.limited = r.two_sided ? r.amplitude.high95 - r.amplitude.low95 <
                                 kSaysLess * (of_prior(0.975) - of_prior(0.025))
                           : r.below95 < kSaysLess * of_prior(0.95);
   return r;
@@ -101,24 +116,28 @@ std::vector<EffectRange> effect_ranges(const Problem &problem, const Which &whic
   return out;
 }
 
+Range range_of(const Problem &problem, const Which &which, int effect, int parameter) {
+  return range_of(values_of(problem, which, effect, parameter));
+}
+
 std::vector<ParameterRange> parameter_ranges(const std::vector<Parameter> &base,
                                              const Which &which) {
   std::vector<ParameterRange> out;
   for (std::size_t p = 0; p < base.size(); ++p) {
     std::vector<Weighted> all;
     for (const Judged &j : which.judged)
-      add_draws(j, Eigen::Index(p), base[p].prior, j.probability, all);
+      add_draws(base_draws(j), Eigen::Index(p), base[p].prior, j.probability, all);
     sort(all);
     ParameterRange r;
     r.all = range_of(all);
-    double farthest = kMoved * (r.all.high - r.all.low);
+    double farthest = kMoved * (r.all.high95 - r.all.low95);
     for (const Judged &j : which.judged) {
       if (!j.hypothesis.single() || j.adequacy_p < kCounts)
         continue;
       std::vector<Weighted> here;
-      add_draws(j, Eigen::Index(p), base[p].prior, 1.0, here);
+      add_draws(j.evidence.draws, Eigen::Index(p), base[p].prior, 1.0, here);
       sort(here);
-      const Range95 moved = range_of(here);
+      const Range moved = range_of(here);
       const double off = std::fabs(moved.median - r.all.median);
       if (off <= farthest)
         continue;

@@ -8,27 +8,30 @@
 
 namespace calendem::inference {
 
-/// A quantity's median and the interval that holds 95 % of its posterior.
-struct Range95 {
-  double median = 0.0, low = 0.0, high = 0.0;
+/// A quantity's median and the intervals that hold 90 and 95 % of its posterior.
+struct Range {
+  double median = 0.0, low90 = 0.0, high90 = 0.0, low95 = 0.0, high95 = 0.0;
 };
 
 /// Of the first amplitude of an effect, where it acts: alone, in a pair, or beside something unknown.
 struct EffectRange {
   std::string effect;
   double inclusion = 0.0; ///< that it acts, alone or in a pair
-  Range95 amplitude;      ///< two-sided
+  Range amplitude;        ///< two-sided
   double below95 = 0.0;   ///< with 95 %, if it acts at all
   bool two_sided = false; ///< its amplitude may have either sign: an interval limits it
   bool limited = false;   ///< by four fifths of what the prior alone allows, or less
 };
 std::vector<EffectRange> effect_ranges(const Problem &problem, const Which &which);
 
-/// Of a base parameter over all hypotheses, and under the effect of the table that moves it most.
+/// Of any parameter of an effect, by its place among them.
+Range range_of(const Problem &problem, const Which &which, int effect, int parameter);
+
+/// Of a base parameter over all hypotheses, each as wide as it leaves it, and under the effect of the table that moves it most.
 struct ParameterRange {
-  Range95 all;
+  Range all;
   std::string moved_by; ///< empty: no effect that the data leave moves it by half its 95 % interval
-  Range95 moved;
+  Range moved;
 };
 std::vector<ParameterRange> parameter_ranges(const std::vector<Parameter> &base,
                                              const Which &which);

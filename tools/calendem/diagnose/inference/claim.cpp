@@ -9,8 +9,9 @@ namespace calendem::inference {
 namespace {
 
 constexpr double kCredible = 0.95;
-constexpr double kCounts = 0.01; // probability of a hypothesis that bears on the claim
-constexpr double kFewest = 30.0; // effective samples of its evidence
+constexpr double kCounts = 0.01;  // probability of a hypothesis that bears on the claim
+constexpr double kFewest = 30.0;  // effective samples of its evidence
+constexpr double kExcluded = 0.5; // of its prior, below which an effect beside others is excluded
 // Of the unknown's prior, what is known by nothing but that no prediction fits: the p of the best is
 // then distributed as p^kMisfit.
 constexpr double kByMisfit = 0.25, kMisfit = 0.1;
@@ -193,6 +194,11 @@ std::string objection(const Which &w, const Lead &lead, const WhichSettings &set
   if (rests_on_poor(lead.name, settings.poor))
     return fmt::format("{} is the most probable, but its emulators are too poor: more runs.",
                        lead.name);
+  for (const ShortRuns &s : lead.best->short_runs)
+    return fmt::format("{} has {:.3g}, but only because nothing like it was run so far: {}, which "
+                       "looks like it (cosine {:.2f}), reaches {:.2g} of this gap at the end of "
+                       "its range.",
+                       lead.name, lead.probability, s.rival, s.cosine, s.reached);
   return "";
 }
 
@@ -249,6 +255,45 @@ void set_inclusion(Which &w) {
       w.inclusion[j.hypothesis.name] = lead_of(w, j.hypothesis.on).probability;
 }
 
+/// The effects of what is claimed; empty where none is.
+std::vector<int> claimed_effects(const Which &w) {
+  for (const Judged &j : w.judged)
+    if (j.hypothesis.kind == Hypothesis::effects && j.hypothesis.name == w.claim)
+      return j.hypothesis.on;
+  return {};
+}
+
+/// Prior that these effects act, alone or with others, of hypotheses that were computed.
+double prior_of(const Which &w, const std::vector<int> &effects) {
+  double sum = 0.0;
+  for (const Judged &j : w.judged)
+    if (includes(j.hypothesis, effects))
+      sum += j.hypothesis.prior;
+  return sum;
+}
+
+void set_beside(Which &w) {
+  w.beside.clear();
+  const std::vector<int> claimed = claimed_effects(w);
+  if (claimed.empty())
+    return;
+  const double acts = lead_of(w, claimed).probability, prior = prior_of(w, claimed);
+  for (const Judged &j : w.judged) {
+    if (!j.hypothesis.single() ||
+        includes({Hypothesis::effects, claimed, "", 0.0}, j.hypothesis.on))
+      continue;
+    std::vector<int> both = claimed;
+    both.push_back(j.hypothesis.on[0]);
+    const Companion c{j.hypothesis.name, lead_of(w, both).probability / acts,
+                      prior_of(w, both) / prior};
+    if (c.prior > 0.0 && c.probability >= kExcluded * c.prior)
+      w.beside.push_back(c);
+  }
+  std::stable_sort(w.beside.begin(), w.beside.end(), [](const Companion &a, const Companion &b) {
+    return a.probability > b.probability;
+  });
+}
+
 void set_credible(Which &w) {
   double sum = 0.0;
   w.set95.clear();
@@ -290,6 +335,7 @@ void decide(Which &w, const WhichSettings &settings, int effects) {
   }
   once(w, settings, effects);
   set_inclusion(w);
+  set_beside(w);
   set_credible(w);
 }
 
@@ -323,7 +369,8 @@ void set_limits(Which &w, const Problem &problem, const std::vector<double> &lim
       j.below_limits = share_below(problem, j, limits);
   for (Judged &j : w.judged) // what acts like an effect is seen where that is
     if (j.hypothesis.kind == Hypothesis::unknown) {
-      j.below_limits = 0.0;
+      const auto unseen = j.of_place.find(kUnseenPlace);
+      j.below_limits = unseen == j.of_place.end() ? 0.0 : unseen->second;
       for (const Judged &known : w.judged)
         if (const auto at = j.of_place.find("like " + known.hypothesis.name);
             at != j.of_place.end())

@@ -35,37 +35,35 @@ Which in_scores_of_the_prior(const Problem &problem, const Which &which) {
     if (e.mode.size() < n)
       continue;
     e.mode.head(n) = problem.scores_of_the_prior(e.mode.head(n));
-    for (Eigen::Index k = 0; k < e.draws.cols(); ++k)
-      e.draws.col(k).head(n) = problem.scores_of_the_prior(e.draws.col(k).head(n));
+    for (Matrix *draws : {&e.draws, &j.base_draws})
+      for (Eigen::Index k = 0; k < draws->cols(); ++k)
+        draws->col(k).head(n) = problem.scores_of_the_prior(draws->col(k).head(n));
   }
   return out;
 }
 
-/// Mode and 90 % interval of one score's parameter.
-Recalibrated fitted(const Parameter &p, const Evidence &evidence, Eigen::Index score) {
-  std::vector<double> draws(evidence.draws.row(score).begin(), evidence.draws.row(score).end());
-  std::sort(draws.begin(), draws.end());
-  const auto at = [&](double share) {
-    return p.prior.value(draws[std::size_t(share * double(draws.size() - 1))]);
-  };
-  return {p.name, p.prior.value(evidence.mode[score]), at(0.05), at(0.95)};
-}
-
-std::vector<Recalibrated> parameters_of(const std::vector<Parameter> &base, const Judged &best) {
+std::vector<Recalibrated> parameters_of(const std::vector<Parameter> &base, const Judged &best,
+                                        const std::vector<ParameterRange> &ranges) {
   std::vector<Recalibrated> list;
-  for (Eigen::Index j = 0; j < Eigen::Index(base.size()); ++j)
-    list.push_back(fitted(base[std::size_t(j)], best.evidence, j));
+  for (std::size_t j = 0; j < base.size(); ++j)
+    list.push_back({base[j].name, base[j].prior.value(best.evidence.mode[Eigen::Index(j)]),
+                    ranges[j].all.low90, ranges[j].all.high90});
   return list;
 }
 
-std::vector<FittedEffect> effects_of(const Bank &bank, const Judged &best) {
+std::vector<FittedEffect> effects_of(const Problem &problem, const Which &which) {
   std::vector<FittedEffect> list;
-  Eigen::Index score = Eigen::Index(bank.base.size());
-  for (const int which : best.hypothesis.on)
-    for (const Parameter &p : bank.effects[std::size_t(which)].parameters) {
-      const Recalibrated r = fitted(p, best.evidence, score++);
-      list.push_back({bank.effects[std::size_t(which)].name, p.name, r.mode, r.low90, r.high90});
+  const Judged &best = best_predicting(which);
+  Eigen::Index score = problem.base_parameters;
+  for (const int e : best.hypothesis.on) {
+    const ModelledEffect &effect = problem.effects[std::size_t(e)];
+    for (int k = 0; k < int(effect.parameters.size()); ++k) {
+      const Parameter &p = effect.parameters[std::size_t(k)];
+      const Range r = range_of(problem, which, e, k);
+      list.push_back(
+          {effect.name, p.name, p.prior.value(best.evidence.mode[score++]), r.low90, r.high90});
     }
+  }
   return list;
 }
 
@@ -101,6 +99,7 @@ Discrimination discriminate(const Model &model, const Problem &problem,
   for (const DetectionLimit &l : t.confounding.limits)
     limits.push_back(l.against_none);
   set_limits(t.which, problem, limits);
+  set_short_runs(t.which, problem);
   decide(t.which, rules, int(problem.effects.size()));
   return t;
 }
@@ -127,10 +126,10 @@ Diagnosis diagnose(const Model &model, const Problem &problem, const Bank &bank,
   for (WhereRow &row : d.where.rows)
     row.z = std::copysign(row.z, d.residual[row.block].residual);
   const Which shown = in_scores_of_the_prior(problem, d.which);
-  d.parameters = parameters_of(bank.base, shown.judged.front());
-  d.effects = effects_of(bank, best_predicting(d.which));
   d.ranges = effect_ranges(problem, d.which);
   d.parameters_of_all = parameter_ranges(bank.base, shown);
+  d.parameters = parameters_of(bank.base, shown.judged.front(), d.parameters_of_all);
+  d.effects = effects_of(problem, d.which);
   d.groups = effect_groups(d.which, d.confounding);
   d.predictions = predictions(model, problem, d.which, values);
   d.emulators = model.quality();

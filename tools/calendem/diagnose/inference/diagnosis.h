@@ -46,14 +46,15 @@ struct BlockResidual {
   double worst_coordinate = 0.0;   ///< where |residual| / sd is largest
 };
 
-/// A parameter as the data leave it, in its unit.
+/// A parameter in its unit: where the most probable hypothesis fits best, and as all hypotheses
+/// leave it.
 struct Recalibrated {
   std::string parameter;
   double mode = 0.0, low90 = 0.0, high90 = 0.0;
 };
 
 /// An amplitude or another parameter of an effect that the most probable hypothesis with a
-/// prediction has.
+/// prediction has: where that fits best, and as all hypotheses in which the effect acts leave it.
 struct FittedEffect {
   std::string effect, parameter;
   double mode = 0.0, low90 = 0.0, high90 = 0.0; ///< in its unit
@@ -66,7 +67,7 @@ struct Diagnosis {
   Which which;
   Confounding confounding;
   std::vector<NextMeasurement> next;
-  std::vector<Recalibrated> parameters; ///< of the base model, under the most probable hypothesis
+  std::vector<Recalibrated> parameters; ///< of the base model
   std::vector<FittedEffect> effects;
   std::vector<EffectRange> ranges;               ///< of all effects, over all hypotheses
   std::vector<ParameterRange> parameters_of_all; ///< the same of the base model's parameters

@@ -43,11 +43,27 @@ Json effects_of(const Diagnosis &d) {
     rows.push_back({{"effect", r.effect},
                     {"inclusion", r.inclusion},
                     {"amplitude", r.amplitude.median},
-                    {"low95", r.amplitude.low},
-                    {"high95", r.amplitude.high},
+                    {"low95", r.amplitude.low95},
+                    {"high95", r.amplitude.high95},
                     {"below95", r.below95},
                     {"two_sided", r.two_sided},
                     {"limited", r.limited}});
+  return rows;
+}
+
+Json beside_of(const Which &w) {
+  Json rows = Json::array();
+  for (const Companion &c : w.beside)
+    rows.push_back({{"effect", c.effect}, {"probability", c.probability}, {"prior", c.prior}});
+  return rows;
+}
+
+/// Of the hypothesis that leads among those that predict.
+Json short_runs_of(const Which &w) {
+  Json rows = Json::array();
+  for (const ShortRuns &s : best_predicting(w).short_runs)
+    rows.push_back(
+        {{"effect", s.effect}, {"rival", s.rival}, {"cosine", s.cosine}, {"reached", s.reached}});
   return rows;
 }
 
@@ -70,13 +86,13 @@ Json parameters_of(const Diagnosis &d) {
                     {"mode", p.mode},
                     {"low90", p.low90},
                     {"high90", p.high90},
-                    {"low95", r.all.low},
-                    {"high95", r.all.high}});
+                    {"low95", r.all.low95},
+                    {"high95", r.all.high95}});
     if (!r.moved_by.empty())
       rows.back()["moved_by"] = {{"effect", r.moved_by},
                                  {"median", r.moved.median},
-                                 {"low95", r.moved.low},
-                                 {"high95", r.moved.high}};
+                                 {"low95", r.moved.low95},
+                                 {"high95", r.moved.high95}};
   }
   return rows;
 }
@@ -90,6 +106,8 @@ Json which_of(const Diagnosis &d) {
   }
   out["inclusion"] = w.inclusion;
   out["effects"] = effects_of(d);
+  out["beside"] = beside_of(w);
+  out["short_runs"] = short_runs_of(w);
   out["groups"] = groups_of(d);
   out["set95"] = w.set95;
   out["indistinguishable"] = d.confounding.indistinguishable;

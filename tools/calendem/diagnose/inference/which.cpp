@@ -2,6 +2,7 @@
 #include "diagnose/inference/which.h"
 #include "base/messages.h"
 #include "base/random.h"
+#include "diagnose/inference/base_beside_unknown.h"
 #include "diagnose/inference/confounding.h"
 #include "diagnose/inference/scatter.h"
 #include <algorithm>
@@ -32,31 +33,54 @@ Judged judge(const Problem &problem, const Hypothesis &hypothesis, const Matrix 
   return j;
 }
 
-/// The unknown with its evidence averaged over places; parameters are those of the best place.
+/// One place of the unknown, as far as it counts.
+struct Term {
+  std::string place;
+  double log_mass = 0.0; ///< ln of its share of the prior times its evidence
+  Matrix base_draws;
+};
+
+/// Draws of the base parameters over all places, each as often as it is probable.
+Matrix over_places(const std::vector<Term> &terms, const std::map<std::string, double> &of_place) {
+  const Eigen::Index count = terms.front().base_draws.cols();
+  Matrix out(terms.front().base_draws.rows(), count);
+  double passed = 0.0;
+  Eigen::Index next = 0;
+  for (const Term &t : terms) {
+    passed += of_place.at(t.place);
+    for (; next < count && (double(next) + 0.5) / double(count) <= passed; ++next)
+      out.col(next) = t.base_draws.col(next);
+  }
+  for (; next < count; ++next) // rounding of the last
+    out.col(next) = terms.back().base_draws.col(next);
+  return out;
+}
+
+/// The unknown with its evidence averaged over places; parameters of effects are those of the best
+/// place.
 Judged judge_unknown(const Problem &problem, const WhichSettings &settings,
                      const std::vector<int> &best_effects, Which &w) {
   Judged best;
   double sum = 0.0, top = -INFINITY;
-  struct Term {
-    std::string place;
-    double share, log_evidence;
-  };
   std::vector<Term> terms;
   for (const UnknownPlace &place : unknown_places(problem, w, best_effects, settings.priors)) {
-    Judged here = judge(problem, place.hypothesis, place.unknown, settings);
+    const bool unseen = place.name == kUnseenPlace;
+    Judged here = unseen ? w.of("none") : judge(problem, place.hypothesis, place.unknown, settings);
+    here.hypothesis = place.hypothesis;
     here.place = place.name;
-    terms.push_back({place.name, place.share, here.evidence.log_evidence});
     const double mass = std::log(place.share) + here.evidence.log_evidence;
-    if (!(mass > top))
+    terms.push_back({place.name, mass, base_beside_unknown(problem, w.base, here, place.anywhere)});
+    if (unseen || !(mass > top))
       continue;
     top = mass;
     best = std::move(here);
     w.unknown = place.unknown;
   }
   for (const Term &t : terms)
-    sum += std::exp(std::log(t.share) + t.log_evidence - top);
+    sum += std::exp(t.log_mass - top);
   for (const Term &t : terms)
-    best.of_place[t.place] = std::exp(std::log(t.share) + t.log_evidence - top) / sum;
+    best.of_place[t.place] += std::exp(t.log_mass - top) / sum;
+  best.base_draws = over_places(terms, best.of_place);
   const double shift = top + std::log(sum) - best.evidence.log_evidence;
   best.evidence.log_evidence += shift;
   best.evidence.laplace += shift;
@@ -123,105 +147,6 @@ Which which(const Problem &problem, const WhichSettings &settings) {
   w.judged.push_back(judge_unknown(problem, settings, ranked, w));
   decide(w, settings, int(problem.effects.size()));
   return w;
-}
-
-namespace {
-
-constexpr double kAlike = 0.6;    // share of the unknown's prior that acts like known effects
-constexpr double kBeside = 0.2;   // of the rest: beside a known effect
-constexpr double kUnlike = 0.5;   // of a signature's length: how far what acts like it departs
-constexpr double kHopeless = 5.0; // ln of evidence behind the best, from which on it cannot matter
-
-UnknownPlace place(const std::string &name, const Matrix &unknown, std::vector<int> on = {}) {
-  return {name, 1.0, unknown, {Hypothesis::unknown, std::move(on), "unknown", 0.0}};
-}
-
-/// Places that the effects have no part in.
-std::vector<UnknownPlace> places_alone(const Problem &problem, const Linearised &base) {
-  std::vector<UnknownPlace> places{
-      place("everywhere", beyond_recalibration(base, problem.discrepancy))};
-  const auto add = [&](const std::string &name, const auto &contains) {
-    Vector mask(problem.observed.size());
-    for (Eigen::Index f = 0; f < mask.size(); ++f)
-      mask[f] = contains(problem.blocks[problem.features[f].block]) ? 1.0 : 0.0;
-    bool known = mask.minCoeff() > 0.0; // everywhere
-    for (const UnknownPlace &p : places)
-      known |= p.name == name;
-    if (!known)
-      places.push_back(place(
-          name,
-          beyond_recalibration(base, mask.asDiagonal() * problem.discrepancy * mask.asDiagonal())));
-  };
-  for (const Block &b : problem.blocks)
-    add(b.stage, [&](const Block &o) { return o.stage == b.stage; });
-  for (const Block &b : problem.blocks)
-    add(b.name + ", " + b.stage,
-        [&](const Block &o) { return o.name == b.name && o.stage == b.stage; });
-  for (const Block &b : problem.blocks)
-    add(b.name + ", " + b.stage + ", " + b.condition, [&](const Block &o) { return &o == &b; });
-  for (Eigen::Index f = 0; f < problem.observed.size(); ++f)
-    if (!problem.features[f].emulated) {
-      const Block &b = problem.blocks[problem.features[f].block];
-      Matrix one = Matrix::Zero(problem.observed.size(), problem.observed.size());
-      one(f, f) = 1.0;
-      places.push_back(
-          place(b.name + ", " + b.stage + ", " + b.condition + ", unlike any run", one));
-    }
-  const double others = double(places.size()) - 1.0;
-  for (std::size_t k = 0; k < places.size() && others > 0.0; ++k)
-    places[k].share = k == 0 ? 0.5 : 0.5 / others;
-  return places;
-}
-
-/// Smooth like the discrepancy that may sit everywhere, as long as that share of the signature.
-UnknownPlace place_like(const Problem &problem, const Judged &j) {
-  const Linearised base = linearise(problem, j.evidence.mode.head(problem.base_parameters));
-  const Matrix smooth = beyond_recalibration(base, problem.discrepancy);
-  const double square = Signatures(problem, base)
-                            .white(applied_at(problem, j.hypothesis, j.evidence.mode))
-                            .squaredNorm();
-  const double of_smooth = Cholesky(recalibrated_covariance(base)).solve(smooth).trace();
-  UnknownPlace p = place("like " + j.hypothesis.name,
-                         (of_smooth > 0.0 ? kUnlike * kUnlike * square / of_smooth : 0.0) * smooth,
-                         j.hypothesis.on);
-  p.hypothesis.size = 1.0;
-  return p;
-}
-
-void add_alike(const Problem &problem, const Which &so_far, const Priors &priors,
-               std::vector<UnknownPlace> &places) {
-  double top = -INFINITY;
-  for (const Judged &j : so_far.judged)
-    if (j.hypothesis.kind == Hypothesis::effects)
-      top = std::max(top, j.evidence.log_evidence);
-  const auto effects = double(problem.effects.size());
-  const double in_pairs = effects > 1.0 ? priors.pair_share : 0.0;
-  for (const Judged &j : so_far.judged) {
-    if (j.hypothesis.kind != Hypothesis::effects || j.evidence.log_evidence < top - kHopeless)
-      continue;
-    places.push_back(place_like(problem, j));
-    places.back().share =
-        kAlike * (j.hypothesis.single() ? (1.0 - in_pairs) / effects
-                                        : in_pairs / (0.5 * effects * (effects - 1.0)));
-  }
-}
-
-} // namespace
-
-std::vector<UnknownPlace> unknown_places(const Problem &problem, const Which &so_far,
-                                         const std::vector<int> &best, const Priors &priors) {
-  std::vector<UnknownPlace> places = places_alone(problem, so_far.base);
-  if (problem.effects.empty())
-    return places;
-  const Matrix everywhere = places.front().unknown;
-  for (UnknownPlace &p : places)
-    p.share *= (1.0 - kAlike) * (best.empty() ? 1.0 : 1.0 - kBeside);
-  for (const int e : best) {
-    places.push_back(place("beside " + problem.effects[e].name, everywhere, {e}));
-    places.back().share = (1.0 - kAlike) * kBeside / double(problem.effects.size());
-  }
-  add_alike(problem, so_far, priors, places);
-  return places;
 }
 
 namespace {

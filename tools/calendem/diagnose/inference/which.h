@@ -30,6 +30,13 @@ struct WhichSettings {
   EvidenceSettings evidence;
 };
 
+/// An effect that looks like another one, and was not run as far as that is needed here.
+struct ShortRuns {
+  std::string effect, rival; ///< rival: whose runs end
+  double cosine = 0.0;       ///< of the two signatures, beyond recalibration
+  double reached = 0.0; ///< length of the rival's strongest signature over that of the effect's
+};
+
 struct Judged {
   Hypothesis hypothesis;
   Evidence evidence;
@@ -41,6 +48,17 @@ struct Judged {
   double below_limits = 0.0;
   /// Of unknown: share of its probability that rests on nothing known fitting the data.
   double by_misfit = 0.0;
+  /// Of unknown: scores of the base parameters where it may move what they move, too; one for each
+  /// draw of the evidence. Empty: those of the evidence.
+  Matrix base_draws;
+  std::vector<ShortRuns> short_runs; ///< of its effects, where it fits best
+};
+
+/// An effect that may act beside those that are claimed.
+struct Companion {
+  std::string effect;
+  double probability = 0.0; ///< that it acts too, given that the claimed ones do
+  double prior = 0.0;       ///< the same before the data
 };
 
 /// The claim, had the priors been others.
@@ -57,6 +75,9 @@ struct Which {
   std::vector<Judged> judged;     ///< most probable first
   std::vector<std::string> set95; ///< most probable first, until 95 %
   std::map<std::string, double> inclusion; ///< of each effect: alone or in a pair
+  /// Where effects are claimed: others that these data do not exclude beside them, as their
+  /// probability there is at least half of what it was before the data. Most probable first.
+  std::vector<Companion> beside;
   std::vector<Sensitivity> sensitivity;
   Linearised base; ///< about the recalibrated base model
   /// Covariance of the discrepancy of one standard deviation at its most probable place.
@@ -72,9 +93,9 @@ struct Which {
 /// fits. Nothing is lost to recalibration because the priors count as data. Claim: see `why`; effects by how probable it is that they act,
 /// alone or in pairs.
 /// The unknown acts like a known effect or pair, but for half of the signature's length (0.6 of its
-/// prior, shared as among the known); or sits everywhere (0.16), in one stage, one observable of
-/// it, one block or one truncation residual (0.16 in equal parts), or beside a known effect (0.08
-/// in equal parts for all effects, the best of which are computed). Its evidence is the mean over
+/// prior, shared as among the known); or is too small to be seen (0.25); or sits everywhere (0.06),
+/// in one stage, one observable of it, one block or one truncation residual (0.06 in equal parts),
+/// or beside a known effect (0.03 in equal parts for all effects, the best of which are computed). Its evidence is the mean over
 /// these (3/4), and (1/4) that of the known ones times 0.1 p^-0.9, p of the best that predicts:
 /// where something unknown acts that is how p is distributed, where not it is uniform.
 Which which(const Problem &problem, const WhichSettings &settings);
@@ -89,12 +110,22 @@ void decide(Which &which, const WhichSettings &settings, int effects);
 /// seen at all), for another decide.
 void set_limits(Which &which, const Problem &problem, const std::vector<double> &limits);
 
+/// Finds the rivals whose cosine with an effect of the hypothesis is 0.85 or more and whose runs end
+/// before half the length of its signature, for another decide: where it is named because nothing
+/// like it was run so far, it is not named. Instruments' effects are computed for any amplitude and
+/// are no rivals, nor can others stand in for them.
+void set_short_runs(Which &which, const Problem &problem);
+
 struct UnknownPlace {
   std::string name;
   double share = 1.0; ///< of the unknown's prior
-  Matrix unknown;     ///< covariance of the discrepancy
+  Matrix unknown;     ///< covariance of the discrepancy, off what recalibration can do
   Hypothesis hypothesis;
+  Matrix anywhere; ///< the same with what recalibration can do
 };
+
+/// The place of an unknown that these data do not show; its evidence is that of none.
+extern const char *const kUnseenPlace;
 
 /// All that are worth computing: their shares sum to less than 1 where others cannot matter.
 /// `best`: the effects beside which the unknown is sought; `so_far`: hypotheses with their
