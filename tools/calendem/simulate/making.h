@@ -4,6 +4,7 @@
 #define CALENDEM_SIMULATE_MAKING_H
 
 #include "simulate/study.h"
+#include <map>
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
 
@@ -58,6 +59,7 @@ private:
   const StudyOptions &o_;
   std::vector<RunState> states_;
   std::mutex guard_;
+  std::map<std::string, std::string> not_packed_; ///< why, by folder: other runs do not try again
 
   std::string run_folder(const RunState &s) const;
   std::string packing_folder(const RunState &s) const;
