@@ -27,6 +27,11 @@ inline double made_cracked(const std::vector<double> &p, double pressure) {
   return 1.0 - std::exp(-pressure / p[2]);
 }
 
+/// What collapse from `yield` [MPa] on takes from the porosity at first.
+inline double made_collapse(double yield, double pressure) {
+  return 0.03 * std::log(300.0 / yield) * std::exp(-pressure / 60.0);
+}
+
 /// GPa.
 inline double made_modulus(const std::vector<double> &p) { return 0.01 * p[0]; }
 
@@ -36,8 +41,10 @@ inline SimulatedRun made_coating(const BankPoint &point, double target) {
   r.control = "pressure";
   r.target = r.max_pressure = target;
   r.porosity_initial = 0.01 * point.base[3];
-  r.porosity_after = made_porosity(point.base, point.effect.empty() ? 0.0 : point.value, target) +
-                     0.002 * packing.normal();
+  r.porosity_after =
+      made_porosity(point.base, point.effect == "nmc_plasticity" ? point.value : 0.0, target) -
+      (point.effect == "cbd_collapse" ? made_collapse(point.value, target) : 0.0) +
+      0.002 * packing.normal();
   r.porosity_at_max = 1.0 - (1.0 - r.porosity_after) * (1.0 + made_springback(point.base, target));
   r.cracked_fraction = made_cracked(point.base, target);
   r.solid_column = 12.0;
@@ -50,13 +57,13 @@ inline SimulatedRun made_coating(const BankPoint &point, double target) {
   return r;
 }
 
-inline BankTable made_coatings() {
+inline BankTable made_coatings(const std::vector<std::string> &effects = {"nmc_plasticity"}) {
   BankTable table;
   table.spec = read_bank_spec(CALENDEM_SOURCE_DIR "/input_scripts/cases/coatings/bank.toml");
   table.spec.packings = 8;
   table.spec.base_points = 40;
   table.spec.effect_points = 16;
-  table.spec.effects = {"nmc_plasticity"};
+  table.spec.effects = effects;
   table.spec.full_cell.points = 0;
   for (const BankPoint &point : bank_points(table.spec))
     for (const double target : table.spec.pressures)
@@ -71,7 +78,7 @@ inline const FilmBank &made_film_bank() {
 
 /// A film of the bank's loading.
 inline Film made_film(const std::string &name, double porosity, double carbon) {
-  return {name, {porosity, carbon}, 6.0};
+  return {name, {porosity, carbon}, 6.0, 0.0};
 }
 
 struct Truth {

@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
 # asks.sh BIN CASES WORK [ASKS]: design asked about materials that it cannot see. For each ask a material and three films
 # are drawn; two films are pressed in the simulation, three pressures each, and serve as measurements; `design` chooses a
-# pressure for a porosity of the third; that film is pressed to it on three other packings. The share of hits is beside
-# the probability that was stated. Runs with CALENDEM_HEAVY=1: some 9 runs of 10 s for each of 20 asks.
+# pressure for a porosity of the third; that film is pressed to it on three other packings. All hits together are beside the
+# mean probability that was stated; the hits of each ask beside the probability that was assured of it, which four of five
+# materials are to reach. Three films show thirds only: an ask of which 0.6 is assured passes with two hits of three, as
+# it does at a true 0.5 half of the time. Runs with CALENDEM_HEAVY=1: some 9 runs of 10 s for each of 20 asks.
 set -euo pipefail
 bin=$1 cases=$2 work=$3 asks=${4:-20}
 [ "${CALENDEM_HEAVY:-0}" = 1 ] || { echo "skipped: predict.asks runs with tools/test --all"; exit 77; }
@@ -71,17 +73,20 @@ while read -r k _ _ _ pa ca pb cb pc cc target; do
 done <asks.txt
 
 while read -r k am cbd strength _ _ _ _ pc cc target; do
-  chosen=$(sed -n 's/^film c: \([0-9]*\) MPa meets the target with \([0-9]*\) %.*/\1 \2/p' "ask$k/log")
+  read -r pressure stated assured < <(sed -n \
+    's/^film c: \([0-9]*\) MPa meets the target with \([0-9]*\) % (assured: \([0-9]*\) %).*/\1 \2 \3/p' "ask$k/log") ||
+    fail "ask $k: design proposes nothing"
   for seed in 1 2 3; do
-    echo "$am $cbd $strength $pc $cc ${chosen% *} $((3000 + 10 * k + seed)) ${chosen#* } $(awk -v a="$pc" -v b="$target" 'BEGIN { print a * b }')"
+    echo "$am $cbd $strength $pc $cc $pressure $((3000 + 10 * k + seed)) $stated $(awk -v a="$pc" -v b="$target" 'BEGIN { print a * b }') $assured"
   done
 done <asks.txt >chosen.txt
 study confirmed chosen.txt
 porosities confirmed | paste -d' ' chosen.txt - >outcome.txt
 # Hits are binomial with the stated probabilities, the three packings of one ask alike at the worst.
-awk -v within=$within '{ hit = ($10 - $9 <= within && $9 - $10 <= within); hits += hit; stated += $8 / 100; variance += 3 * $8 / 100 * (1 - $8 / 100); ++n
-    of[int((NR - 1) / 3)] += hit; p[int((NR - 1) / 3)] = $8 / 100 }
-  END { for (k in of) met += of[k] / 3 >= p[k] - 1e-9
-    printf "%d asks, %d films pressed: %.0f %% met the target, %.0f %% were promised (standard deviation at most %.0f); %d asks met what was promised of them\n",
-      n / 3, n, 100 * hits / n, 100 * stated / n, 100 * sqrt(variance) / n, met
+awk -v within=$within '{ hit = ($11 - $9 <= within && $9 - $11 <= within); hits += hit; stated += $8 / 100; variance += 3 * $8 / 100 * (1 - $8 / 100); ++n
+    of[int((NR - 1) / 3)] += hit; mean[int((NR - 1) / 3)] = $8 / 100; least[int((NR - 1) / 3)] = $10 / 100; assured += $10 / 100 }
+  END { for (k in of) { met += of[k] / 3 >= least[k] - 1e-9; mean_met += of[k] / 3 >= mean[k] - 1e-9 }
+    printf "%d asks, %d films pressed: %.0f %% met the target, %.0f %% were promised (standard deviation at most %.0f), %.0f %% were assured\n",
+      n / 3, n, 100 * hits / n, 100 * stated / n, 100 * sqrt(variance) / n, 100 * assured / n
+    printf "%d asks have as many hits among their three films as was assured of them or more, %d as many as was promised\n", met, mean_met
     exit (hits < stated - 2.6 * sqrt(variance)) }' outcome.txt || fail "fewer hits than promised"

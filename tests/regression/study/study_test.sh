@@ -56,6 +56,13 @@ sed 's/^values = \[1, 2\]/values = [3, 3]/; s/^values = \[150, .*/values = [150]
 [ "$(awk -F, 'NR > 1 { print $2 }' "$work/same/study.csv" | paste -sd,)" = done,done ] || fail "one run asked for twice is not done"
 [ "$(find "$work/same/runs" -mindepth 1 -maxdepth 1 -type d | wc -l)" = 1 ] || fail "it was made twice"
 
+# A packing that failed is not tried again for the other run on it.
+printf '#!/bin/sh\necho started >>"%s"\nexit 1\n' "$work/starts" >"$work/fails"
+chmod +x "$work/fails"
+sed 's/^values = \[1, 2\]/values = [5]/' "$work/study.toml" >"$work/unpacked.toml"
+"$bin/calendem" study "$work/unpacked.toml" -o "$work/unpacked" --liggghts "$work/fails" >"$work/unpacked.log" 2>&1 && fail "a study without a packing is no success"
+[ "$(wc -l <"$work/starts")" = 1 ] || fail "a packing that failed was tried $(wc -l <"$work/starts") times"
+
 # A bank's runs that fail do not keep those on the full cell from being made.
 cat >"$work/bank.toml" <<'T'
 [bank]

@@ -75,6 +75,47 @@ TEST(Calibrate, NamesAnEffectThatActs) {
   EXPECT_GT(probability(c, "nmc_plasticity"), 0.9);
 }
 
+// No other material falls as far as the yielding one, and none falls as fast at first as with the other effect.
+TEST(Calibrate, FindsTwoEffectsThatActTogether) {
+  const FilmBank bank(made_coatings({"nmc_plasticity", "cbd_collapse"}));
+  const std::vector<double> material = {190.0, 1.7, 260.0};
+  const auto calibrated = [&](double yield, double collapse) {
+    Random random(4, 21);
+    Calibration c;
+    c.error = {0.0, 0.001, 0.003, 0.1};
+    measure({material, yield}, made_film("a", 48.0, 2.0), kPressures, 0.001, random, c);
+    measure({material, yield}, made_film("b", 43.0, 3.0), kPressures, 0.001, random, c);
+    for (Datum &d : c.data)
+      d.measured -= collapse > 0.0 ? made_collapse(collapse, d.pressure) : 0.0;
+    calibrate(bank, few(), c);
+    return c;
+  };
+  const std::string both = "nmc_plasticity + cbd_collapse";
+  const Calibration two = calibrated(1.6, 20.0), one = calibrated(1.6, 0.0);
+  EXPECT_GT(probability(two, both), 0.8);
+  EXPECT_LT(probability(one, both), 0.3);
+  double yield = 0.0, collapse = 0.0, n = 0.0;
+  for (const Draw &d : two.draws)
+    if (d.material.effects.size() == 2) {
+      yield += std::log(key_value(bank, d.material.effects[0]));
+      collapse += std::log(key_value(bank, d.material.effects[1]));
+      ++n;
+    }
+  EXPECT_NEAR(yield / n, std::log(1.6), 0.5);
+  EXPECT_NEAR(collapse / n, std::log(20.0), 0.7);
+}
+
+// Three without a pair, and a pair that has a tenth.
+TEST(Calibrate, APairIsLessProbableBeforeTheData) {
+  Calibration c;
+  c.films = {made_film("a", 48.0, 2.0)};
+  calibrate(FilmBank(made_coatings({"nmc_plasticity", "cbd_collapse"})), few(), c);
+  ASSERT_EQ(c.hypotheses.size(), 4u);
+  for (const char *name : {"none", "nmc_plasticity", "cbd_collapse"})
+    EXPECT_NEAR(probability(c, name), 0.3, 1e-9);
+  EXPECT_NEAR(probability(c, "nmc_plasticity + cbd_collapse"), 0.1, 1e-9);
+}
+
 // No binder of the bank is as soft as this film asks for.
 TEST(Calibrate, SaysThatAParameterIsAtTheEndOfItsRange) {
   EXPECT_TRUE(warnings_of(made_film_bank(), of({})).empty());
@@ -121,7 +162,7 @@ TEST(GivenData, APartOfTheModelsErrorIsSharedBetweenFilms) {
   Calibration c;
   c.error = {0.0, 0.02, 0.0201, 0.1};
   c.films = {made_film("a", 48.0, 2.0)};
-  const Draw draw = {{{190.0, 2.4, 480.0}, -1, 0.0}, {0.02, 0.5}};
+  const Draw draw = {{{190.0, 2.4, 480.0}, {}}, {0.02, 0.5}};
   const double expected = made_porosity({190.0, 2.4, 480.0, 48.0, 2.0}, 0.0, 80.0);
   c.data = {{0, "p", FilmNumber::PorosityAfter, 80.0, 0.0, expected + 0.02, 1e-4}};
   const FilmBank &bank = made_film_bank();
@@ -136,6 +177,30 @@ TEST(GivenData, APartOfTheModelsErrorIsSharedBetweenFilms) {
   EXPECT_NEAR(pulled(made_film("b", 48.1, 2.0), 80.0), 0.01, 0.002);
   EXPECT_DOUBLE_EQ(pulled(made_film("b", 48.0, 2.0), 80.0), pulled(c.films[0], 80.0));
   EXPECT_NEAR(pulled(c.films[0], 80.0 * std::exp(1.0)), 0.02 * std::exp(-0.5), 0.004);
+}
+
+// Particles a tenth larger than the bank's: 0.7 points, one slope for all films of such particles.
+TEST(GivenData, OtherParticlesAreAnErrorThatFilmsOfThemShare) {
+  Calibration c;
+  c.error = {0.0, 0.001, 0.002, 0.1};
+  const Draw draw = {{{190.0, 2.4, 480.0}, {}}, {1e-6, 0.0}};
+  const FilmBank &bank = made_film_bank();
+  const auto at = [&](double sizes) {
+    Film film = made_film("b", 44.0, 2.5);
+    film.sizes = sizes;
+    return missed_given_data(bank, c, draw, {film, FilmNumber::PorosityAfter, {80.0}}, true)[0];
+  };
+  EXPECT_NEAR(std::sqrt(at(0.1).variance), 0.007, 1e-5);
+  EXPECT_NEAR(std::sqrt(at(0.0).variance), 0.0, 1e-5);
+  c.films = {made_film("a", 48.0, 2.0)};
+  c.films[0].sizes = 0.1;
+  const double expected =
+      bank.at(bank.at_pressures(FilmNumber::PorosityAfter, c.films[0], draw.material), 80.0).mean;
+  c.data = {{0, "p", FilmNumber::PorosityAfter, 80.0, 0.0, expected - 0.01, 1e-4}};
+  EXPECT_LT(at(0.2).mean, 1.9 * at(0.1).mean);
+  EXPECT_LT(at(0.1).mean, -0.005);
+  EXPECT_GT(at(-0.1).mean, 0.005);
+  EXPECT_NEAR(at(0.0).mean, 0.0, 1e-9);
 }
 
 TEST(RulesOfThumb, FindTheirOwnConstants) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/messages.h"
+#include "base/provenance.h"
 #include "support/made_coatings.h"
+#include "support/test_folder.h"
 #include <gtest/gtest.h>
 
 namespace {
 using namespace calendem_test;
 
-const Material kMiddle = {{190.0, 2.4, 480.0}, -1, 0.0};
+const Material kMiddle = {{190.0, 2.4, 480.0}, {}};
 
 // Emulators see packings that scatter by 0.2 points; their mean is known to a fraction of that, and the power
 // law between five pressures is met to 0.2 points by the cubic.
@@ -25,7 +27,7 @@ TEST(FilmBank, AnEffectIsAddedToTheBaseModel) {
   const FilmBank &bank = made_film_bank();
   const Film film = made_film("x", 46.0, 2.2);
   const EffectParameter &key = find_effect("nmc_plasticity").parameter;
-  const Material yields = {{190.0, 2.4, 480.0}, 0, key.amplitude(2.5)};
+  const Material yields = {{190.0, 2.4, 480.0}, {{0, key.amplitude(2.5)}}};
   const auto curve = bank.at_pressures(FilmNumber::PorosityAfter, film, yields);
   EXPECT_NEAR(bank.at(curve, 150.0).mean, made_porosity({190.0, 2.4, 480.0, 46.0, 2.2}, 2.5, 150.0),
               0.01);
@@ -36,7 +38,8 @@ TEST(FilmBank, BeyondTheBankItWidensAndSaysSo) {
   const Film inside = made_film("x", 46.0, 2.2), outside = made_film("x", 60.0, 2.2);
   EXPECT_TRUE(bank.beyond(inside).empty());
   ASSERT_EQ(bank.beyond(outside).size(), 1u);
-  EXPECT_EQ(bank.beyond(outside)[0], "porosity_before_percent is 60, the bank has 41 to 52");
+  EXPECT_EQ(bank.beyond(outside)[0],
+            "porosity_before_percent is 60, the bank has 41 to 52: extrapolated");
   const auto width = [&](const Film &f) {
     return bank.at_pressures(FilmNumber::PorosityAfter, f, kMiddle)[2].variance;
   };
@@ -57,6 +60,48 @@ TEST(FilmBank, ARunThatLacksANumberIsLeftOutOfIt) {
   for (BankRow &row : table.rows)
     row.run.release_pressure.clear();
   EXPECT_THROW(FilmBank{table}, Failure);
+}
+
+/// A recipe of these lines.
+Recipe recipe_of(const std::string &text) {
+  const auto file = calendem_test::test_folder() / "film.toml";
+  write_file(file.string(), "name = \"film\"\n" + text);
+  return read_recipe(file.string());
+}
+
+// Half of a lognormal's volume lies below its median by number times exp(3 sigma^2), where nothing is cut off.
+TEST(SizesByVolume, AreThoseOfALognormal) {
+  const Recipe wide =
+      recipe_of("[particles]\nmedian_um = 5\nsigma_ln = 0.2\nmin_um = 0.5\nmax_um = 100\n");
+  const auto sizes = sizes_by_volume(wide, wide.max_diameter);
+  EXPECT_NEAR(sizes[1], 5.0 * std::exp(3.0 * 0.04), 1e-6);
+  EXPECT_NEAR(std::log(sizes[2] / sizes[0]), 2.0 * 1.281552 * 0.2, 1e-6);
+  const auto cut = sizes_by_volume(wide, 5.0);
+  EXPECT_LT(cut[2], 5.0);
+}
+
+// BLB's powder has hardly other sizes, and other densities: its film is described by its volumes.
+TEST(FilmBank, AFilmOfLikeParticlesIsDescribedByVolume) {
+  const FilmBank &bank = made_film_bank();
+  const Recipe blb =
+      read_recipe(CALENDEM_SOURCE_DIR "/input_scripts/cases/real/blb_nmc111_90/electrode.toml");
+  const Film film = bank.film_of(blb);
+  const double each = 0.01 * film.recipe[1], cbd = 2.0 * each / 1.83,
+               am = (1.0 - 2.0 * each) / 4.65;
+  EXPECT_NEAR(cbd / am, (0.1 / 1.89) / (0.9 / 4.75), 1e-9);
+  EXPECT_NEAR(10.0 * film.loading * (cbd + am), blb.am_column() + blb.cbd_solid_column(), 1e-9);
+  EXPECT_NEAR(std::exp(film.sizes), 9.07 / 8.30, 0.005);
+  EXPECT_EQ(bank.film_of(recipe_of("")).sizes, 0.0);
+  EXPECT_EQ(bank.film_of(recipe_of("")).loading, 17.46);
+  ASSERT_EQ(bank.beyond(film).size(), 1u);
+  EXPECT_NE(bank.beyond(film)[0].find("an error of 0.6 points"), std::string::npos);
+}
+
+TEST(FilmBank, OtherParticlesAreRefused) {
+  for (const char *sizes : {"median_um = 6", "sigma_ln = 0.3", "median_um = 3.5"})
+    EXPECT_THROW(made_film_bank().film_of(recipe_of(std::string("[particles]\n") + sizes + "\n")),
+                 Failure)
+        << sizes;
 }
 
 TEST(FilmBank, TooFewPressuresAreRefused) {

@@ -24,7 +24,7 @@ std::string bank_on_disk(const std::filesystem::path &folder) {
   const auto replace = [&](const std::string &what, const std::string &with) {
     text.replace(text.find(what), what.size(), with);
   };
-  replace("base_points = 48", "base_points = 40");
+  replace("base_points = 64", "base_points = 40");
   replace("packings = 12", "packings = 8");
   replace("effects = [\"nmc_plasticity\", \"cbd_collapse\"]", "effects = [\"nmc_plasticity\"]");
   text.erase(text.find("[full_cell]"),

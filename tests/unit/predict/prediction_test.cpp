@@ -11,7 +11,7 @@ using namespace calendem_test;
 Calibration exact() {
   Calibration c;
   c.error = {0.0, 0.001, 0.002, 0.1};
-  c.draws = {{{{190.0, 2.4, 480.0}, -1, 0.0}, {0.001, 0.5}}};
+  c.draws = {{{{190.0, 2.4, 480.0}, {}}, {0.001, 0.5}}};
   return c;
 }
 
@@ -93,7 +93,9 @@ TEST(OwnRuns, EveryDrawHasItsMaterialItsPackingAndThePressures) {
   Calibration c = exact();
   c.draws.clear();
   for (int k = 0; k < 100; ++k)
-    c.draws.push_back({{{150.0 + k, 2.0, 400.0}, k < 50 ? -1 : 0, 0.4}, {0.001, 0.5}});
+    c.draws.push_back(
+        {{{150.0 + k, 2.0, 400.0}, k < 50 ? std::vector<Acting>() : std::vector<Acting>{{0, 0.4}}},
+         {0.001, 0.5}});
   const std::vector<Draw> draws = some_draws(c, 4);
   ASSERT_EQ(draws.size(), 4u);
   EXPECT_EQ(draws[0].material.parameters[0], 162.0);
@@ -114,8 +116,28 @@ TEST(OwnRuns, EveryDrawHasItsMaterialItsPackingAndThePressures) {
   EXPECT_EQ(last.settings.number("material.am.youngs_modulus_GPa"), 237.0);
   EXPECT_EQ(last.settings.number("bond.shear_strength_MPa"), 400.0);
   EXPECT_NEAR(last.settings.number("effects.nmc_plasticity.yield_pressure_GPa"),
-              key_value(bank, draws[3].material), 1e-3);
+              key_value(bank, draws[3].material.effects[0]), 1e-3);
   EXPECT_EQ(study.runs.front().settings.number("effects.nmc_plasticity.yield_pressure_GPa"), 0.0);
+}
+
+// Two materials: one meets the target for sure at 50 MPa, the other never; at 100 MPa both do with 40 %.
+TEST(Chances, AnAssuredProbabilityHoldsForFourOfFiveMaterials) {
+  const Target target = {0.3, 0.01, 1.0};
+  const auto of = [](FilmNumber number) {
+    Guesses draws;
+    for (int k = 0; k < 100; ++k)
+      draws.push_back(number == FilmNumber::Cracked ? std::vector<Guess>(2, Guess{0.1, 0.0})
+                      : k < 70 ? std::vector<Guess>{{0.3, 1e-12}, {0.3, 3.64e-4}}
+                               : std::vector<Guess>{{0.4, 1e-12}, {0.3, 3.64e-4}});
+    return draws;
+  };
+  const auto c = chances_from({50.0, 100.0}, of, target);
+  EXPECT_NEAR(c[0].both, 0.7, 1e-6);
+  EXPECT_NEAR(c[0].assured, 0.0, 1e-6);
+  EXPECT_NEAR(c[1].assured, 0.4, 0.01);
+  EXPECT_EQ(best_of(c), 1u);
+  EXPECT_EQ(best_of({c[0]}), 0u);
+  EXPECT_EQ(best_of({{80.0, 0.1, 1.0, 0.1, 0.0}, {90.0, 0.2, 1.0, 0.2, 0.0}}), 1u);
 }
 
 // The pressure that gives the middle of the target is the best, and a bound on cracks takes the high ones away.

@@ -220,7 +220,7 @@ void run_predict(const PredictOptions &o) {
                  kPercent * f.after[k].high90, kPercent * f.cracked[k].median,
                  kPercent * f.cracked[k].low90, kPercent * f.cracked[k].high90);
     for (const std::string &text : f.beyond)
-      fmt::print("  note: {}: extrapolated\n", text);
+      fmt::print("  note: {}\n", text);
   }
   fmt::print("page: {0}/prediction.html\ntable: {0}/prediction.csv\n", o.folder);
   missed.stop_if_any();
@@ -270,15 +270,15 @@ void say(const Design &d, const Target &target) {
                d.film.name, d.chances.front().pressure, d.chances.back().pressure, best.pressure,
                there);
   else
-    fmt::print("{}: {:.0f} MPa meets the target with {:.0f} %: {}\n", d.film.name, best.pressure,
-               kPercent * best.both, there);
+    fmt::print("{}: {:.0f} MPa meets the target with {:.0f} % (assured: {:.0f} %): {}\n",
+               d.film.name, best.pressure, kPercent * best.both, kPercent * best.assured, there);
   if (target.cracked_below < 1.0)
     fmt::print("  the porosity with {:.0f} %, the cracked particles with {:.0f} %\n",
                kPercent * best.porosity, kPercent * best.cracked);
   if (d.confirmed)
     say_confirmed(d);
   for (const std::string &text : d.predicted.beyond)
-    fmt::print("  note: {}: extrapolated\n", text);
+    fmt::print("  note: {}\n", text);
 }
 
 void run_design(const PredictOptions &o) {
@@ -296,9 +296,7 @@ void run_design(const PredictOptions &o) {
                         o.press_percent / kPercent, target);
     d.predicted =
         predicted(a.model.bank, a.model.calibration, f, a.pressures, o.press_percent / kPercent);
-    for (std::size_t k = 1; k < d.chances.size(); ++k)
-      if (d.chances[k].both > d.chances[d.best].both)
-        d.best = k;
+    d.best = best_of(d.chances);
     designs.push_back(d);
   }
   const auto write = [&] {

@@ -39,7 +39,7 @@ void add_experiment(const Experiment &experiment, const FilmBank &bank, Calibrat
   to.films.push_back(bank.film_of(experiment.recipe));
   to.films.back().name = experiment.name;
   for (const std::string &why : bank.beyond(to.films.back()))
-    not_said.push_back(fmt::format("{}: {}: extrapolated.", experiment.name, why));
+    not_said.push_back(fmt::format("{}: {}.", experiment.name, why));
   for (const Condition &c : experiment.conditions) {
     if (!c.max_pressure_MPa || !bank.covers(c.max_pressure_MPa->value)) {
       not_said.push_back(fmt::format("{}, {}: its pressure is not known, or outside the bank's "
@@ -67,11 +67,12 @@ namespace {
 struct Spot {
   int film;
   FilmNumber number;
-  double log_pressure;
+  double log_pressure, sizes;
 };
 
 /// A part of what the model misses is common to all films; it changes over a factor e of pressure.
-/// One shift of the bank's numerics is common to all porosities.
+/// One shift of the bank's numerics is common to all porosities, and one slope with the particles'
+/// size to all films.
 double error_covariance(const ModelError &e, const Missed &missed, const Spot &a, const Spot &b) {
   if (a.number != b.number)
     return 0.0;
@@ -79,7 +80,8 @@ double error_covariance(const ModelError &e, const Missed &missed, const Spot &a
   const double alike = std::exp(-0.5 * off * off) * (a.film == b.film ? 1.0 : missed.shared);
   switch (a.number) {
   case FilmNumber::PorosityAfter:
-    return e.numerics * e.numerics + missed.sd * missed.sd * alike;
+    return e.numerics * e.numerics + missed.sd * missed.sd * alike +
+           kPorosityBySize * kPorosityBySize * a.sizes * b.sizes;
   case FilmNumber::Cracked:
     return e.cracked * e.cracked * alike;
   case FilmNumber::Springback:
@@ -89,7 +91,9 @@ double error_covariance(const ModelError &e, const Missed &missed, const Spot &a
   return 0.0;
 }
 
-Spot spot_of(const Datum &d) { return {d.film, d.number, std::log(d.pressure)}; }
+Spot spot_of(const Calibration &c, const Datum &d) {
+  return {d.film, d.number, std::log(d.pressure), c.films[std::size_t(d.film)].sizes};
+}
 
 /// Emulated values of the data, and what is uncertain about them but for the measurement.
 struct Predicted {
@@ -130,7 +134,7 @@ Matrix covariance_of(const Calibration &c, const Predicted &p, const Missed &mis
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) {
       const Datum &a = c.data[std::size_t(i)], &b = c.data[std::size_t(j)];
-      out(i, j) = error_covariance(c.error, missed, spot_of(a), spot_of(b));
+      out(i, j) = error_covariance(c.error, missed, spot_of(c, a), spot_of(c, b));
       if (a.film == b.film)
         out(i, j) += p.by_pressure[i] * p.by_pressure[j];
       if (a.number == b.number)
@@ -161,11 +165,10 @@ inference::Prior discrepancy_of(const ModelError &error) {
 }
 
 /// Samples of one hypothesis, from its prior.
-std::vector<Draw> prior_draws(const FilmBank &bank, const ModelError &error, int effect,
-                              int count) {
+std::vector<Draw> prior_draws(const FilmBank &bank, const ModelError &error,
+                              const std::vector<int> &effects, int count, std::uint64_t seed) {
   const auto d = int(bank.material().size());
-  const int seed = effect + 2;
-  const Matrix scores = inference::sobol_normals(d + 3, count, std::uint64_t(seed));
+  const Matrix scores = inference::sobol_normals(d + 2 + int(effects.size()), count, seed);
   const inference::Prior discrepancy = discrepancy_of(error),
                          shared = {inference::Prior::uniform, 0.0, 1.0};
   std::vector<Draw> out{std::size_t(count)};
@@ -174,25 +177,66 @@ std::vector<Draw> prior_draws(const FilmBank &bank, const ModelError &error, int
     for (int j = 0; j < d; ++j)
       draw.material.parameters.push_back(bank.material()[std::size_t(j)].prior.value(scores(j, k)));
     draw.missed.sd = discrepancy.value(scores(d, k));
-    draw.missed.shared = shared.value(scores(d + 2, k));
-    draw.material.effect = effect;
-    if (effect >= 0)
-      draw.material.amplitude = bank.effects()[std::size_t(effect)].prior.value(scores(d + 1, k));
+    draw.missed.shared = shared.value(scores(d + 1, k));
+    for (int j = 0; j < int(effects.size()); ++j) {
+      const int effect = effects[std::size_t(j)];
+      draw.material.effects.push_back(
+          {effect, bank.effects()[std::size_t(effect)].prior.value(scores(d + 2 + j, k))});
+    }
   }
   return out;
 }
 
+/// Of a hypothesis that is as probable before the data as all others of as many effects.
+double prior_of(const std::vector<std::vector<int>> &all, const std::vector<int> &effects,
+                double pair_share) {
+  const auto pairs =
+      double(std::count_if(all.begin(), all.end(), [](const auto &of) { return of.size() > 1; }));
+  return effects.size() > 1 ? pair_share / pairs
+                            : (pairs > 0.0 ? 1.0 - pair_share : 1.0) / (double(all.size()) - pairs);
+}
+
 } // namespace
+
+std::vector<std::vector<int>> hypotheses_of(const FilmBank &bank) {
+  const auto effects = int(bank.effects().size());
+  std::vector<std::vector<int>> out = {{}};
+  for (int a = 0; a < effects; ++a)
+    out.push_back({a});
+  for (int a = 0; a < effects; ++a)
+    for (int b = a + 1; b < effects; ++b)
+      out.push_back({a, b});
+  return out;
+}
+
+std::string name_of(const FilmBank &bank, const std::vector<int> &effects) {
+  std::string out;
+  for (const int effect : effects)
+    out += (out.empty() ? "" : " + ") + bank.effects()[std::size_t(effect)].name;
+  return out.empty() ? "none" : out;
+}
+
+std::vector<int> effects_of(const Material &material) {
+  std::vector<int> out;
+  for (const Acting &a : material.effects)
+    out.push_back(a.effect);
+  return out;
+}
 
 void calibrate(const FilmBank &bank, const CalibrationSettings &settings, Calibration &c) {
   std::vector<Draw> all;
   std::vector<double> logs;
-  const auto hypotheses = int(bank.effects().size()) + 1;
-  for (int h = 0; h < hypotheses; ++h)
-    for (const Draw &draw : prior_draws(bank, c.error, h - 1, settings.samples)) {
+  const auto of = hypotheses_of(bank);
+  const auto hypotheses = int(of.size());
+  for (int h = 0; h < hypotheses; ++h) {
+    const auto &effects = of[std::size_t(h)];
+    const double prior = std::log(prior_of(of, effects, settings.pair_share));
+    for (const Draw &draw :
+         prior_draws(bank, c.error, effects, settings.samples, std::uint64_t(h) + 1)) {
       all.push_back(draw);
-      logs.push_back(log_likelihood(bank, c, draw));
+      logs.push_back(prior + log_likelihood(bank, c, draw));
     }
+  }
   const double largest = *std::max_element(logs.begin(), logs.end());
   std::vector<double> weights;
   for (const double l : logs)
@@ -202,10 +246,10 @@ void calibrate(const FilmBank &bank, const CalibrationSettings &settings, Calibr
   for (int h = 0; h < hypotheses; ++h) {
     const auto first = weights.begin() + std::ptrdiff_t(h) * settings.samples,
                end = first + settings.samples;
-    const double of = std::accumulate(first, end, 0.0),
+    const double mass = std::accumulate(first, end, 0.0),
                  squares = std::inner_product(first, end, first, 0.0);
-    c.hypotheses.push_back({h == 0 ? "none" : bank.effects()[std::size_t(h - 1)].name, of / sum,
-                            squares > 0.0 ? of * of / squares : 0.0});
+    c.hypotheses.push_back({name_of(bank, of[std::size_t(h)]), mass / sum,
+                            squares > 0.0 ? mass * mass / squares : 0.0});
   }
   // Systematic resampling: the k-th draw is the first whose summed weight passes (k + 1/2) / n.
   c.draws.clear();
@@ -274,7 +318,8 @@ std::vector<std::string> warnings_of(const FilmBank &bank, const Calibration &c)
 }
 
 bool is_same_film(const Film &a, const Film &b) {
-  return a.recipe == b.recipe && std::fabs(a.loading - b.loading) <= 1e-9 * b.loading;
+  return a.recipe == b.recipe && a.sizes == b.sizes &&
+         std::fabs(a.loading - b.loading) <= 1e-9 * b.loading;
 }
 
 std::vector<Guess> missed_given_data(const FilmBank &bank, const Calibration &c, const Draw &draw,
@@ -288,14 +333,15 @@ std::vector<Guess> missed_given_data(const FilmBank &bank, const Calibration &c,
   const Vector weights = chol.solve(measured_of(c) - p.mean);
   std::vector<Guess> out;
   for (const double pressure : wanted.pressures) {
-    const Spot here = {film, wanted.number, std::log(pressure)};
+    // runs have the film's own particles
+    const Spot here = {film, wanted.number, std::log(pressure), by_bank ? wanted.film.sizes : 0.0};
     const std::vector<double> by_full_cell =
         by_bank ? bank.full_cell_errors(wanted.number, wanted.film, pressure)
                 : std::vector<double>();
     Vector with(n);
     for (Eigen::Index k = 0; k < n; ++k) {
       const Datum &d = c.data[std::size_t(k)];
-      with[k] = error_covariance(c.error, draw.missed, spot_of(d), here);
+      with[k] = error_covariance(c.error, draw.missed, spot_of(c, d), here);
       if (d.number == wanted.number)
         with[k] += product(by_full_cell, p.by_full_cell[std::size_t(k)]);
     }

@@ -37,9 +37,9 @@ struct Draw {
   Missed missed;
 };
 
-/// An effect that may act, or none.
+/// Effects that may act: none, one, or two.
 struct Weighed {
-  std::string name;
+  std::string name; ///< "none", an effect, "a + b"
   double probability = 0.0, effective_samples = 0.0;
 };
 
@@ -47,7 +47,7 @@ struct Calibration {
   std::vector<Film> films;
   std::vector<Datum> data;
   ModelError error;
-  std::vector<Weighed> hypotheses; ///< none first, then the bank's effects
+  std::vector<Weighed> hypotheses; ///< as of hypotheses_of
   std::vector<Draw> draws;         ///< of equal weight
 };
 
@@ -60,10 +60,18 @@ void add_experiment(const Experiment &experiment, const FilmBank &bank, Calibrat
 struct CalibrationSettings {
   int samples = 4096; ///< of each hypothesis, from its prior
   int draws = 400;
+  double pair_share = 0.1; ///< prior probability of all pairs of effects together
 };
 
-/// Fills hypotheses and draws from films, data and error. Each hypothesis has the same prior
-/// probability. Samples are a Sobol sequence over the priors, weighted by the likelihood of all data
+/// The effects of each hypothesis: none, each of the bank's, each pair. The last ones' amplitudes
+/// are both free, and their emulators add.
+std::vector<std::vector<int>> hypotheses_of(const FilmBank &bank);
+std::string name_of(const FilmBank &bank, const std::vector<int> &effects);
+/// The effects that act in a material.
+std::vector<int> effects_of(const Material &material);
+
+/// Fills hypotheses and draws from films, data and error. Pairs share their prior probability, the
+/// others what is left, in equal parts. Samples are a Sobol sequence over the priors, weighted by the likelihood of all data
 /// together (importance sampling): deterministic.
 void calibrate(const FilmBank &bank, const CalibrationSettings &settings, Calibration &calibration);
 

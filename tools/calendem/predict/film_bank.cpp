@@ -247,50 +247,9 @@ void FilmBank::learn_full_cell(const BankTable &table) {
   full_loading_ = recipe.loading;
 }
 
-Film FilmBank::described(const Recipe &recipe) const {
-  Film out;
-  out.name = recipe.settings.text("name");
-  out.loading = recipe.loading;
-  for (const BankParameter &p : film_) {
-    double sum = 0.0;
-    for (const std::string &key : p.keys)
-      sum += recipe.settings.number(key.substr(key.find('.') + 1));
-    out.recipe.push_back(sum / double(p.keys.size()));
-  }
-  return out;
-}
-
-Film FilmBank::film_of(const Recipe &recipe) const {
-  const Recipe bank = read_recipe(spec_.recipe_file);
-  std::map<std::string, std::string> wanted = bank.settings.all();
-  for (const BankParameter &p : film_)
-    for (const std::string &key : p.keys) {
-      const std::string bare = key.substr(key.find('.') + 1);
-      wanted[bare] = recipe.settings.text(bare);
-      if (bare.rfind("composition.", 0) == 0)
-        wanted["composition.am_weight_percent"] =
-            recipe.settings.text("composition.am_weight_percent");
-    }
-  if (const auto differs = other_electrode(wanted, recipe.settings.all()); !differs.empty())
-    throw Failure(kBadInput, fmt::format("{}: the film is not of the bank's kind; {}. Make a bank "
-                                         "of it (calendem bank; copy {} and change its recipe), "
-                                         "or predict it by runs of its own (--runs).",
-                                         recipe.file, fmt::join(differs, "; "), spec_.file));
-  return described(recipe);
-}
-
-double key_value(const FilmBank &bank, const Material &material) {
-  const std::string &name = bank.effects()[std::size_t(material.effect)].name;
-  return find_effect(name).parameter.value(material.amplitude);
-}
-
-std::vector<std::string> FilmBank::beyond(const Film &film) const {
-  std::vector<std::string> out;
-  for (std::size_t k = 0; k < film_.size(); ++k)
-    if (film.recipe[k] < film_[k].low || film.recipe[k] > film_[k].high)
-      out.push_back(fmt::format("{} is {:g}, the bank has {:g} to {:g}", film_[k].name,
-                                film.recipe[k], film_[k].low, film_[k].high));
-  return out;
+double key_value(const FilmBank &bank, const Acting &acting) {
+  const std::string &name = bank.effects()[std::size_t(acting.effect)].name;
+  return find_effect(name).parameter.value(acting.amplitude);
 }
 
 bool FilmBank::covers(double pressure) const {
@@ -343,19 +302,17 @@ std::vector<Guess> FilmBank::at_pressures(FilmNumber number, const Film &film,
                                           const Material &material) const {
   const auto n = std::size_t(number);
   const Vector x = input(film, material);
-  Vector with(x.size() + 1), strength = Vector::Zero(1);
-  if (material.effect >= 0) {
-    const inference::Parameter &q = effects_[std::size_t(material.effect)];
-    with << x, q.input(material.amplitude);
-    strength[0] = q.strength(material.amplitude);
-  }
   const double share = full_cell_share(film);
   std::vector<Guess> out;
   for (std::size_t p = 0; p < spec_.pressures.size(); ++p) {
     const inference::Mean base = base_[n][p].at(x, Vector());
     Guess g = {base.mean, base.variance};
-    if (material.effect >= 0) {
-      const inference::Mean more = with_[std::size_t(material.effect)][n][p].at(with, strength);
+    for (const Acting &a : material.effects) {
+      const inference::Parameter &q = effects_[std::size_t(a.effect)];
+      Vector with(x.size() + 1), strength(1);
+      with << x, q.input(a.amplitude);
+      strength << q.strength(a.amplitude);
+      const inference::Mean more = with_[std::size_t(a.effect)][n][p].at(with, strength);
       g.mean += more.mean;
       g.variance += more.variance;
     }

@@ -25,7 +25,7 @@ FilmNumber number_of(const std::string &name) {
 Json films_of(const FilmBank &bank, const Calibration &c) {
   Json out = Json::array();
   for (const Film &f : c.films) {
-    Json row = {{"name", f.name}, {"loading_mg_cm2", f.loading}};
+    Json row = {{"name", f.name}, {"loading_mg_cm2", f.loading}, {"sizes", f.sizes}};
     for (std::size_t k = 0; k < f.recipe.size(); ++k)
       row["recipe"][bank.film()[k].name] = f.recipe[k];
     out.push_back(row);
@@ -46,17 +46,14 @@ Json data_of(const Calibration &c) {
   return out;
 }
 
-std::string effect_name(const FilmBank &bank, int effect) {
-  return effect < 0 ? "none" : bank.effects()[std::size_t(effect)].name;
-}
-
 Json draws_of(const FilmBank &bank, const Calibration &c) {
   Json out = Json::array();
   for (const Draw &d : c.draws) {
-    Json row = {{"effect", effect_name(bank, d.material.effect)},
-                {"amplitude", d.material.amplitude},
+    Json row = {{"effects", Json::object()},
                 {"missed_sd", d.missed.sd},
                 {"missed_shared", d.missed.shared}};
+    for (const Acting &a : d.material.effects)
+      row["effects"][bank.effects()[std::size_t(a.effect)].name] = a.amplitude;
     for (std::size_t k = 0; k < bank.material().size(); ++k)
       row[bank.material()[k].name] = d.material.parameters[k];
     out.push_back(row);
@@ -138,14 +135,20 @@ Json hypotheses_of(const FilmBank &bank, const Calibration &c) {
     const Weighed &w = c.hypotheses[h];
     Json row = {{"name", w.name},
                 {"probability", w.probability},
-                {"effective_samples", w.effective_samples}};
-    std::vector<double> values;
-    for (const Draw &d : c.draws)
-      if (d.material.effect == int(h) - 1 && h > 0)
-        values.push_back(key_value(bank, d.material));
-    if (!values.empty()) {
-      row["key"] = find_effect(w.name).parameter.keys.front();
-      row.update(spread_of(values));
+                {"effective_samples", w.effective_samples},
+                {"effects", Json::array()}};
+    const std::vector<int> effects = hypotheses_of(bank)[h];
+    for (std::size_t k = 0; k < effects.size(); ++k) {
+      std::vector<double> values;
+      for (const Draw &d : c.draws)
+        if (effects_of(d.material) == effects)
+          values.push_back(key_value(bank, d.material.effects[k]));
+      if (values.empty())
+        continue;
+      const std::string &name = bank.effects()[std::size_t(effects[k])].name;
+      Json of = {{"name", name}, {"key", find_effect(name).parameter.keys.front()}};
+      of.update(spread_of(values));
+      row["effects"].push_back(of);
     }
     out.push_back(row);
   }
@@ -183,10 +186,10 @@ std::string case_of(const FilmBank &bank, const Calibration &c) {
   const auto best = std::max_element(
       c.hypotheses.begin(), c.hypotheses.end(),
       [](const Weighed &a, const Weighed &b) { return a.probability < b.probability; });
-  const int effect = int(best - c.hypotheses.begin()) - 1;
+  const std::vector<int> effects = hypotheses_of(bank)[std::size_t(best - c.hypotheses.begin())];
   std::vector<const Draw *> of;
   for (const Draw &d : c.draws)
-    if (d.material.effect == effect)
+    if (effects_of(d.material) == effects)
       of.push_back(&d);
   const auto middle = [&](const auto &value) {
     std::vector<double> values;
@@ -211,14 +214,16 @@ std::string case_of(const FilmBank &bank, const Calibration &c) {
         add(key, value);
     }
   std::string of_recipe;
-  if (effect >= 0)
-    for (const std::string &key : find_effect(best->name).parameter.keys) {
-      const double value = middle([&](const Draw &d) { return key_value(bank, d.material); });
-      if (find_effect(best->name).in_recipe)
+  for (std::size_t k = 0; k < effects.size(); ++k) {
+    const Effect effect = find_effect(bank.effects()[std::size_t(effects[k])].name);
+    const double value =
+        middle([&](const Draw &d) { return key_value(bank, d.material.effects[k]); });
+    for (const std::string &key : effect.parameter.keys)
+      if (effect.in_recipe)
         of_recipe += fmt::format("# In the recipe: {} = {:.4g}\n", key, value);
       else
         add(key, value);
-    }
+  }
   std::string out = fmt::format(
       "{} ({}, {:.0f} %): the middle of its draws, each\n"
       "# parameter by itself. Put the folder of your electrode here.\nelectrode = \"electrode\"\n",
@@ -235,13 +240,14 @@ Material material_of(const FilmBank &bank, const Json &row) {
   Material out;
   for (const inference::Parameter &p : bank.material())
     out.parameters.push_back(row.at(p.name));
-  const std::string effect = row.at("effect");
-  for (std::size_t k = 0; k < bank.effects().size(); ++k)
-    if (bank.effects()[k].name == effect)
-      out.effect = int(k);
-  if (out.effect < 0 && effect != "none")
-    throw Failure(kBadInput, fmt::format("effect '{}' is none of the bank's.", effect));
-  out.amplitude = row.at("amplitude");
+  for (const auto &[name, amplitude] : row.at("effects").items()) {
+    const auto &all = bank.effects();
+    const auto of =
+        std::find_if(all.begin(), all.end(), [&n = name](const auto &e) { return e.name == n; });
+    if (of == all.end())
+      throw Failure(kBadInput, fmt::format("effect '{}' is none of the bank's.", name));
+    out.effects.push_back({int(of - all.begin()), amplitude});
+  }
   return out;
 }
 
@@ -251,6 +257,7 @@ Calibration calibration_of(const FilmBank &bank, const Json &json) {
     Film f;
     f.name = row.at("name");
     f.loading = row.at("loading_mg_cm2");
+    f.sizes = row.at("sizes");
     for (const BankParameter &p : bank.film())
       f.recipe.push_back(row.at("recipe").at(p.name));
     out.films.push_back(f);

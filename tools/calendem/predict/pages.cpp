@@ -147,16 +147,17 @@ json left_out_part(const Json &model) {
 
 json hypotheses_part(const Json &model) {
   json rows = json::array();
-  for (const Json &h : model.at("hypotheses"))
-    rows.push_back(
-        {{"name", h["name"]},
-         {"percent", fmt::format("{:.0f}", kPercent * h["probability"].get<double>())},
-         {"value", h.contains("median")
-                       ? fmt::format("{} = {} (90 %: {} to {})", h["key"].get<std::string>(),
-                                     shown(h["median"], "{:.3g}"), shown(h["low90"], "{:.3g}"),
-                                     shown(h["high90"], "{:.3g}"))
-                       : ""},
-         {"samples", shown(h["effective_samples"], "{:.0f}")}});
+  for (const Json &h : model.at("hypotheses")) {
+    std::string values;
+    for (const Json &e : h["effects"])
+      values += fmt::format("{}{} = {} (90 %: {} to {})", values.empty() ? "" : "; ",
+                            e["key"].get<std::string>(), shown(e["median"], "{:.3g}"),
+                            shown(e["low90"], "{:.3g}"), shown(e["high90"], "{:.3g}"));
+    rows.push_back({{"name", h["name"]},
+                    {"percent", fmt::format("{:.0f}", kPercent * h["probability"].get<double>())},
+                    {"value", values},
+                    {"samples", shown(h["effective_samples"], "{:.0f}")}});
+  }
   return rows;
 }
 
@@ -343,6 +344,7 @@ Json to_json(const FilmBank &bank, const Target &t, const std::vector<Design> &d
     row["beyond"] = d.predicted.beyond;
     row["best"] = {{"pressure_MPa", d.chances[d.best].pressure},
                    {"probability", d.chances[d.best].both},
+                   {"assured", d.chances[d.best].assured},
                    {"porosity_after_percent", band_json(d.predicted.after[d.best], kPercent)},
                    {"cracked_percent", band_json(d.predicted.cracked[d.best], kPercent)},
                    {"springback_percent", band_json(d.predicted.springback[d.best], kPercent)}};
@@ -356,7 +358,8 @@ Json to_json(const FilmBank &bank, const Target &t, const std::vector<Design> &d
       row["chances"].push_back({{"pressure_MPa", c.pressure},
                                 {"porosity", c.porosity},
                                 {"cracked", c.cracked},
-                                {"both", c.both}});
+                                {"both", c.both},
+                                {"assured", c.assured}});
     out.push_back(row);
   }
   return {{"target",
@@ -393,6 +396,7 @@ std::string design_page(const Target &t, const std::vector<Design> &designs, con
     rows.push_back({{"film", d.film.name},
                     {"pressure", fmt::format("{:.0f}", d.chances[d.best].pressure)},
                     {"probability", fmt::format("{:.0f}", kPercent * d.chances[d.best].both)},
+                    {"assured", fmt::format("{:.0f}", kPercent * d.chances[d.best].assured)},
                     {"porosity", fmt::format("{:.1f} ({:.1f}–{:.1f})", kPercent * after.median,
                                              kPercent * after.low90, kPercent * after.high90)},
                     {"cracked", fmt::format("{:.0f} ({:.0f}–{:.0f})", kPercent * cracked.median,

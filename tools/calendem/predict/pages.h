@@ -23,7 +23,7 @@ struct Design {
   Film film;
   std::vector<Chance> chances;
   PredictedFilm predicted;                ///< at the same pressures
-  std::size_t best = 0;                   ///< the pressure with the largest probability of both
+  std::size_t best = 0;                   ///< as best_of
   std::optional<PredictedFilm> confirmed; ///< by runs of its own at that pressure
   Chance confirmed_chance;
 };

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <numeric>
 
 namespace calendem {
 
@@ -133,6 +134,7 @@ std::vector<Chance> chances_from(const std::vector<double> &pressures, const Gue
   for (std::size_t k = 0; k < pressures.size(); ++k) {
     Chance chance;
     chance.pressure = pressures[k];
+    std::vector<double> both;
     for (std::size_t d = 0; d < after.size(); ++d) {
       const double porosity = share_below(after[d][k], target.porosity + target.within) -
                               share_below(after[d][k], target.porosity - target.within);
@@ -140,8 +142,12 @@ std::vector<Chance> chances_from(const std::vector<double> &pressures, const Gue
           target.cracked_below >= 1.0 ? 1.0 : share_below(cracked[d][k], target.cracked_below);
       chance.porosity += porosity / double(after.size());
       chance.cracked += whole / double(after.size());
-      chance.both += porosity * whole / double(after.size());
+      both.push_back(porosity * whole);
     }
+    chance.both = std::accumulate(both.begin(), both.end(), 0.0) / double(both.size());
+    const auto least = both.begin() + std::ptrdiff_t((1.0 - kAssured) * double(both.size()));
+    std::nth_element(both.begin(), least, both.end());
+    chance.assured = *least;
     out.push_back(chance);
   }
   return out;
@@ -156,6 +162,17 @@ std::vector<Chance> chances(const FilmBank &bank, const Calibration &c, const Fi
         return under_draws(bank, c, {film, number, pressures}, pressure_sd);
       },
       target);
+}
+
+std::size_t best_of(const std::vector<Chance> &chances) {
+  constexpr double kLeast = 0.01;
+  const auto largest = [&](double Chance::*value) {
+    return std::max_element(chances.begin(), chances.end(),
+                            [&](const Chance &a, const Chance &b) { return a.*value < b.*value; });
+  };
+  const auto assured = largest(&Chance::assured);
+  return std::size_t((assured->assured < kLeast ? largest(&Chance::both) : assured) -
+                     chances.begin());
 }
 
 std::vector<double> spread_pressures(double low, double high, int count) {
@@ -317,10 +334,8 @@ Study own_runs(const FilmBank &bank, const std::vector<Draw> &draws, const Recip
     p.packing = int(points.size()) + 1;
     for (const double value : draw.material.parameters)
       p.base.push_back(four_digits(value));
-    if (draw.material.effect >= 0) {
-      p.effect = bank.effects()[std::size_t(draw.material.effect)].name;
-      p.value = four_digits(key_value(bank, draw.material));
-    }
+    for (const Acting &a : draw.material.effects)
+      p.also[bank.effects()[std::size_t(a.effect)].name] = four_digits(key_value(bank, a));
     points.push_back(p);
   }
   return bank_study(spec, points);

@@ -57,11 +57,16 @@ struct Target {
   double cracked_below = 1.0;           ///< share of the particles
 };
 
+/// Probabilities of meeting the target at a pressure.
 struct Chance {
   double pressure = 0.0;
-  double porosity = 0.0, cracked = 0.0; ///< probability of each
-  double both = 0.0;
+  double porosity = 0.0, cracked = 0.0; ///< of each, mean over the draws
+  double both = 0.0;                    ///< mean over the draws
+  double assured = 0.0;                 ///< of both, for kAssured of the draws or more
 };
+
+/// The data leave materials open; this share of them has the assured probability or more.
+constexpr double kAssured = 0.8;
 
 /// Of each pressure to meet the target.
 std::vector<Chance> chances_from(const std::vector<double> &pressures, const GuessesOf &of,
@@ -69,6 +74,10 @@ std::vector<Chance> chances_from(const std::vector<double> &pressures, const Gue
 std::vector<Chance> chances(const FilmBank &bank, const Calibration &calibration, const Film &film,
                             const std::vector<double> &pressures, double pressure_sd,
                             const Target &target);
+
+/// The pressure with the largest assured probability; where none is as much as 1 %, with the largest
+/// mean.
+std::size_t best_of(const std::vector<Chance> &chances);
 
 /// Points at equal ratios from `low` to `high`.
 std::vector<double> spread_pressures(double low, double high, int count);

@@ -245,8 +245,18 @@ std::string Making::pack(int k) {
   const WaitingLock lock(folder + ".lock");
   if (packed(k))
     return "";
+  {
+    const std::lock_guard<std::mutex> guard(guard_);
+    if (const auto before = not_packed_.find(folder); before != not_packed_.end())
+      return before->second;
+  }
   write_file(folder + ".toml", recipe_file(study_.runs[k].recipe));
-  return ended_with(run_program(command("pack", folder + ".toml", folder), folder + ".log"));
+  const std::string failed =
+      ended_with(run_program(command("pack", folder + ".toml", folder), folder + ".log"));
+  const std::lock_guard<std::mutex> guard(guard_);
+  if (!failed.empty() && !stop_requested())
+    not_packed_[folder] = failed;
+  return failed;
 }
 
 std::string Making::run(int k) {

@@ -62,6 +62,7 @@ private:
   const StudyOptions &o_;
   std::vector<RunState> states_;
   std::mutex guard_;
+  std::map<std::string, std::string> not_packed_; ///< why, by folder: other runs do not try again
 
   std::string run_folder(const RunState &s) const;
   std::string packing_folder(const RunState &s) const;

@@ -24,7 +24,8 @@ const std::vector<Key> &head_keys() {
       {"base_points", "", "48", 4, 10000, "", "without effects", "", false, true},
       {"effect_points", "", "24", 2, 10000, "", "of every effect", "", false, true},
       {"seed", "", "1", 0, 4e9, "", "of the design", "", false, true},
-      {"pressures_MPa", "", "", 0.1, 2000, "MPa", "a run for each at every point"}};
+      {"pressures_MPa", "", "", 0.1, 2000, "MPa", "a run for each at every point"},
+      {"first_point", "", "0", 0, 5000, "", "number of the first base point", "", false, true}};
   return keys;
 }
 
@@ -34,7 +35,7 @@ public:
 
   void read_head(const toml::table &t, BankSpec &out) {
     report_unknown(t, {"name", "recipe", "case", "packings", "base_points", "effect_points", "seed",
-                       "pressures_MPa", "effects"});
+                       "first_point", "pressures_MPa", "effects"});
     out.name = text(t, head_keys()[0]);
     out.recipe_file = path(t, head_keys()[1]);
     out.case_file = path(t, head_keys()[2]);
@@ -42,6 +43,7 @@ public:
     out.base_points = int(number(t, head_keys()[4]));
     out.effect_points = int(number(t, head_keys()[5]));
     out.seed = static_cast<unsigned long>(number(t, head_keys()[6]));
+    out.first_point = int(number(t, head_keys()[8]));
     if (out.effect_points > out.base_points)
       mistakes_.add(0, fmt::format("effect_points is {}, base_points {}: every point of an effect "
                                    "needs a base point of its own.",
@@ -260,14 +262,20 @@ std::vector<std::string> columns_of(const BankSpec &spec) {
   return columns;
 }
 
+std::string effect_value(const BankPoint &point, const Effect &effect) {
+  const auto also = point.also.find(effect.name);
+  if (also != point.also.end())
+    return fmt::format("{}", also->second);
+  return effect.name == point.effect ? fmt::format("{}", point.value) : effect.parameter.off;
+}
+
 std::vector<std::string> row_of(const BankSpec &spec, const BankPoint &point, double pressure) {
   std::vector<std::string> row = {fmt::format("{}", point.packing)};
   for (std::size_t k = 0; k < spec.parameters.size(); ++k)
     row.insert(row.end(), spec.parameters[k].keys.size(), fmt::format("{}", point.base[k]));
   for (const std::string &name : spec.effects)
     if (const Effect &e = find_effect(name); !e.instrument)
-      row.insert(row.end(), e.parameter.keys.size(),
-                 name == point.effect ? fmt::format("{}", point.value) : e.parameter.off);
+      row.insert(row.end(), e.parameter.keys.size(), effect_value(point, e));
   row.push_back(fmt::format("{}", pressure));
   return row;
 }
@@ -298,7 +306,7 @@ std::vector<BankPoint> bank_points(const BankSpec &spec) {
       inference::sobol_points(int(spec.parameters.size()), spec.base_points, spec.seed);
   for (int k = 0; k < spec.base_points; ++k) {
     BankPoint p;
-    p.base_point = k;
+    p.base_point = spec.first_point + k;
     p.packing = 1 + k % spec.packings;
     for (std::size_t d = 0; d < spec.parameters.size(); ++d)
       p.base.push_back(prior_value(spec.parameters[d].low, spec.parameters[d].high,

@@ -21,6 +21,7 @@ struct BankPoint {
   int packing = 1;          ///< seed
   std::vector<double> base; ///< values of the base parameters, in their units
   double value = 0.0;       ///< of the effect's key
+  std::map<std::string, double> also; ///< values of effects' keys, in runs beside a bank's
 };
 
 /// `share` (0-1) of the way from low to high; four digits, so that tables and files agree.

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Which films a bank has, and what its parameters are for them.
+#include "base/messages.h"
+#include "predict/film_bank.h"
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+
+namespace calendem {
+
+std::array<double, 3> sizes_by_volume(const Recipe &r, double largest) {
+  const boost::math::normal normal;
+  const double middle = std::log(r.median) + 3.0 * r.sigma_ln * r.sigma_ln;
+  const auto below = [&](double d) { return cdf(normal, (std::log(d) - middle) / r.sigma_ln); };
+  const double low = below(r.min_diameter), high = below(largest);
+  const auto at = [&](double share) {
+    return std::exp(middle + r.sigma_ln * quantile(normal, low + share * (high - low)));
+  };
+  return {at(0.1), at(0.5), at(0.9)};
+}
+
+namespace {
+
+constexpr double kSameInCell = 0.05, kSameInFilm = 0.2; // relative, of the percentiles
+constexpr double kSizesSaid = 0.0005;                   // error of porosity 0-1
+
+bool are_alike(const std::array<double, 3> &a, const std::array<double, 3> &b, double within) {
+  for (std::size_t k = 0; k < a.size(); ++k)
+    if (std::fabs(a[k] - b[k]) > within * b[k])
+      return false;
+  return true;
+}
+
+/// As far as the bank's cell shows it, and roughly in the whole film.
+bool has_like_particles(Recipe film, const Recipe &bank) {
+  if (!are_alike(sizes_by_volume(film, film.max_diameter), sizes_by_volume(bank, bank.max_diameter),
+                 kSameInFilm))
+    return false;
+  film.cell_x = bank.cell_x;
+  film.cell_y = bank.cell_y;
+  return are_alike(sizes_by_volume(film, film.largest_body()),
+                   sizes_by_volume(bank, bank.largest_body()), kSameInCell);
+}
+
+/// Weight of carbon and binder (0-1) and loading with which the bank's densities give the film's
+/// volumes.
+struct ByVolume {
+  double weight = 0.0, loading = 0.0;
+};
+
+ByVolume by_volume(const Recipe &film, const Recipe &bank) {
+  const double am = bank.am_density * film.am_column(),
+               cbd = bank.cbd_solid_density * film.cbd_solid_column();
+  return {cbd / (am + cbd), 0.1 * (am + cbd)};
+}
+
+bool is_composition(const std::string &key) { return key.rfind("composition.", 0) == 0; }
+
+} // namespace
+
+Film FilmBank::described(const Recipe &recipe) const {
+  const Recipe bank = read_recipe(spec_.recipe_file);
+  const bool same_solids =
+      recipe.am_density == bank.am_density && recipe.cbd_solid_density == bank.cbd_solid_density;
+  const ByVolume volumes = same_solids || recipe.am_weight >= 1.0
+                               ? ByVolume{1.0 - recipe.am_weight, recipe.loading}
+                               : by_volume(recipe, bank);
+  const double of_weight = recipe.am_weight < 1.0 ? volumes.weight / (1.0 - recipe.am_weight) : 1.0;
+  Film out;
+  out.name = recipe.settings.text("name");
+  out.loading = volumes.loading;
+  for (const BankParameter &p : film_) {
+    double sum = 0.0;
+    for (const std::string &key : p.keys) {
+      const std::string bare = key.substr(key.find('.') + 1);
+      sum += recipe.settings.number(bare) * (is_composition(bare) ? of_weight : 1.0);
+    }
+    out.recipe.push_back(sum / double(p.keys.size()));
+  }
+  if (!recipe.structure.given() && !bank.structure.given())
+    out.sizes = std::log(sizes_by_volume(recipe, recipe.max_diameter)[1] /
+                         sizes_by_volume(bank, bank.max_diameter)[1]);
+  return out;
+}
+
+Film FilmBank::film_of(const Recipe &recipe) const {
+  const Recipe bank = read_recipe(spec_.recipe_file);
+  std::map<std::string, std::string> wanted = bank.settings.all();
+  const auto any = [&](const char *key) { wanted[key] = recipe.settings.text(key); };
+  for (const BankParameter &p : film_)
+    for (const std::string &key : p.keys) {
+      const std::string bare = key.substr(key.find('.') + 1);
+      any(bare.c_str());
+      if (is_composition(bare))
+        for (const char *other :
+             {"composition.am_weight_percent", "density.am_g_cm3", "density.cbd_solid_g_cm3"})
+          any(other);
+    }
+  if (has_like_particles(recipe, bank))
+    for (const char *key : {"particles.median_um", "particles.sigma_ln"})
+      any(key);
+  if (const auto differs = other_electrode(wanted, recipe.settings.all()); !differs.empty())
+    throw Failure(kBadInput, fmt::format("{}: the film is not of the bank's kind; {}. Make a bank "
+                                         "of it (calendem bank; copy {} and change its recipe), "
+                                         "or predict it by runs of its own (--runs).",
+                                         recipe.file, fmt::join(differs, "; "), spec_.file));
+  return described(recipe);
+}
+
+std::vector<std::string> FilmBank::beyond(const Film &film) const {
+  std::vector<std::string> out;
+  for (std::size_t k = 0; k < film_.size(); ++k)
+    if (film.recipe[k] < film_[k].low || film.recipe[k] > film_[k].high)
+      out.push_back(fmt::format("{} is {:.4g}, the bank has {:g} to {:g}: extrapolated",
+                                film_[k].name, film.recipe[k], film_[k].low, film_[k].high));
+  if (const double error = kPorosityBySize * std::fabs(film.sizes); error > kSizesSaid)
+    out.push_back(fmt::format("half of the particles' volume lies below a diameter that is {:.2f} "
+                              "times the bank's: counted as an error of {:.1f} points of porosity",
+                              std::exp(film.sizes), 100.0 * error));
+  return out;
+}
+
+} // namespace calendem
