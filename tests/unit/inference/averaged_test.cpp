@@ -90,7 +90,7 @@ TEST(Averaged, IntervalsHoldBesideSomethingUnknown) {
   settings.priors.unknown = 1.0;
   settings.priors.none = 0.0;
   Coverage c;
-  for (int w = 0; w < 400; ++w) {
+  for (int w = 0; w < 200; ++w) {
     const LinearWorld world(10, 2, 0, std::uint64_t(3000 + w));
     Random random(std::uint64_t(w), 19);
     Vector scores(2);
