@@ -239,12 +239,12 @@ of_other_kind() { # "VERB" FILE TEXT...: the verb refuses the case's file in one
 kind_wrong() {
   of_other_kind run demo/electrode.toml "this is an electrode's recipe (it has 'cell', 'coating')" \
     "a case is expected here. Give this file to calendem pack"
-  of_other_kind pack demo/case.toml "this is a case" "Give it to calendem run"
+  of_other_kind pack demo/case.toml "this is a case" "Give this file to calendem run"
   of_other_kind dry demo/case.toml "this is a case" "the recipe of a film is expected here"
-  of_other_kind pack chain/film.toml "this is the recipe of a film" "Give it to calendem dry"
+  of_other_kind pack chain/film.toml "this is the recipe of a film" "Give this file to calendem dry"
   of_other_kind tomogram demo/electrode.toml "the description of a tomogram is expected here"
   of_other_kind study bank/bank.toml "this is a bank" "a study is expected here"
-  of_other_kind bank studies/cells.toml "this is a study" "Give it to calendem study"
+  of_other_kind bank studies/cells.toml "this is a study" "Give this file to calendem study"
   of_other_kind diagnose demo/case.toml "this is a case" "an experiment is expected here"
   of_other_kind "withheld make" paper/experiment.toml "this is an experiment" "compare or diagnose"
 }

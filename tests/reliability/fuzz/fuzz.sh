@@ -29,7 +29,7 @@ vtk=$(find /usr/include -maxdepth 1 -name 'vtk-9*' | head -n 1) # the Debian pac
 [ -n "$vtk" ] || { echo "skipped: no headers of VTK in /usr/include"; exit 77; }
 options+=(-isystem "$vtk")
 libraries=(-lfmt -lcrypto -lz -ltiff)
-for name in IOImage IOXML ImagingMorphological ImagingGeneral FiltersCore CommonExecutionModel CommonDataModel CommonMath \
+for name in IOImage IOXML ImagingMorphological ImagingGeneral FiltersCore CommonExecutionModel CommonDataModel CommonMath CommonMisc \
   CommonCore sys; do
   libraries+=("-lvtk$name${vtk##*/vtk}")
 done
