@@ -141,6 +141,20 @@ TEST(Bank, AnEffectMayHaveMorePoints) {
   EXPECT_THROW(spec_of(text + "[[effect]]\nname = \"friction\"\npoints = 9\n"), Failure);
 }
 
+// Numbers that begin elsewhere are all that differs.
+TEST(Bank, ItsPointsMayBeNumberedForATableThatIsJoined) {
+  const std::string effects = "effects = [\"friction\"]\n";
+  const std::vector<BankPoint> first = bank_points(spec_of(kBank + effects + kParameters)),
+                               later = bank_points(
+                                   spec_of(kBank + "first_point = 48\n" + effects + kParameters));
+  ASSERT_EQ(first.size(), later.size());
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    EXPECT_EQ(later[k].base_point, first[k].base_point + 48);
+    EXPECT_EQ(later[k].base, first[k].base);
+    EXPECT_EQ(later[k].effect, first[k].effect);
+  }
+}
+
 TEST(Bank, AnEffectMayHaveANarrowerRange) {
   const std::string effects = "effects = [\"friction\", \"pre_cracks\"]\n";
   const BankSpec spec = spec_of(kBank + effects + kParameters +

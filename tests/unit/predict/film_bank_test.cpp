@@ -4,6 +4,7 @@
 #include "support/made_coatings.h"
 #include "support/test_folder.h"
 #include <gtest/gtest.h>
+#include <map>
 
 namespace {
 using namespace calendem_test;
@@ -102,6 +103,28 @@ TEST(FilmBank, OtherParticlesAreRefused) {
     EXPECT_THROW(made_film_bank().film_of(recipe_of(std::string("[particles]\n") + sizes + "\n")),
                  Failure)
         << sizes;
+}
+
+// The table that ships is of two designs.
+TEST(FilmBank, TheShippedTableHoldsTheRunsOfItsDesigns) {
+  const std::string folder = CALENDEM_SOURCE_DIR "/input_scripts/cases/coatings/";
+  std::map<std::pair<std::string, int>, BankPoint> designed;
+  for (const char *part : {"lean.toml", "rich.toml"})
+    for (const BankPoint &p : bank_points(read_bank_spec(folder + part)))
+      designed[{p.effect, p.base_point}] = p;
+  const BankSpec whole = read_bank_spec(folder + "bank.toml");
+  int rich = 0;
+  for (const BankRow &row : read_bank_table(whole, folder + "bank.csv").rows) {
+    const std::string effect = row.point.effect == kFullCell ? "" : row.point.effect;
+    const BankPoint &p = designed.at({effect, row.point.base_point});
+    EXPECT_EQ(row.point.base, p.base);
+    EXPECT_EQ(row.point.packing, p.packing);
+    EXPECT_EQ(row.point.value, p.value);
+    for (std::size_t k = 0; k < p.base.size(); ++k)
+      EXPECT_TRUE(p.base[k] >= whole.parameters[k].low && p.base[k] <= whole.parameters[k].high);
+    rich += row.point.base_point >= 48;
+  }
+  EXPECT_EQ(rich, 60);
 }
 
 TEST(FilmBank, TooFewPressuresAreRefused) {
