@@ -3,6 +3,9 @@
 // properties from the script, by pairs of atom types (`fix property/global NAME peratomtypepair`,
 // units micro). It acts where its first property is > 0; a property that is not set is 0. A pair of
 // types may have one law.
+// To add one: its header in src_plugin/physics with the members of law_interface.h; a row below; the
+// row and the class in kContactLaws and ContactLaws, in the same place; its effect in
+// effects_of_contacts.h; then `calendem registry .`. An example: docs/tutorials/new_law.md.
 #ifndef CALENDEM_REGISTRY_CONTACT_LAW_H
 #define CALENDEM_REGISTRY_CONTACT_LAW_H
 

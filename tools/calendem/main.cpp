@@ -45,9 +45,11 @@ void add_verbs(CLI::App &app) {
   app.require_subcommand(1);
   app.set_version_flag("--version", calendem::version());
   app.footer(
-      "calendem VERB --help lists the options of a verb, and the keys of its file.\n"
-      "Examples to copy: input_scripts/cases. First steps: docs/quickstart.md.\n"
-      "Exit status: 0 done, 1 usage, 2 bad input, 3 the simulation failed, 4 a check failed.");
+      fmt::format("calendem VERB --help lists the options of a verb, and the keys of its file.\n"
+                  "Examples to copy: {}/cases\n"
+                  "Exit status: 0 done, 1 usage, 2 bad input, 3 the simulation failed, 4 a "
+                  "check failed.",
+                  calendem::input_scripts()));
   for (const Verb &verb : kVerbs) {
     verb.add(app);
     app.get_subcommands([](CLI::App *) { return true; }).back()->group(verb.group);
