@@ -70,9 +70,8 @@ std::string wrong_verb(const CLI::App &app, int argc, char **argv) {
                      word, calendem::closest(word, names));
 }
 
-} // namespace
-
-int main(int argc, char **argv) {
+/// The work of a verb, and the exit status. What goes wrong in it is thrown.
+int run(int argc, char **argv) {
   CLI::App app{"Calendering of battery electrodes: make an electrode, press it, compare it with "
                "measurements, predict others.",
                "calendem"};
@@ -88,6 +87,16 @@ int main(int argc, char **argv) {
   } catch (const CLI::ParseError &e) {
     app.exit(e);
     return calendem::kUsage;
+  }
+  return calendem::kDone;
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+  int status = calendem::kDone;
+  try {
+    status = run(argc, argv);
   } catch (const calendem::Failure &e) {
     fmt::print(stderr, "{}\n", e.what());
     return e.exit_status();
@@ -109,5 +118,5 @@ int main(int argc, char **argv) {
     fmt::print(stderr, "the output could not be written. Is the disk full?\n");
     return calendem::kBadInput;
   }
-  return calendem::kDone;
+  return status;
 }

@@ -164,9 +164,9 @@ Chart fragments(const Run &run, bool single) {
 }
 
 Chart broken_by_depth(const Run &run, bool single) {
-  Chart chart = axes("depth", titled("Broken bonds of each particle by depth", run, single),
-                     "Depth below the surface before pressing (µm)",
-                     "Broken bonds of the particle (%)");
+  Chart chart =
+      axes("depth", titled("Broken bonds of each particle by depth", run, single),
+           "Depth below the surface before pressing (µm)", "Broken bonds of the particle (%)");
   chart.series = body_points(
       run, [](const Columns &b, std::size_t i) { return b.at("depth_um")[i]; },
       [](const Columns &b, std::size_t i) { return kPercent * b.at("broken_fraction")[i]; });
