@@ -80,6 +80,7 @@ Judged judge_unknown(const Problem &problem, const WhichSettings &settings,
     sum += std::exp(t.log_mass - top);
   for (const Term &t : terms)
     best.of_place[t.place] += std::exp(t.log_mass - top) / sum;
+  best.below_limits = best.of_place[kUnseenPlace]; // more of it once limits are known
   best.base_draws = over_places(terms, best.of_place);
   const double shift = top + std::log(sum) - best.evidence.log_evidence;
   best.evidence.log_evidence += shift;
@@ -134,6 +135,7 @@ Which which(const Problem &problem, const WhichSettings &settings) {
   Which w;
   const Matrix nothing;
   w.judged.push_back(judge(problem, {Hypothesis::none, {}, "none", 0.0}, nothing, settings));
+  w.judged[0].below_limits = 1.0;
   w.base = linearise(problem, w.judged[0].evidence.mode);
   if (settings.noise)
     w.judged.push_back(judge(problem, {Hypothesis::noise, {}, "noise", 0.0}, nothing, settings));
