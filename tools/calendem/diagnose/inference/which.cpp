@@ -37,22 +37,27 @@ Judged judge(const Problem &problem, const Hypothesis &hypothesis, const Matrix 
 struct Term {
   std::string place;
   double log_mass = 0.0; ///< ln of its share of the prior times its evidence
-  Matrix base_draws;
+  Judged judged;
+  Matrix anywhere;
 };
 
 /// Draws of the base parameters over all places, each as often as it is probable.
-Matrix over_places(const std::vector<Term> &terms, const std::map<std::string, double> &of_place) {
-  const Eigen::Index count = terms.front().base_draws.cols();
-  Matrix out(terms.front().base_draws.rows(), count);
+Matrix over_places(const Problem &problem, const Linearised &base, const std::vector<Term> &terms,
+                   const std::map<std::string, double> &of_place) {
+  const Eigen::Index count = terms.front().judged.evidence.draws.cols();
+  Matrix out(problem.base_parameters, count);
   double passed = 0.0;
   Eigen::Index next = 0;
   for (const Term &t : terms) {
     passed += of_place.at(t.place);
-    for (; next < count && (double(next) + 0.5) / double(count) <= passed; ++next)
-      out.col(next) = t.base_draws.col(next);
+    const bool last = &t == &terms.back();
+    const Eigen::Index first = next;
+    while (next < count && (last || (double(next) + 0.5) / double(count) <= passed))
+      ++next;
+    if (next > first)
+      out.middleCols(first, next - first) =
+          base_beside_unknown(problem, base, t.judged, t.anywhere).middleCols(first, next - first);
   }
-  for (; next < count; ++next) // rounding of the last
-    out.col(next) = terms.back().base_draws.col(next);
   return out;
 }
 
@@ -69,7 +74,7 @@ Judged judge_unknown(const Problem &problem, const WhichSettings &settings,
     here.hypothesis = place.hypothesis;
     here.place = place.name;
     const double mass = std::log(place.share) + here.evidence.log_evidence;
-    terms.push_back({place.name, mass, base_beside_unknown(problem, w.base, here, place.anywhere)});
+    terms.push_back({place.name, mass, here, place.anywhere});
     if (unseen || !(mass > top))
       continue;
     top = mass;
@@ -81,7 +86,7 @@ Judged judge_unknown(const Problem &problem, const WhichSettings &settings,
   for (const Term &t : terms)
     best.of_place[t.place] += std::exp(t.log_mass - top) / sum;
   best.below_limits = best.of_place[kUnseenPlace]; // more of it once limits are known
-  best.base_draws = over_places(terms, best.of_place);
+  best.base_draws = over_places(problem, w.base, terms, best.of_place);
   const double shift = top + std::log(sum) - best.evidence.log_evidence;
   best.evidence.log_evidence += shift;
   best.evidence.laplace += shift;
