@@ -43,6 +43,13 @@ grep -q "MPa meets the target with .* % (assured: .* %)" design.log || fail "no 
 calendem calibrate "${films[@]}" "$cases/real/blb_nmc111_90/experiment.toml" -o three --bank "$cases/coatings/bank.toml" >three.log
 grep -q "1.09 times the bank's: counted as an error of 0.6 points" three.log || fail "its particles are not remarked on"
 [ "$(grep -c 'MPa  measured .* predicted' three.log)" = 9 ] || fail "three films do not give nine predictions"
+[ -e three/case_2.toml ] || fail "the second material has no case"
+calendem predict three/model.json film.toml --pressure 80 --material "ARTISTIC NMC111" -o of_one >/dev/null || fail "predict of a material"
+calendem predict three/model.json film.toml --pressure 80 --material other -o of_other >/dev/null || fail "predict of another"
+width() { awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
+  { print $at["porosity_after_percent_high90"] - $at["porosity_after_percent_low90"] }' "$1/prediction.csv"; }
+awk -v one="$(width of_one)" -v other="$(width of_other)" 'BEGIN { exit !(other > one) }' ||
+  fail "a material that was not measured is predicted more surely than one that was: $(width of_other), $(width of_one)"
 for page in model/model.html prediction/prediction.html design/design.html; do
   sed '/<script type="application.json" id="data">/,$d' $page | grep -q '{{\|https\?:\| src=' && fail "$page is not whole"
 done
@@ -67,6 +74,8 @@ sed 's/^median_um.*/median_um = 9/' "$cases/real/blb_nmc111_90/electrode.toml" >
 sed 's/electrode.toml/coarse.toml/' "$cases/real/blb_nmc111_90/experiment.toml" >coarse_pressed.toml
 refuses "the film is not of the bank's kind" calibrate coarse_pressed.toml --bank "$cases/coatings/bank.toml"
 sed 's/"hash": "[0-9a-f]*"/"hash": "0"/' model/model.json >changed.json
+refuses "--material is needed; the model has 'ARTISTIC NMC111', 'BLB NMC111'" predict three/model.json film.toml
+refuses "--material is 'ARTISTIC'; the model has" predict three/model.json film.toml --material ARTISTIC
 refuses "has changed since the model was calibrated" design changed.json film.toml --porosity 30
 
 # A film of another kind is predicted by runs of its own, which are there the second time.

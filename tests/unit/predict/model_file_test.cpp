@@ -75,6 +75,30 @@ TEST(ModelFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(m.json["left_out"].size(), 3u);
 }
 
+TEST(ModelFile, EveryMaterialIsReadBackAndHasItsCase) {
+  OnDisk d;
+  d.calibration.materials = {"first", "second"};
+  d.calibration.films[1].material = 1;
+  CalibrationSettings settings;
+  settings.samples = 256;
+  settings.draws = 50;
+  calibrate(d.bank, settings, d.calibration);
+  write_file(d.file, to_json(d.bank, d.calibration, {}).dump(1));
+  const Model m = read_model(d.file);
+  EXPECT_EQ(m.calibration.materials, d.calibration.materials);
+  EXPECT_EQ(m.calibration.films[1].material, 1);
+  ASSERT_EQ(m.calibration.draws[7].materials.size(), 3u);
+  EXPECT_EQ(m.calibration.draws[7].alike, d.calibration.draws[7].alike);
+  EXPECT_EQ(m.calibration.draws[7].materials[2].parameters,
+            d.calibration.draws[7].materials[2].parameters);
+  EXPECT_NE(case_of(m.bank, m.calibration, 0), case_of(m.bank, m.calibration, 1));
+  EXPECT_NE(case_of(m.bank, m.calibration, 1).find("calibration, second"), std::string::npos);
+  nlohmann::ordered_json lacks = m.json;
+  lacks["draws"][7]["materials"].erase(1);
+  write_file(d.file, lacks.dump(1));
+  EXPECT_NE(refusal(d.file).find("2 materials; it must have 3"), std::string::npos);
+}
+
 TEST(ModelFile, WhatIsNoModelOrHasAnotherBankIsRefused) {
   const OnDisk d;
   const std::string whole = text_of_file(d.file);
@@ -91,7 +115,7 @@ TEST(ModelFile, WhatIsNoModelOrHasAnotherBankIsRefused) {
 
 TEST(ModelFile, TheCaseIsOneThatRunTakes) {
   const OnDisk d;
-  const std::string text = case_of(d.bank, d.calibration);
+  const std::string text = case_of(d.bank, d.calibration, 0);
   for (const char *part : {"[material.am]", "youngs_modulus_GPa = ", "[bond]",
                            "tensile_strength_MPa = ", "shear_strength_MPa = "})
     EXPECT_NE(text.find(part), std::string::npos) << text;

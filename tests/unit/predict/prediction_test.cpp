@@ -11,7 +11,7 @@ using namespace calendem_test;
 Calibration exact() {
   Calibration c;
   c.error = {0.0, 0.001, 0.002, 0.1};
-  c.draws = {{{{190.0, 2.4, 480.0}, {}}, {0.001, 0.5}}};
+  c.draws = {{{{{190.0, 2.4, 480.0}, {}}}, {0.001, 0.5}}};
   return c;
 }
 
@@ -67,7 +67,7 @@ TEST(GivenData, IsTheEmulatorAndWhatTheModelMisses) {
   Calibration c = exact();
   const Film film = made_film("measured", 46.0, 2.0);
   c.films = {film};
-  const Material &material = c.draws.front().material;
+  const Material &material = c.draws.front().materials[0];
   const FilmBank &bank = made_film_bank();
   const double expected =
       bank.at(bank.at_pressures(FilmNumber::PorosityAfter, film, material), 80.0).mean;
@@ -77,7 +77,7 @@ TEST(GivenData, IsTheEmulatorAndWhatTheModelMisses) {
   const auto all = given_data(made_film_bank(), c, c.draws.front(), wanted);
   const auto missed = missed_given_data(made_film_bank(), c, c.draws.front(), wanted, false);
   const auto curve =
-      made_film_bank().at_pressures(wanted.number, wanted.film, c.draws.front().material);
+      made_film_bank().at_pressures(wanted.number, wanted.film, c.draws.front().materials[0]);
   for (std::size_t k = 0; k < 2; ++k) {
     const Guess g = made_film_bank().at(curve, wanted.pressures[k]);
     EXPECT_NEAR(all[k].mean, g.mean + missed[k].mean, 1e-12);
@@ -93,13 +93,13 @@ TEST(OwnRuns, EveryDrawHasItsMaterialItsPackingAndThePressures) {
   Calibration c = exact();
   c.draws.clear();
   for (int k = 0; k < 100; ++k)
-    c.draws.push_back(
-        {{{150.0 + k, 2.0, 400.0}, k < 50 ? std::vector<Acting>() : std::vector<Acting>{{0, 0.4}}},
-         {0.001, 0.5}});
+    c.draws.push_back({{{{150.0 + k, 2.0, 400.0},
+                         k < 50 ? std::vector<Acting>() : std::vector<Acting>{{0, 0.4}}}},
+                       {0.001, 0.5}});
   const std::vector<Draw> draws = some_draws(c, 4);
   ASSERT_EQ(draws.size(), 4u);
-  EXPECT_EQ(draws[0].material.parameters[0], 162.0);
-  EXPECT_EQ(draws[3].material.parameters[0], 237.0);
+  EXPECT_EQ(draws[0].materials[0].parameters[0], 162.0);
+  EXPECT_EQ(draws[3].materials[0].parameters[0], 237.0);
   const auto file = calendem_test::test_folder() / "other.toml";
   std::ofstream(file)
       << "name = \"other\"\n[particles]\nsigma_ln = 0.3\n[cell]\nx_um = 7\ny_um = 7\n";
@@ -107,7 +107,7 @@ TEST(OwnRuns, EveryDrawHasItsMaterialItsPackingAndThePressures) {
   const FilmBank &bank = made_film_bank();
   EXPECT_THROW(bank.film_of(recipe), Failure);
   EXPECT_EQ(bank.described(recipe).recipe.front(), 47.97);
-  const Study study = own_runs(bank, draws, recipe, {10.0, 400.0});
+  const Study study = own_runs(bank, draws, recipe, 0, {10.0, 400.0});
   ASSERT_EQ(study.runs.size(), 8u);
   const StudyRun &last = study.runs.back();
   EXPECT_EQ(last.recipe.seed, 4u);
@@ -116,7 +116,7 @@ TEST(OwnRuns, EveryDrawHasItsMaterialItsPackingAndThePressures) {
   EXPECT_EQ(last.settings.number("material.am.youngs_modulus_GPa"), 237.0);
   EXPECT_EQ(last.settings.number("bond.shear_strength_MPa"), 400.0);
   EXPECT_NEAR(last.settings.number("effects.nmc_plasticity.yield_pressure_GPa"),
-              key_value(bank, draws[3].material.effects[0]), 1e-3);
+              key_value(bank, draws[3].materials[0].effects[0]), 1e-3);
   EXPECT_EQ(study.runs.front().settings.number("effects.nmc_plasticity.yield_pressure_GPa"), 0.0);
 }
 

@@ -55,6 +55,10 @@ const std::vector<Key> &head_keys() {
        "pressure"},
       {"specimen_thickness_percent", "", "1", 0, 20, "%",
        "standard deviation of the thickness between specimens, where compared in um"},
+      {"material", "", "-", 0, 0, "",
+       "name of the powder and binder, for calibrate: films of one material share its parameters, "
+       "those of others have similar ones. Default: all that name none are of one material",
+       "", true},
   };
   return keys;
 }

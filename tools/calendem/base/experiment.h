@@ -41,6 +41,7 @@ struct Condition {
 struct Experiment {
   std::string name;
   std::string electrode; ///< absolute path of the recipe
+  std::string material;  ///< of the coating; empty: not named
   Recipe recipe;
   double sample_diameter_mm = 0.0; ///< 0: not given; so are the foil's
   double foil_thickness_um = 0.0;

@@ -83,6 +83,7 @@ private:
     e_.on_press = text(head, head_keys()[8]) == "press";
     e_.specimen_porosity_points = of_specimen(head, head_keys()[9]);
     e_.specimen_thickness_percent = of_specimen(head, head_keys()[10]);
+    e_.material = text(head, head_keys()[11]);
     if (e_.labels_cbd == e_.labels_pore)
       mistakes_.add(line_of(*head.get("labels_cbd")),
                     fmt::format("labels_cbd and labels_pore are both {}: the label of CBD is that "

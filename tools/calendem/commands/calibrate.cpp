@@ -31,7 +31,11 @@ void run_calibrate(const CalibrateOptions &o) {
   for (const std::string &file : o.experiments)
     add_experiment(read_experiment(file), bank, c, not_said);
   make_output_folder(o.folder);
-  must_be_ours(o.folder + "/case.toml", kHeadOfCase);
+  std::vector<std::string> cases;
+  for (std::size_t m = 0; m < c.materials.size(); ++m) {
+    cases.push_back(o.folder + (m == 0 ? "/case.toml" : fmt::format("/case_{}.toml", m + 1)));
+    must_be_ours(cases.back(), kHeadOfCase);
+  }
   fmt::print("calibrate: {} films, {} numbers\n", c.films.size(), c.data.size());
   calibrate(bank, o.settings, c);
   for (const std::string &text : warnings_of(bank, c))
@@ -42,7 +46,8 @@ void run_calibrate(const CalibrateOptions &o) {
     model["provenance"]["experiments"].push_back({{"file", file}, {"hash", hash_of_file(file)}});
   model["not_said"] = not_said;
   write_file(o.folder + "/model.json", model.dump(1) + "\n");
-  write_file(o.folder + "/case.toml", case_of(bank, c));
+  for (std::size_t m = 0; m < c.materials.size(); ++m)
+    write_file(cases[m], case_of(bank, c, m));
   write_file(o.folder + "/model.html", model_page(bank, c, model));
   for (const Weighed &w : c.hypotheses)
     fmt::print("  {:<24} {:5.1f} %   ({:.0f} effective samples)\n", w.name,
@@ -57,7 +62,9 @@ void run_calibrate(const CalibrateOptions &o) {
                kPercent * r.rules.at("Heckel"), kPercent * r.rules.at("Meyer"));
   for (const std::string &text : not_said)
     fmt::print("- {}\n", text);
-  fmt::print("page: {0}/model.html\nmodel: {0}/model.json\ncase: {0}/case.toml\n", o.folder);
+  fmt::print("page: {0}/model.html\nmodel: {0}/model.json\n", o.folder);
+  for (std::size_t m = 0; m < c.materials.size(); ++m)
+    fmt::print("case: {}{}\n", cases[m], c.materials.size() > 1 ? ", " + c.materials[m] : "");
 }
 
 } // namespace

@@ -19,7 +19,7 @@ constexpr double kPercent = 100.0;
 struct PredictOptions {
   std::string model, folder;
   std::vector<std::string> recipes, vary;
-  std::string pressures;
+  std::string pressures, material;
   double press_percent = 0.0;
   double porosity = 0.0, within = 1.0, cracked_below = 100.0;
   int runs = 0; ///< of each film's own at each pressure; 0: the bank's emulators
@@ -119,16 +119,42 @@ std::vector<Film> varied(std::vector<Film> films, const std::vector<std::string>
 
 struct Asked {
   Model model;
+  int material = 0; ///< place in Draw::materials
   std::vector<Film> films;
   std::vector<double> pressures;
 };
 
+constexpr const char *kOther = "other";
+
+/// Which of a model's materials the films are of.
+int material_of(const PredictOptions &o, const std::vector<std::string> &names) {
+  if (o.material.empty() && names.size() == 1)
+    return 0;
+  if (o.material == kOther)
+    return int(names.size());
+  const auto at = std::find(names.begin(), names.end(), o.material);
+  if (at == names.end())
+    throw Failure(kBadInput,
+                  fmt::format("--material {}; the model has '{}'. Say which of them the films are "
+                              "of, or '{}' for one that was not measured.",
+                              o.material.empty() ? "is needed" : "is '" + o.material + "'",
+                              fmt::join(names, "', '"), kOther));
+  return int(at - names.begin());
+}
+
+Asked of_model(const PredictOptions &o) {
+  Asked out = {read_model(o.model), 0, {}, pressures_of(o.pressures)};
+  out.material = material_of(o, out.model.calibration.materials);
+  return out;
+}
+
 Asked asked(const PredictOptions &o) {
-  Asked out = {read_model(o.model), {}, {}};
-  for (const std::string &file : o.recipes)
+  Asked out = of_model(o);
+  for (const std::string &file : o.recipes) {
     out.films.push_back(out.model.bank.film_of(read_recipe(file)));
+    out.films.back().material = out.material;
+  }
   out.films = varied(out.films, o.vary, out.model.bank);
-  out.pressures = pressures_of(o.pressures);
   check_covered(out.pressures, out.model.bank);
   return out;
 }
@@ -158,8 +184,8 @@ ByRuns run_film(const Asked &a, const PredictOptions &o, std::size_t recipe,
   study.folder = fmt::format("{}/runs/{}", o.folder, recipe + 1);
   fmt::print("{}: {}: {} runs, {} draws of the material at {} pressures\n", study.verb,
              o.recipes[recipe], o.runs * pressures.size(), o.runs, pressures.size());
-  return by_runs(a.model.bank, a.model.calibration, read_recipe(o.recipes[recipe]), pressures,
-                 o.press_percent / kPercent, o.runs, study);
+  return by_runs(a.model.bank, a.model.calibration, read_recipe(o.recipes[recipe]), a.material,
+                 pressures, o.press_percent / kPercent, o.runs, study);
 }
 
 /// What could not be run of a recipe; the others go on.
@@ -202,7 +228,7 @@ std::vector<PredictedFilm> films_by_runs(const Asked &a, const PredictOptions &o
 }
 
 void run_predict(const PredictOptions &o) {
-  const Asked a = o.runs > 0 ? Asked{read_model(o.model), {}, pressures_of(o.pressures)} : asked(o);
+  const Asked a = o.runs > 0 ? of_model(o) : asked(o);
   Missed missed;
   const std::vector<PredictedFilm> films =
       o.runs > 0 ? films_by_runs(a, o, missed) : by_emulators(a, o);
@@ -328,6 +354,9 @@ void add_common_options(CLI::App &verb, PredictOptions &o) {
   verb.add_option("--vary", o.vary,
                   "NAME=VALUE,VALUE: the recipes with these values of one of the bank's parameters "
                   "of films; several: every combination");
+  verb.add_option("--material", o.material,
+                  "name of the films' material, where the model was calibrated on several; other: "
+                  "one that was not measured");
   verb.add_option("--press-percent", o.press_percent,
                   "standard deviation of the press's pressure [%]; default 0: as asked for")
       ->check(finite_range(0.0, 50.0));

@@ -36,8 +36,14 @@ void add_datum(const Condition &c, FilmNumber number, const Measured &value, dou
 void add_experiment(const Experiment &experiment, const FilmBank &bank, Calibration &to,
                     std::vector<std::string> &not_said) {
   const std::size_t before = to.data.size();
+  if (to.films.empty())
+    to.materials.clear();
   to.films.push_back(bank.film_of(experiment.recipe));
   to.films.back().name = experiment.name;
+  const auto known = std::find(to.materials.begin(), to.materials.end(), experiment.material);
+  to.films.back().material = int(known - to.materials.begin());
+  if (known == to.materials.end())
+    to.materials.push_back(experiment.material);
   for (const std::string &why : bank.beyond(to.films.back()))
     not_said.push_back(fmt::format("{}: {}.", experiment.name, why));
   for (const Condition &c : experiment.conditions) {
@@ -65,19 +71,21 @@ namespace {
 
 /// Where a number is asked for.
 struct Spot {
-  int film;
+  int film, material;
   FilmNumber number;
   double log_pressure, sizes;
 };
 
-/// A part of what the model misses is common to all films; it changes over a factor e of pressure.
-/// One shift of the bank's numerics is common to all porosities, and one slope with the particles'
-/// size to all films.
-double error_covariance(const ModelError &e, const Missed &missed, const Spot &a, const Spot &b) {
+/// A part of what the model misses is common to all films of one material, and less of it to others;
+/// it changes over a factor e of pressure. One shift of the bank's numerics is common to all
+/// porosities, and one slope with the particles' size to all films.
+double error_covariance(const ModelError &e, const Draw &draw, const Spot &a, const Spot &b) {
   if (a.number != b.number)
     return 0.0;
+  const Missed &missed = draw.missed;
   const double off = a.log_pressure - b.log_pressure;
-  const double alike = std::exp(-0.5 * off * off) * (a.film == b.film ? 1.0 : missed.shared);
+  const double between = missed.shared * (a.material == b.material ? 1.0 : draw.alike);
+  const double alike = std::exp(-0.5 * off * off) * (a.film == b.film ? 1.0 : between);
   switch (a.number) {
   case FilmNumber::PorosityAfter:
     return e.numerics * e.numerics + missed.sd * missed.sd * alike +
@@ -92,7 +100,8 @@ double error_covariance(const ModelError &e, const Missed &missed, const Spot &a
 }
 
 Spot spot_of(const Calibration &c, const Datum &d) {
-  return {d.film, d.number, std::log(d.pressure), c.films[std::size_t(d.film)].sizes};
+  const Film &film = c.films[std::size_t(d.film)];
+  return {d.film, film.material, d.number, std::log(d.pressure), film.sizes};
 }
 
 /// Emulated values of the data, and what is uncertain about them but for the measurement.
@@ -105,15 +114,16 @@ double product(const std::vector<double> &a, const std::vector<double> &b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
-Predicted predicted_data(const FilmBank &bank, const Calibration &c, const Material &material) {
+Predicted predicted_data(const FilmBank &bank, const Calibration &c, const Draw &draw) {
   const auto n = Eigen::Index(c.data.size());
   Predicted out = {Vector(n), Vector(n), Vector(n), {}};
   std::map<std::pair<int, FilmNumber>, std::vector<Guess>> curves;
   for (Eigen::Index k = 0; k < n; ++k) {
     const Datum &d = c.data[std::size_t(k)];
+    const Film &film = c.films[std::size_t(d.film)];
     auto [at, is_new] = curves.try_emplace({d.film, d.number});
     if (is_new)
-      at->second = bank.at_pressures(d.number, c.films[std::size_t(d.film)], material);
+      at->second = bank.at_pressures(d.number, film, draw.of(film));
     const Guess g = bank.at(at->second, d.pressure);
     out.mean[k] = g.mean;
     out.variance[k] = g.variance;
@@ -121,20 +131,19 @@ Predicted predicted_data(const FilmBank &bank, const Calibration &c, const Mater
     const double slope = (bank.at(at->second, above).mean - bank.at(at->second, below).mean) /
                          std::log(above / below);
     out.by_pressure[k] = slope * d.pressure_sd;
-    out.by_full_cell.push_back(
-        bank.full_cell_errors(d.number, c.films[std::size_t(d.film)], d.pressure));
+    out.by_full_cell.push_back(bank.full_cell_errors(d.number, film, d.pressure));
   }
   return out;
 }
 
 /// Of measured - predicted.
-Matrix covariance_of(const Calibration &c, const Predicted &p, const Missed &missed) {
+Matrix covariance_of(const Calibration &c, const Predicted &p, const Draw &draw) {
   const auto n = Eigen::Index(c.data.size());
   Matrix out(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) {
       const Datum &a = c.data[std::size_t(i)], &b = c.data[std::size_t(j)];
-      out(i, j) = error_covariance(c.error, missed, spot_of(c, a), spot_of(c, b));
+      out(i, j) = error_covariance(c.error, draw, spot_of(c, a), spot_of(c, b));
       if (a.film == b.film)
         out(i, j) += p.by_pressure[i] * p.by_pressure[j];
       if (a.number == b.number)
@@ -152,113 +161,19 @@ Vector measured_of(const Calibration &c) {
   return out;
 }
 
+} // namespace
+
 double log_likelihood(const FilmBank &bank, const Calibration &c, const Draw &draw) {
-  const Predicted p = predicted_data(bank, c, draw.material);
-  const Cholesky chol(covariance_of(c, p, draw.missed));
+  if (c.data.empty())
+    return 0.0;
+  const Predicted p = predicted_data(bank, c, draw);
+  const Cholesky chol(covariance_of(c, p, draw));
   const Vector off = chol.matrixL().solve(measured_of(c) - p.mean);
   return -0.5 * off.squaredNorm() - Matrix(chol.matrixL()).diagonal().array().log().sum();
 }
 
-/// Prior of the model's own error.
 inference::Prior discrepancy_of(const ModelError &error) {
   return {inference::Prior::log_uniform, error.low, error.high};
-}
-
-/// Samples of one hypothesis, from its prior.
-std::vector<Draw> prior_draws(const FilmBank &bank, const ModelError &error,
-                              const std::vector<int> &effects, int count, std::uint64_t seed) {
-  const auto d = int(bank.material().size());
-  const Matrix scores = inference::sobol_normals(d + 2 + int(effects.size()), count, seed);
-  const inference::Prior discrepancy = discrepancy_of(error),
-                         shared = {inference::Prior::uniform, 0.0, 1.0};
-  std::vector<Draw> out{std::size_t(count)};
-  for (int k = 0; k < count; ++k) {
-    Draw &draw = out[std::size_t(k)];
-    for (int j = 0; j < d; ++j)
-      draw.material.parameters.push_back(bank.material()[std::size_t(j)].prior.value(scores(j, k)));
-    draw.missed.sd = discrepancy.value(scores(d, k));
-    draw.missed.shared = shared.value(scores(d + 1, k));
-    for (int j = 0; j < int(effects.size()); ++j) {
-      const int effect = effects[std::size_t(j)];
-      draw.material.effects.push_back(
-          {effect, bank.effects()[std::size_t(effect)].prior.value(scores(d + 2 + j, k))});
-    }
-  }
-  return out;
-}
-
-/// Of a hypothesis that is as probable before the data as all others of as many effects.
-double prior_of(const std::vector<std::vector<int>> &all, const std::vector<int> &effects,
-                double pair_share) {
-  const auto pairs =
-      double(std::count_if(all.begin(), all.end(), [](const auto &of) { return of.size() > 1; }));
-  return effects.size() > 1 ? pair_share / pairs
-                            : (pairs > 0.0 ? 1.0 - pair_share : 1.0) / (double(all.size()) - pairs);
-}
-
-} // namespace
-
-std::vector<std::vector<int>> hypotheses_of(const FilmBank &bank) {
-  const auto effects = int(bank.effects().size());
-  std::vector<std::vector<int>> out = {{}};
-  for (int a = 0; a < effects; ++a)
-    out.push_back({a});
-  for (int a = 0; a < effects; ++a)
-    for (int b = a + 1; b < effects; ++b)
-      out.push_back({a, b});
-  return out;
-}
-
-std::string name_of(const FilmBank &bank, const std::vector<int> &effects) {
-  std::string out;
-  for (const int effect : effects)
-    out += (out.empty() ? "" : " + ") + bank.effects()[std::size_t(effect)].name;
-  return out.empty() ? "none" : out;
-}
-
-std::vector<int> effects_of(const Material &material) {
-  std::vector<int> out;
-  for (const Acting &a : material.effects)
-    out.push_back(a.effect);
-  return out;
-}
-
-void calibrate(const FilmBank &bank, const CalibrationSettings &settings, Calibration &c) {
-  std::vector<Draw> all;
-  std::vector<double> logs;
-  const auto of = hypotheses_of(bank);
-  const auto hypotheses = int(of.size());
-  for (int h = 0; h < hypotheses; ++h) {
-    const auto &effects = of[std::size_t(h)];
-    const double prior = std::log(prior_of(of, effects, settings.pair_share));
-    for (const Draw &draw :
-         prior_draws(bank, c.error, effects, settings.samples, std::uint64_t(h) + 1)) {
-      all.push_back(draw);
-      logs.push_back(prior + log_likelihood(bank, c, draw));
-    }
-  }
-  const double largest = *std::max_element(logs.begin(), logs.end());
-  std::vector<double> weights;
-  for (const double l : logs)
-    weights.push_back(std::exp(l - largest));
-  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-  c.hypotheses.clear();
-  for (int h = 0; h < hypotheses; ++h) {
-    const auto first = weights.begin() + std::ptrdiff_t(h) * settings.samples,
-               end = first + settings.samples;
-    const double mass = std::accumulate(first, end, 0.0),
-                 squares = std::inner_product(first, end, first, 0.0);
-    c.hypotheses.push_back({name_of(bank, of[std::size_t(h)]), mass / sum,
-                            squares > 0.0 ? mass * mass / squares : 0.0});
-  }
-  // Systematic resampling: the k-th draw is the first whose summed weight passes (k + 1/2) / n.
-  c.draws.clear();
-  double passed = 0.0;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    passed += weights[k] / sum * settings.draws;
-    while (double(c.draws.size()) + 0.5 < passed && int(c.draws.size()) < settings.draws)
-      c.draws.push_back(all[k]);
-  }
 }
 
 namespace {
@@ -294,16 +209,18 @@ int end_of_range(const std::vector<Draw> &draws, const inference::Prior &prior,
 
 std::vector<std::string> warnings_of(const FilmBank &bank, const Calibration &c) {
   std::vector<std::string> out;
-  for (std::size_t k = 0; k < bank.material().size(); ++k) {
-    const inference::Parameter &p = bank.material()[k];
-    const int end =
-        end_of_range(c.draws, p.prior, [&](const Draw &d) { return d.material.parameters[k]; });
-    if (end != 0)
-      out.push_back(
-          fmt::format("{} lies at the {} end of the bank's range, {:g} to {:g}: a material "
-                      "outside it may fit better, or the model lacks something.",
-                      p.name, end < 0 ? "lower" : "upper", p.prior.a, p.prior.b));
-  }
+  for (std::size_t m = 0; m < c.materials.size(); ++m)
+    for (std::size_t k = 0; k < bank.material().size(); ++k) {
+      const inference::Parameter &p = bank.material()[k];
+      const int end = end_of_range(c.draws, p.prior,
+                                   [&](const Draw &d) { return d.materials[m].parameters[k]; });
+      if (end != 0)
+        out.push_back(
+            fmt::format("{}{} lies at the {} end of the bank's range, {:g} to {:g}: a "
+                        "material outside it may fit better, or the model lacks something.",
+                        c.materials.size() > 1 ? c.materials[m] + ": " : "", p.name,
+                        end < 0 ? "lower" : "upper", p.prior.a, p.prior.b));
+    }
   const inference::Prior missed = discrepancy_of(c.error);
   if (end_of_range(c.draws, missed, [](const Draw &d) { return d.missed.sd; }) > 0)
     out.push_back(fmt::format("No material of the bank comes near these data: what the model "
@@ -318,7 +235,7 @@ std::vector<std::string> warnings_of(const FilmBank &bank, const Calibration &c)
 }
 
 bool is_same_film(const Film &a, const Film &b) {
-  return a.recipe == b.recipe && a.sizes == b.sizes &&
+  return a.material == b.material && a.recipe == b.recipe && a.sizes == b.sizes &&
          std::fabs(a.loading - b.loading) <= 1e-9 * b.loading;
 }
 
@@ -328,24 +245,25 @@ std::vector<Guess> missed_given_data(const FilmBank &bank, const Calibration &c,
                                   [&](const Film &f) { return is_same_film(f, wanted.film); });
   const int film = known == c.films.end() ? -1 : int(known - c.films.begin());
   const auto n = Eigen::Index(c.data.size());
-  const Predicted p = predicted_data(bank, c, draw.material);
-  const Cholesky chol(covariance_of(c, p, draw.missed));
+  const Predicted p = predicted_data(bank, c, draw);
+  const Cholesky chol(covariance_of(c, p, draw));
   const Vector weights = chol.solve(measured_of(c) - p.mean);
   std::vector<Guess> out;
   for (const double pressure : wanted.pressures) {
     // runs have the film's own particles
-    const Spot here = {film, wanted.number, std::log(pressure), by_bank ? wanted.film.sizes : 0.0};
+    const Spot here = {film, wanted.film.material, wanted.number, std::log(pressure),
+                       by_bank ? wanted.film.sizes : 0.0};
     const std::vector<double> by_full_cell =
         by_bank ? bank.full_cell_errors(wanted.number, wanted.film, pressure)
                 : std::vector<double>();
     Vector with(n);
     for (Eigen::Index k = 0; k < n; ++k) {
       const Datum &d = c.data[std::size_t(k)];
-      with[k] = error_covariance(c.error, draw.missed, spot_of(c, d), here);
+      with[k] = error_covariance(c.error, draw, spot_of(c, d), here);
       if (d.number == wanted.number)
         with[k] += product(by_full_cell, p.by_full_cell[std::size_t(k)]);
     }
-    const double left = error_covariance(c.error, draw.missed, here, here) +
+    const double left = error_covariance(c.error, draw, here, here) +
                         product(by_full_cell, by_full_cell) - with.dot(Vector(chol.solve(with)));
     out.push_back({with.dot(weights), std::max(0.0, left)});
   }
@@ -354,7 +272,8 @@ std::vector<Guess> missed_given_data(const FilmBank &bank, const Calibration &c,
 
 std::vector<Guess> given_data(const FilmBank &bank, const Calibration &c, const Draw &draw,
                               const Wanted &wanted) {
-  const std::vector<Guess> curve = bank.at_pressures(wanted.number, wanted.film, draw.material);
+  const std::vector<Guess> curve =
+      bank.at_pressures(wanted.number, wanted.film, draw.of(wanted.film));
   std::vector<Guess> out = missed_given_data(bank, c, draw, wanted, true);
   for (std::size_t k = 0; k < out.size(); ++k) {
     const Guess g = bank.at(curve, wanted.pressures[k]);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Material parameters and effects as measured films leave them: draws from the posterior over the
-// bank's emulators, averaged over which effect acts.
+// bank's emulators, averaged over which effect acts. Films of one material share them; those of
+// several have their own, more or less alike.
 #ifndef CALENDEM_PREDICT_CALIBRATION_H
 #define CALENDEM_PREDICT_CALIBRATION_H
 
@@ -29,12 +30,17 @@ struct ModelError {
 /// The model's own error.
 struct Missed {
   double sd = 0.0;     ///< of porosity 0-1
-  double shared = 0.5; ///< of its variance, that all films have in common, 0-1
+  double shared = 0.5; ///< of its variance, that all films of one material have in common, 0-1
 };
 
 struct Draw {
-  Material material;
+  /// Of each of Calibration::materials, and last of one more that was not measured. All have the
+  /// same effects.
+  std::vector<Material> materials;
   Missed missed;
+  /// Correlation between materials of each parameter and amplitude (of its normal score), 0-1.
+  double alike = 0.5;
+  const Material &of(const Film &film) const { return materials[std::size_t(film.material)]; }
 };
 
 /// Effects that may act: none, one, or two.
@@ -44,6 +50,7 @@ struct Weighed {
 };
 
 struct Calibration {
+  std::vector<std::string> materials = {""}; ///< names
   std::vector<Film> films;
   std::vector<Datum> data;
   ModelError error;
@@ -53,7 +60,8 @@ struct Calibration {
 
 /// Adds the film of an experiment and its data: porosities after and cracked particles of conditions
 /// whose pressure is known and within the bank's. What is left out is reported in `not_said`.
-/// Throws Failure(2) if it is another electrode, or nothing is left.
+/// Experiments that name the same material share it. Throws Failure(2) if it is another electrode,
+/// or nothing is left.
 void add_experiment(const Experiment &experiment, const FilmBank &bank, Calibration &to,
                     std::vector<std::string> &not_said);
 
@@ -63,16 +71,23 @@ struct CalibrationSettings {
   double pair_share = 0.1; ///< prior probability of all pairs of effects together
 };
 
+/// Of all data together, but for a constant.
+double log_likelihood(const FilmBank &bank, const Calibration &calibration, const Draw &draw);
+/// Prior of the model's own error.
+inference::Prior discrepancy_of(const ModelError &error);
+
 /// The effects of each hypothesis: none, each of the bank's, each pair. The last ones' amplitudes
 /// are both free, and their emulators add.
 std::vector<std::vector<int>> hypotheses_of(const FilmBank &bank);
 std::string name_of(const FilmBank &bank, const std::vector<int> &effects);
-/// The effects that act in a material.
-std::vector<int> effects_of(const Material &material);
+/// The effects that act in a draw.
+std::vector<int> effects_of(const Draw &draw);
 
 /// Fills hypotheses and draws from films, data and error. Pairs share their prior probability, the
-/// others what is left, in equal parts. Samples are a Sobol sequence over the priors, weighted by the likelihood of all data
-/// together (importance sampling): deterministic.
+/// others what is left, in equal parts. Samples are a Sobol sequence over the priors, weighted by the likelihood of the data
+/// (importance sampling). Of several materials each takes its turn: samples of those before it, drawn anew by their weights,
+/// get one more material, which is drawn given those it is like, and are weighted by what its films add (sequential Monte
+/// Carlo, Del Moral, Doucet and Jasra 2006). Deterministic.
 void calibrate(const FilmBank &bank, const CalibrationSettings &settings, Calibration &calibration);
 
 /// What speaks against trusting a calibration: parameters that the data drive to an end of the bank's

@@ -32,6 +32,7 @@ struct Film {
   std::vector<double> recipe; ///< values of the parameters whose keys are a recipe's
   double loading = 0.0;       ///< [mg/cm2]
   double sizes = 0.0;         ///< ln of its particles' median by volume over the bank's
+  int material = 0;           ///< place in Draw::materials
 };
 
 struct Acting {

@@ -25,7 +25,10 @@ FilmNumber number_of(const std::string &name) {
 Json films_of(const FilmBank &bank, const Calibration &c) {
   Json out = Json::array();
   for (const Film &f : c.films) {
-    Json row = {{"name", f.name}, {"loading_mg_cm2", f.loading}, {"sizes", f.sizes}};
+    Json row = {{"name", f.name},
+                {"material", f.material},
+                {"loading_mg_cm2", f.loading},
+                {"sizes", f.sizes}};
     for (std::size_t k = 0; k < f.recipe.size(); ++k)
       row["recipe"][bank.film()[k].name] = f.recipe[k];
     out.push_back(row);
@@ -49,13 +52,18 @@ Json data_of(const Calibration &c) {
 Json draws_of(const FilmBank &bank, const Calibration &c) {
   Json out = Json::array();
   for (const Draw &d : c.draws) {
-    Json row = {{"effects", Json::object()},
-                {"missed_sd", d.missed.sd},
-                {"missed_shared", d.missed.shared}};
-    for (const Acting &a : d.material.effects)
-      row["effects"][bank.effects()[std::size_t(a.effect)].name] = a.amplitude;
-    for (std::size_t k = 0; k < bank.material().size(); ++k)
-      row[bank.material()[k].name] = d.material.parameters[k];
+    Json row = {{"missed_sd", d.missed.sd},
+                {"missed_shared", d.missed.shared},
+                {"alike", d.alike},
+                {"materials", Json::array()}};
+    for (const Material &m : d.materials) {
+      Json of = {{"effects", Json::object()}};
+      for (const Acting &a : m.effects)
+        of["effects"][bank.effects()[std::size_t(a.effect)].name] = a.amplitude;
+      for (std::size_t k = 0; k < bank.material().size(); ++k)
+        of[bank.material()[k].name] = m.parameters[k];
+      row["materials"].push_back(of);
+    }
     out.push_back(row);
   }
   return out;
@@ -88,29 +96,37 @@ Json spread_of(std::vector<double> values) {
   return {{"median", at(0.5)}, {"low90", at(0.05)}, {"high90", at(0.95)}};
 }
 
+/// Behind a name, where there are several materials.
+std::string of_material(const Calibration &c, std::size_t material) {
+  return c.materials.size() > 1 ? ", " + c.materials[material] : "";
+}
+
 Json parameters_of(const FilmBank &bank, const Calibration &c) {
   Json out = Json::array();
-  for (std::size_t k = 0; k < bank.material().size(); ++k) {
-    std::vector<double> values;
-    for (const Draw &d : c.draws)
-      values.push_back(d.material.parameters[k]);
-    Json row = {{"parameter", bank.material()[k].name},
-                {"prior_low", bank.material()[k].prior.a},
-                {"prior_high", bank.material()[k].prior.b}};
-    row.update(spread_of(values));
-    out.push_back(row);
-  }
+  for (std::size_t m = 0; m < c.materials.size(); ++m)
+    for (std::size_t k = 0; k < bank.material().size(); ++k) {
+      std::vector<double> values;
+      for (const Draw &d : c.draws)
+        values.push_back(d.materials[m].parameters[k]);
+      Json row = {{"parameter", bank.material()[k].name + of_material(c, m)},
+                  {"prior_low", bank.material()[k].prior.a},
+                  {"prior_high", bank.material()[k].prior.b}};
+      row.update(spread_of(values));
+      out.push_back(row);
+    }
   const auto add = [&](const char *name, double low, double high, const auto &value) {
     std::vector<double> values;
     for (const Draw &d : c.draws)
-      values.push_back(value(d.missed));
+      values.push_back(value(d));
     Json row = {{"parameter", name}, {"prior_low", low}, {"prior_high", high}};
     row.update(spread_of(values));
     out.push_back(row);
   };
   add("missed_points", 100.0 * c.error.low, 100.0 * c.error.high,
-      [](const Missed &m) { return 100.0 * m.sd; });
-  add("missed_shared", 0.0, 1.0, [](const Missed &m) { return m.shared; });
+      [](const Draw &d) { return 100.0 * d.missed.sd; });
+  add("missed_shared", 0.0, 1.0, [](const Draw &d) { return d.missed.shared; });
+  if (c.materials.size() > 1)
+    add("materials_alike", 0.0, 1.0, [](const Draw &d) { return d.alike; });
   return out;
 }
 
@@ -138,18 +154,20 @@ Json hypotheses_of(const FilmBank &bank, const Calibration &c) {
                 {"effective_samples", w.effective_samples},
                 {"effects", Json::array()}};
     const std::vector<int> effects = hypotheses_of(bank)[h];
-    for (std::size_t k = 0; k < effects.size(); ++k) {
-      std::vector<double> values;
-      for (const Draw &d : c.draws)
-        if (effects_of(d.material) == effects)
-          values.push_back(key_value(bank, d.material.effects[k]));
-      if (values.empty())
-        continue;
-      const std::string &name = bank.effects()[std::size_t(effects[k])].name;
-      Json of = {{"name", name}, {"key", find_effect(name).parameter.keys.front()}};
-      of.update(spread_of(values));
-      row["effects"].push_back(of);
-    }
+    for (std::size_t k = 0; k < effects.size(); ++k)
+      for (std::size_t m = 0; m < c.materials.size(); ++m) {
+        std::vector<double> values;
+        for (const Draw &d : c.draws)
+          if (effects_of(d) == effects)
+            values.push_back(key_value(bank, d.materials[m].effects[k]));
+        if (values.empty())
+          continue;
+        const std::string &name = bank.effects()[std::size_t(effects[k])].name;
+        Json of = {{"name", name},
+                   {"key", find_effect(name).parameter.keys.front() + of_material(c, m)}};
+        of.update(spread_of(values));
+        row["effects"].push_back(of);
+      }
     out.push_back(row);
   }
   return out;
@@ -167,6 +185,7 @@ Json to_json(const FilmBank &bank, const Calibration &c, const std::vector<LeftO
            {{"file", std::filesystem::absolute(file).string()},
             {"hash", hash_of_file(file)},
             {"table_hash", hash_of_file(table_file(file))}}},
+          {"materials", c.materials},
           {"films", films_of(bank, c)},
           {"data", data_of(c)},
           {"model_error",
@@ -182,14 +201,14 @@ Json to_json(const FilmBank &bank, const Calibration &c, const std::vector<LeftO
           {"provenance", {{"calendem", version()}, {"hashes", "64-bit FNV-1a"}}}};
 }
 
-std::string case_of(const FilmBank &bank, const Calibration &c) {
+std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_those) {
   const auto best = std::max_element(
       c.hypotheses.begin(), c.hypotheses.end(),
       [](const Weighed &a, const Weighed &b) { return a.probability < b.probability; });
   const std::vector<int> effects = hypotheses_of(bank)[std::size_t(best - c.hypotheses.begin())];
   std::vector<const Draw *> of;
   for (const Draw &d : c.draws)
-    if (effects_of(d.material) == effects)
+    if (effects_of(d) == effects)
       of.push_back(&d);
   const auto middle = [&](const auto &value) {
     std::vector<double> values;
@@ -208,7 +227,8 @@ std::string case_of(const FilmBank &bank, const Calibration &c) {
   std::size_t material = 0;
   for (const BankParameter &p : bank.spec().parameters)
     if (p.keys.front().rfind("case.", 0) == 0) {
-      const double value = middle([&](const Draw &d) { return d.material.parameters[material]; });
+      const double value =
+          middle([&](const Draw &d) { return d.materials[of_those].parameters[material]; });
       ++material;
       for (const std::string &key : p.keys)
         add(key, value);
@@ -217,7 +237,7 @@ std::string case_of(const FilmBank &bank, const Calibration &c) {
   for (std::size_t k = 0; k < effects.size(); ++k) {
     const Effect effect = find_effect(bank.effects()[std::size_t(effects[k])].name);
     const double value =
-        middle([&](const Draw &d) { return key_value(bank, d.material.effects[k]); });
+        middle([&](const Draw &d) { return key_value(bank, d.materials[of_those].effects[k]); });
     for (const std::string &key : effect.parameter.keys)
       if (effect.in_recipe)
         of_recipe += fmt::format("# In the recipe: {} = {:.4g}\n", key, value);
@@ -225,9 +245,9 @@ std::string case_of(const FilmBank &bank, const Calibration &c) {
         add(key, value);
   }
   std::string out = fmt::format(
-      "{} ({}, {:.0f} %): the middle of its draws, each\n"
+      "{}{} ({}, {:.0f} %): the middle of its draws, each\n"
       "# parameter by itself. Put the folder of your electrode here.\nelectrode = \"electrode\"\n",
-      kHeadOfCase, best->name, 100.0 * best->probability);
+      kHeadOfCase, of_material(c, of_those), best->name, 100.0 * best->probability);
   out += of_recipe;
   for (const auto &[table, lines] : tables)
     out += fmt::format("\n[{}]\n{}", table, lines);
@@ -251,11 +271,25 @@ Material material_of(const FilmBank &bank, const Json &row) {
   return out;
 }
 
+Draw draw_of(const FilmBank &bank, const Json &row, std::size_t materials) {
+  Draw out;
+  out.missed = {row.at("missed_sd"), row.at("missed_shared")};
+  out.alike = row.at("alike");
+  for (const Json &of : row.at("materials"))
+    out.materials.push_back(material_of(bank, of));
+  if (out.materials.size() != materials)
+    throw Failure(kBadInput, fmt::format("a draw has {} materials; it must have {}.",
+                                         out.materials.size(), materials));
+  return out;
+}
+
 Calibration calibration_of(const FilmBank &bank, const Json &json) {
   Calibration out;
+  out.materials = json.at("materials").get<std::vector<std::string>>();
   for (const Json &row : json.at("films")) {
     Film f;
     f.name = row.at("name");
+    f.material = row.at("material");
     f.loading = row.at("loading_mg_cm2");
     f.sizes = row.at("sizes");
     for (const BankParameter &p : bank.film())
@@ -280,7 +314,7 @@ Calibration calibration_of(const FilmBank &bank, const Json &json) {
   for (const Json &row : json.at("hypotheses"))
     out.hypotheses.push_back({row.at("name"), row.at("probability"), row.at("effective_samples")});
   for (const Json &row : json.at("draws"))
-    out.draws.push_back({material_of(bank, row), {row.at("missed_sd"), row.at("missed_shared")}});
+    out.draws.push_back(draw_of(bank, row, out.materials.size() + 1));
   if (out.draws.empty())
     throw Failure(kBadInput, "it holds no draws.");
   return out;

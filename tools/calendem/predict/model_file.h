@@ -16,8 +16,8 @@ nlohmann::ordered_json to_json(const FilmBank &bank, const Calibration &calibrat
 /// How that case begins.
 inline constexpr const char *kHeadOfCase = "# The most probable material of a calibration";
 
-/// A case.toml of the most probable material: the middle of its hypothesis' draws.
-std::string case_of(const FilmBank &bank, const Calibration &calibration);
+/// A case.toml of one of the materials: the middle of the draws of the most probable hypothesis.
+std::string case_of(const FilmBank &bank, const Calibration &calibration, std::size_t material);
 
 /// The bank's table beside its file, with the file's name.
 std::string table_file(const std::string &bank_file);

@@ -318,7 +318,7 @@ std::vector<Draw> some_draws(const Calibration &c, int runs) {
 }
 
 Study own_runs(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
-               const std::vector<double> &pressures) {
+               int material, const std::vector<double> &pressures) {
   BankSpec spec = bank.spec();
   spec.name = recipe.settings.text("name") + ", by runs";
   spec.recipe_file = recipe.file;
@@ -332,9 +332,10 @@ Study own_runs(const FilmBank &bank, const std::vector<Draw> &draws, const Recip
   for (const Draw &draw : draws) {
     BankPoint p;
     p.packing = int(points.size()) + 1;
-    for (const double value : draw.material.parameters)
+    const Material &of = draw.materials[std::size_t(material)];
+    for (const double value : of.parameters)
       p.base.push_back(four_digits(value));
-    for (const Acting &a : draw.material.effects)
+    for (const Acting &a : of.effects)
       p.also[bank.effects()[std::size_t(a.effect)].name] = four_digits(key_value(bank, a));
     points.push_back(p);
   }
@@ -358,17 +359,18 @@ void add_press_error(Guesses &draws, const std::vector<double> &pressures, doubl
   }
 }
 
-ByRuns by_runs(const FilmBank &bank, const Calibration &c, const Recipe &recipe,
+ByRuns by_runs(const FilmBank &bank, const Calibration &c, const Recipe &recipe, int material,
                const std::vector<double> &pressures, double pressure_sd, int runs,
                const StudyOptions &options) {
   const std::vector<Draw> draws = some_draws(c, runs);
-  const Study study = own_runs(bank, draws, recipe, pressures);
+  const Study study = own_runs(bank, draws, recipe, material, pressures);
   const OwnRuns own = usable(draws, make_what_runs(study, options, "Draws"));
   if (int(own.draws.size()) < kFewestOwnRuns)
     throw Failure(kSimulationFailed,
                   fmt::format("{}: {} of {} draws have all their runs, {} are needed; see {}/runs.",
                               recipe.file, own.draws.size(), runs, kFewestOwnRuns, options.folder));
-  const Film film = bank.described(recipe);
+  Film film = bank.described(recipe);
+  film.material = material;
   std::map<FilmNumber, Guesses> all;
   for (const FilmNumber number : {FilmNumber::PorosityAfter, FilmNumber::Springback,
                                   FilmNumber::Cracked, FilmNumber::LogModulus})

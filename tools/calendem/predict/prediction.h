@@ -119,9 +119,10 @@ constexpr int kFewestOwnRuns = 4; // of a band
 /// `runs` draws at equal distances among the calibration's.
 std::vector<Draw> some_draws(const Calibration &calibration, int runs);
 
-/// The runs: for each draw one to each pressure. Any electrode; the bank's case.
+/// The runs: for each draw one to each pressure. Any electrode of `material`, a place in
+/// Draw::materials; the bank's case.
 Study own_runs(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
-               const std::vector<double> &pressures);
+               int material, const std::vector<double> &pressures);
 
 /// A film by runs of its own.
 struct ByRuns {
@@ -138,7 +139,7 @@ void add_press_error(Guesses &draws, const std::vector<double> &pressures, doubl
 /// scatter the runs themselves. Throws Failure(3) where fewer than kFewestOwnRuns draws have all
 /// their runs.
 ByRuns by_runs(const FilmBank &bank, const Calibration &calibration, const Recipe &recipe,
-               const std::vector<double> &pressures, double pressure_sd, int runs,
+               int material, const std::vector<double> &pressures, double pressure_sd, int runs,
                const StudyOptions &options);
 
 } // namespace calendem
