@@ -120,10 +120,15 @@ namespace {
 
 std::vector<std::string> command_line(const LiggghtsJob &job) {
   std::vector<std::string> words = {"mpirun", "-np", std::to_string(job.ranks)};
-  // Only when there are more ranks than cores: it makes idle ranks give their core away at every
-  // step.
-  if (job.ranks > static_cast<int>(std::thread::hardware_concurrency()))
+  // More ranks than cores: an idle rank gives its core away at every step. As many as the machine
+  // has: each keeps a core, or beside another program two ranks share one and wait for each other.
+  // Fewer are left to move: OpenMPI would tie the ranks of every run to the same first cores.
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());
+  const bool all = job.ranks == cores && cores == sysconf(_SC_NPROCESSORS_ONLN);
+  if (job.ranks > cores)
     words.push_back("--oversubscribe");
+  else if (!std::getenv("OMPI_MCA_hwloc_base_binding_policy")) // the user's, if there is one
+    words.insert(words.end(), {"--bind-to", all ? "core:if-supported" : "none"});
   words.insert(words.end(), {job.program, "-in", job.script, "-log", job.log});
   for (const auto &[name, value] : job.variables) {
     if (!value.empty() && value.front() == '-')
@@ -143,8 +148,6 @@ pid_t start(const LiggghtsJob &job) {
     setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
     setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
   }
-  // OpenMPI would tie the ranks of every run to the same first cores.
-  setenv("OMPI_MCA_hwloc_base_binding_policy", "none", 0);
   ChildProgram mpirun;
   mpirun.words = command_line(job);
   mpirun.output = job.screen;
