@@ -124,7 +124,7 @@ TEST(FilmBank, TheShippedTableHoldsTheRunsOfItsDesigns) {
       EXPECT_TRUE(p.base[k] >= whole.parameters[k].low && p.base[k] <= whole.parameters[k].high);
     rich += row.point.base_point >= 48;
   }
-  EXPECT_EQ(rich, 60);
+  EXPECT_EQ(rich, 120);
 }
 
 TEST(FilmBank, TooFewPressuresAreRefused) {

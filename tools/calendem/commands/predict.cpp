@@ -4,6 +4,7 @@
 #include "base/provenance.h"
 #include "base/recipe.h"
 #include "commands/commands.h"
+#include "predict/by_gap.h"
 #include "predict/pages.h"
 #include "predict/prediction.h"
 #include <CLI/CLI.hpp>
@@ -19,15 +20,16 @@ constexpr double kPercent = 100.0;
 struct PredictOptions {
   std::string model, folder;
   std::vector<std::string> recipes, vary;
-  std::string pressures, material;
+  std::string pressures, gaps, material;
   double press_percent = 0.0;
   double porosity = 0.0, within = 1.0, cracked_below = 100.0;
   int runs = 0; ///< of each film's own at each pressure; 0: the bank's emulators
   StudyOptions study;
 };
 
-/// "20,50,80" or "20:300", which is 25 pressures at equal ratios.
-std::vector<double> pressures_of(const std::string &text) {
+/// "20,50,80" or "20:300", which is 25 values at equal ratios.
+std::vector<double> values_of(const std::string &option, const std::string &text,
+                              const std::string &unit) {
   std::vector<double> out;
   const bool range = text.find(':') != std::string::npos;
   std::string part;
@@ -43,19 +45,23 @@ std::vector<double> pressures_of(const std::string &text) {
     } catch (const std::exception &) {
     }
     if (used != part.size() || !(value > 0.0) || !std::isfinite(value))
-      throw Failure(kBadInput, fmt::format("--pressure is '{}'; give MPa as 20,50,80 or as a range "
-                                           "20:300.",
-                                           text));
+      throw Failure(kBadInput, fmt::format("{} is '{}'; give {} as 20,50,80 or as a range 20:300.",
+                                           option, text, unit));
     out.push_back(value);
     part.clear();
   }
   if (range && (out.size() != 2 || out[0] >= out[1]))
-    throw Failure(kBadInput, fmt::format("--pressure is '{}'; a range is LOW:HIGH in MPa.", text));
+    throw Failure(kBadInput,
+                  fmt::format("{} is '{}'; a range is LOW:HIGH in {}.", option, text, unit));
   if (range)
     out = spread_pressures(out[0], out[1], 25);
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
+}
+
+std::vector<double> pressures_of(const std::string &text) {
+  return values_of("--pressure", text, "MPa");
 }
 
 void check_covered(const std::vector<double> &pressures, const FilmBank &bank) {
@@ -227,7 +233,49 @@ std::vector<PredictedFilm> films_by_runs(const Asked &a, const PredictOptions &o
   return films;
 }
 
+void say(const AtGap &at) {
+  fmt::print("  {:6.1f} um  {:5.0f} ({:.0f} to {:.0f})  {:5.1f} ({:.1f} to {:.1f})  {:5.1f} ({:.1f} to "
+             "{:.1f})\n",
+             at.gap, at.pressure.median, at.pressure.low90, at.pressure.high90,
+             kPercent * at.after.median, kPercent * at.after.low90, kPercent * at.after.high90,
+             kPercent * at.cracked.median, kPercent * at.cracked.low90,
+             kPercent * at.cracked.high90);
+  for (const auto &[share, where] : {std::pair(at.below, "below"), std::pair(at.above, "above")})
+    if (share >= 0.01)
+      fmt::print("    note: with {:.0f} % the pressure lies {} the bank's; its band ends there\n",
+                 kPercent * share, where);
+}
+
+void run_predict_at_gaps(const PredictOptions &o) {
+  const Asked a = asked(o);
+  const std::vector<double> gaps = values_of("--gap", o.gaps, "um");
+  std::vector<std::vector<AtGap>> all;
+  for (const Film &f : a.films)
+    all.push_back(at_gaps(a.model.bank, a.model.calibration, f, gaps));
+  nlohmann::ordered_json json = {{"films", nlohmann::ordered_json::array()}};
+  for (std::size_t k = 0; k < all.size(); ++k)
+    json["films"].push_back(gap_json(a.model.bank, a.films[k], all[k]));
+  json["provenance"] = provenance(o);
+  make_output_folder(o.folder);
+  write_file(o.folder + "/gap.csv", gap_table(a.model.bank, a.films, all));
+  write_file(o.folder + "/gap.json", json.dump(1) + "\n");
+  write_file(o.folder + "/gap.html", gap_page(a.films, all, json));
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    fmt::print("{}: pressure, MPa (90 %), porosity after release, %, cracked particles, %\n",
+               a.films[k].name);
+    for (const AtGap &at : all[k])
+      say(at);
+    for (const std::string &text : a.model.bank.beyond(a.films[k]))
+      fmt::print("  note: {}\n", text);
+  }
+  fmt::print("page: {0}/gap.html\ntable: {0}/gap.csv\n", o.folder);
+}
+
 void run_predict(const PredictOptions &o) {
+  if (!o.gaps.empty()) {
+    run_predict_at_gaps(o);
+    return;
+  }
   const Asked a = o.runs > 0 ? of_model(o) : asked(o);
   Missed missed;
   const std::vector<PredictedFilm> films =
@@ -385,11 +433,17 @@ void add_predict_verb(CLI::App &app) {
       app.add_subcommand("predict", "Predict porosity, springback and cracked particles of a film "
                                     "against pressure, with intervals");
   add_common_options(*verb, *o);
-  verb->add_option("--pressure", o->pressures, "MPa: 20,50,80 or a range 20:300 (default)");
+  CLI::Option *pressure =
+      verb->add_option("--pressure", o->pressures, "MPa: 20,50,80 or a range 20:300 (default)");
+  CLI::Option *gap = verb->add_option(
+      "--gap", o->gaps,
+      "um, instead of a pressure: thickness of the coating under load, without foil; 30,32 or 28:36");
+  gap->excludes(pressure);
   add_run_options(*verb, *o, "--runs",
                   "so many simulations of each recipe at each pressure, each with another draw of "
                   "the material, instead of the bank's emulators: for electrodes and pressures "
                   "that the bank does not have");
+  gap->excludes(verb->get_option("--runs"))->excludes(verb->get_option("--press-percent"));
   verb->callback([o] { run_predict(*o); });
 }
 

@@ -172,6 +172,18 @@ double log_likelihood(const FilmBank &bank, const Calibration &c, const Draw &dr
   return -0.5 * off.squaredNorm() - Matrix(chol.matrixL()).diagonal().array().log().sum();
 }
 
+std::vector<Guess> each_from_the_others(const FilmBank &bank, const Calibration &c,
+                                        const Draw &draw) {
+  const Predicted p = predicted_data(bank, c, draw);
+  const auto n = Eigen::Index(c.data.size());
+  const Matrix precision = Cholesky(covariance_of(c, p, draw)).solve(Matrix::Identity(n, n));
+  const Vector measured = measured_of(c), pull = precision * (measured - p.mean);
+  std::vector<Guess> out;
+  for (Eigen::Index k = 0; k < n; ++k)
+    out.push_back({measured[k] - pull[k] / precision(k, k), 1.0 / precision(k, k)});
+  return out;
+}
+
 inference::Prior discrepancy_of(const ModelError &error) {
   return {inference::Prior::log_uniform, error.low, error.high};
 }

@@ -73,6 +73,9 @@ struct CalibrationSettings {
 
 /// Of all data together, but for a constant.
 double log_likelihood(const FilmBank &bank, const Calibration &calibration, const Draw &draw);
+/// Each datum as all others predict it under a draw, with the errors of measurement and press.
+std::vector<Guess> each_from_the_others(const FilmBank &bank, const Calibration &calibration,
+                                        const Draw &draw);
 /// Prior of the model's own error.
 inference::Prior discrepancy_of(const ModelError &error);
 
@@ -82,6 +85,10 @@ std::vector<std::vector<int>> hypotheses_of(const FilmBank &bank);
 std::string name_of(const FilmBank &bank, const std::vector<int> &effects);
 /// The effects that act in a draw.
 std::vector<int> effects_of(const Draw &draw);
+
+/// Systematic resampling by weights: the k-th of `count` is the first whose summed share passes
+/// (k + 1/2) / count.
+std::vector<std::size_t> resampled(const std::vector<double> &weights, int count);
 
 /// Fills hypotheses and draws from films, data and error. Pairs share their prior probability, the
 /// others what is left, in equal parts. Samples are a Sobol sequence over the priors, weighted by the likelihood of the data

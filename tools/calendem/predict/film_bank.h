@@ -68,6 +68,8 @@ public:
   Film film_of(const Recipe &recipe) const;
   /// The same of any electrode: what the bank's parameters are for it.
   Film described(const Recipe &recipe) const;
+  /// Its thickness without pores [um].
+  double solid_column(const Film &film) const;
   /// In what a film lies beyond the bank, in words.
   std::vector<std::string> beyond(const Film &film) const;
   bool covers(double pressure) const;

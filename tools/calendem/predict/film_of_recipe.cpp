@@ -108,6 +108,23 @@ Film FilmBank::film_of(const Recipe &recipe) const {
   return described(recipe);
 }
 
+double FilmBank::solid_column(const Film &film) const {
+  Recipe bank = read_recipe(spec_.recipe_file);
+  double percent = 0.0;
+  for (const char *key :
+       {"composition.carbon_weight_percent", "composition.binder_weight_percent"}) {
+    double value = bank.settings.number(key);
+    for (std::size_t k = 0; k < film_.size(); ++k)
+      for (const std::string &name : film_[k].keys)
+        if (name == std::string("recipe.") + key)
+          value = film.recipe[k];
+    percent += value;
+  }
+  bank.loading = film.loading;
+  bank.am_weight = 1.0 - 0.01 * percent;
+  return bank.am_column() + bank.cbd_solid_column();
+}
+
 std::vector<std::string> FilmBank::beyond(const Film &film) const {
   std::vector<std::string> out;
   for (std::size_t k = 0; k < film_.size(); ++k)

@@ -77,19 +77,6 @@ Calibration of_first(const Calibration &c, std::size_t materials) {
   return out;
 }
 
-/// Systematic resampling: the k-th is the first whose summed weight passes (k + 1/2) / count.
-std::vector<std::size_t> resampled(const std::vector<double> &weights, int count) {
-  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-  std::vector<std::size_t> out;
-  double passed = 0.0;
-  for (std::size_t k = 0; k < weights.size(); ++k) {
-    passed += weights[k] / sum * count;
-    while (double(out.size()) + 0.5 < passed && int(out.size()) < count)
-      out.push_back(k);
-  }
-  return out;
-}
-
 /// Samples with the logarithms of their weights.
 struct Weights {
   std::vector<double> of; ///< relative to the largest
@@ -175,6 +162,18 @@ std::vector<int> effects_of(const Draw &draw) {
   std::vector<int> out;
   for (const Acting &a : draw.materials[0].effects)
     out.push_back(a.effect);
+  return out;
+}
+
+std::vector<std::size_t> resampled(const std::vector<double> &weights, int count) {
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  std::vector<std::size_t> out;
+  double passed = 0.0;
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    passed += weights[k] / sum * count;
+    while (double(out.size()) + 0.5 < passed && int(out.size()) < count)
+      out.push_back(k);
+  }
   return out;
 }
 

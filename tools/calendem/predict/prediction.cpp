@@ -19,7 +19,19 @@ double share_below(const Guess &g, double value) {
   return cdf(boost::math::normal(g.mean, std::sqrt(g.variance)), value);
 }
 
-/// By draws and pressures, with what an error of the press's pressure adds.
+std::vector<Band> bands_of(const Guesses &draws, double low, double high) {
+  std::vector<Band> out;
+  for (std::size_t k = 0; k < draws.front().size(); ++k) {
+    Mixture m;
+    for (const std::vector<Guess> &d : draws)
+      m.of.push_back(d[k]);
+    out.push_back(band_of(m, low, high));
+  }
+  return out;
+}
+
+} // namespace
+
 Guesses under_draws(const FilmBank &bank, const Calibration &c, const Wanted &wanted,
                     double pressure_sd) {
   Wanted around = wanted;
@@ -43,18 +55,6 @@ Guesses under_draws(const FilmBank &bank, const Calibration &c, const Wanted &wa
   return out;
 }
 
-std::vector<Band> bands_of(const Guesses &draws, double low, double high) {
-  std::vector<Band> out;
-  for (std::size_t k = 0; k < draws.front().size(); ++k) {
-    Mixture m;
-    for (const std::vector<Guess> &d : draws)
-      m.of.push_back(d[k]);
-    out.push_back(band_of(m, low, high));
-  }
-  return out;
-}
-
-/// Porosity under load from that after release and the springback, which scatter independently.
 Guesses under_load_of(const Guesses &after, const Guesses &springback) {
   Guesses out = after;
   for (std::size_t d = 0; d < after.size(); ++d)
@@ -65,8 +65,6 @@ Guesses under_load_of(const Guesses &after, const Guesses &springback) {
     }
   return out;
 }
-
-} // namespace
 
 double Mixture::probability_below(double value) const {
   double sum = 0.0;

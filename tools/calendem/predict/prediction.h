@@ -42,6 +42,12 @@ using Guesses = std::vector<std::vector<Guess>>;
 using GuessesOf = std::function<Guesses(FilmNumber)>;
 PredictedFilm predicted_from(const Film &film, const std::vector<double> &pressures,
                              const GuessesOf &of);
+/// By the bank's emulators, with what an error of the press's pressure adds (`pressure_sd` of its
+/// logarithm).
+Guesses under_draws(const FilmBank &bank, const Calibration &calibration, const Wanted &wanted,
+                    double pressure_sd);
+/// Porosity under load from that after release and the springback, which scatter independently.
+Guesses under_load_of(const Guesses &after, const Guesses &springback);
 
 /// `pressure_sd`: of the press that will be used, of its logarithm.
 PredictedFilm predicted(const FilmBank &bank, const Calibration &calibration, const Film &film,

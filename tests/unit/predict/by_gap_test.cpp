@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/messages.h"
+#include "predict/by_gap.h"
+#include "support/made_coatings.h"
+#include <gtest/gtest.h>
+
+namespace {
+using namespace calendem_test;
+
+const std::vector<double> kMaterial = {190.0, 2.4, 480.0};
+
+Calibration exact() {
+  Calibration c;
+  c.error = {0.0, 0.001, 0.002, 0.1};
+  c.draws = {{{{kMaterial, {}}}, {0.001, 0.5}}};
+  return c;
+}
+
+// 6 mg/cm2 of 96 % NMC (4.65 g/cm3) and 4 % carbon and binder (1.83): 12.39 + 1.31 um.
+TEST(ByGap, TheFilmsSolidIsThatOfItsComposition) {
+  EXPECT_NEAR(made_film_bank().solid_column(made_film("x", 46.0, 2.0)),
+              60.0 * (0.96 / 4.65 + 0.04 / 1.83), 1e-9);
+  EXPECT_NEAR(made_film_bank().solid_column(made_film("x", 46.0, 3.0)),
+              60.0 * (0.94 / 4.65 + 0.06 / 1.83), 1e-9);
+}
+
+// The gap of a film under 80 MPa takes 80 MPa, and leaves what these leave.
+TEST(ByGap, AGapTakesThePressureThatLeadsToIt) {
+  const Film film = made_film("x", 46.0, 2.0);
+  const std::vector<double> all = {190.0, 2.4, 480.0, 46.0, 2.0};
+  const double after = made_porosity(all, 0.0, 80.0), springback = made_springback(all, 80.0),
+               solid = made_film_bank().solid_column(film);
+  const double gap = solid / ((1.0 - after) * (1.0 + springback));
+  const AtGap at = at_gaps(made_film_bank(), exact(), film, {gap})[0];
+  EXPECT_NEAR(std::log(at.pressure.median / 80.0), 0.0, 0.1);
+  EXPECT_NEAR(at.after.median, after, 0.003);
+  EXPECT_NEAR(at.thickness_after.median, gap * (1.0 + springback), 0.05);
+  EXPECT_NEAR(at.cracked.median, made_cracked(all, 80.0), 0.03);
+  EXPECT_LT(at.pressure.low90, at.pressure.median);
+  EXPECT_GT(at.pressure.high90, at.pressure.median);
+  EXPECT_EQ(at.below + at.above, 0.0);
+}
+
+// Two materials that need 60 and 120 MPa for a gap: the pressure is either, the porosity after release nearly the same.
+TEST(ByGap, MaterialsDifferInPressureNotInPorosity) {
+  const Film film = made_film("x", 46.0, 2.0);
+  Calibration c = exact();
+  Draw stiff = c.draws[0];
+  stiff.materials[0].parameters = {190.0, 2.4 * 1.5, 480.0}; // the scale of pressure by half more
+  c.draws.push_back(stiff);
+  const double gap = made_film_bank().solid_column(film) / (1.0 - 0.30);
+  const AtGap at = at_gaps(made_film_bank(), c, film, {gap})[0];
+  EXPECT_NEAR(at.pressure.high90 / at.pressure.low90, 1.5, 0.35);
+  EXPECT_LT(at.after.high90 - at.after.low90, 0.02);
+}
+
+TEST(ByGap, PressuresBeyondTheBanksAreReported) {
+  const Film film = made_film("x", 46.0, 2.0);
+  const double solid = made_film_bank().solid_column(film);
+  const auto at = at_gaps(made_film_bank(), exact(), film, {solid / 0.92, solid / 0.56});
+  EXPECT_EQ(at[0].above, 1.0);
+  EXPECT_NEAR(at[0].pressure.median, 300.0, 1e-6);
+  EXPECT_EQ(at[1].below, 1.0);
+  EXPECT_NEAR(at[1].pressure.median, 20.0, 1e-6);
+}
+
+TEST(ByGap, AGapWithoutPoresOrWithoutTouchIsRefused) {
+  const Film film = made_film("x", 46.0, 2.0);
+  const double solid = made_film_bank().solid_column(film);
+  EXPECT_THROW(at_gaps(made_film_bank(), exact(), film, {0.99 * solid}), Failure);
+  EXPECT_THROW(at_gaps(made_film_bank(), exact(), film, {1.01 * solid / 0.54}), Failure);
+  EXPECT_THROW(at_gaps(made_film_bank(), exact(), film, {std::nan("")}), Failure);
+}
+
+} // namespace
