@@ -92,7 +92,7 @@ by_runs >again.log
 grep -q "8 runs, 8 of them done already" again.log || fail "runs were made twice"
 cmp first.csv own/prediction.csv || fail "the same runs gave another prediction"
 grep -q '"runs": 4' own/prediction.json || fail "it is not said that runs predict"
-grep -q "by 4 runs of its own" own/prediction.html || fail "the page does not say that runs predict"
+grep -q "from 4 simulations at each pressure" own/prediction.html || fail "the page does not say that runs predict"
 awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
   { p = $at["porosity_after_percent_median"]; if (!(p > 20 && p < 50) || (NR > 2 && p >= last)) exit 1; last = p }' \
   first.csv || fail "own/prediction.csv: more pressure leaves less, below 50 %"

@@ -4,7 +4,7 @@
 #include "base/provenance.h"
 #include "base/recipe.h"
 #include "commands/commands.h"
-#include "predict/pages.h"
+#include "predict/files.h"
 #include "predict/prediction.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "predict/model_file.h"
+#include "predict/files.h"
 #include "base/messages.h"
 #include "base/provenance.h"
 #include <algorithm>

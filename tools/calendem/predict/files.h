@@ -1,12 +1,35 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Pages and tables of what was calibrated, predicted and chosen.
-#ifndef CALENDEM_PREDICT_PAGES_H
-#define CALENDEM_PREDICT_PAGES_H
+// What calibrate, predict and design write: model.json, the case, tables and pages. model.json names
+// the bank by its files and their hashes; it does not hold it.
+#ifndef CALENDEM_PREDICT_FILES_H
+#define CALENDEM_PREDICT_FILES_H
 
-#include "predict/model_file.h"
+#include "predict/prediction.h"
+#include <nlohmann/json.hpp>
 #include <optional>
 
 namespace calendem {
+
+/// model.json of the bank's files; `left_out` may be empty.
+nlohmann::ordered_json to_json(const FilmBank &bank, const Calibration &calibration,
+                               const std::vector<LeftOut> &left_out);
+
+/// How that case begins.
+inline constexpr const char *kHeadOfCase = "# The most probable material of a calibration";
+
+/// A case.toml of the most probable material: the middle of its hypothesis' draws.
+std::string case_of(const FilmBank &bank, const Calibration &calibration);
+
+/// The bank's table beside its file, with the file's name.
+std::string table_file(const std::string &bank_file);
+
+struct Model {
+  FilmBank bank;
+  Calibration calibration;
+  nlohmann::ordered_json json; ///< of the file
+};
+/// Throws Failure(2): a file that is missing, cut or no model, or a bank that has changed.
+Model read_model(const std::string &file);
 
 /// Predictions at all draws for every film that the model was calibrated on, and the page.
 std::string model_page(const FilmBank &bank, const Calibration &calibration,
@@ -31,6 +54,12 @@ nlohmann::ordered_json to_json(const FilmBank &bank, const Target &target,
                                const std::vector<Design> &designs);
 std::string design_page(const Target &target, const std::vector<Design> &designs,
                         const nlohmann::ordered_json &json);
+
+// Parts of these files.
+
+/// Name, loading and what the bank varies of a film.
+nlohmann::ordered_json film_json(const FilmBank &bank, const Film &film);
+nlohmann::ordered_json band_json(const Band &band, double scale);
 
 } // namespace calendem
 
