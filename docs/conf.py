@@ -3,6 +3,8 @@ import pathlib
 import re
 import shutil
 
+from docutils import nodes
+
 top = pathlib.Path(__file__).resolve().parent.parent
 
 project = "Calendem"
@@ -54,5 +56,18 @@ def copy_mathjax(app, exception):
             shutil.copy(source, target)
 
 
+units = "µm|nm|mm|cm|nN|kPa|MPa|GPa|µs|ms|s|h|m/s|mg|g|kg|points?|minutes?|hours?|nats"
+number_and_unit = re.compile(rf"(?<=\d) (?=(?:{units})\b|%)")
+
+
+def keep_units_with_numbers(app, doctree):
+    """No line ends between a number and its unit; code stays as it is."""
+    for text in list(doctree.findall(nodes.Text)):
+        if isinstance(text.parent, (nodes.literal, nodes.literal_block, nodes.math, nodes.math_block)):
+            continue
+        text.parent.replace(text, nodes.Text(number_and_unit.sub("\u00a0", text)))
+
+
 def setup(app):
+    app.connect("doctree-read", keep_units_with_numbers)
     app.connect("build-finished", copy_mathjax)

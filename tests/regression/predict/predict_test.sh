@@ -50,9 +50,17 @@ width() { awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
   { print $at["porosity_after_percent_high90"] - $at["porosity_after_percent_low90"] }' "$1/prediction.csv"; }
 awk -v one="$(width of_one)" -v other="$(width of_other)" 'BEGIN { exit !(other > one) }' ||
   fail "a material that was not measured is predicted more surely than one that was: $(width of_other), $(width of_one)"
-for page in model/model.html prediction/prediction.html design/design.html; do
+for page in model/model.html prediction/prediction.html design/design.html gap/gap.html; do
   sed '/<script type="application.json" id="data">/,$d' $page | grep -q '{{\|https\?:\| src=' && fail "$page is not whole"
 done
+
+# The gap that a pressure leads to takes that pressure, and less is left of a smaller gap.
+calendem predict model/model.json film.toml --gap 50,54 -o gap >gap.log || { cat gap.log; fail "predict --gap"; }
+awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
+  { if (NR == 2) { pressure = $at["pressure_MPa_median"]; left = $at["porosity_after_percent_median"] } }
+  END { exit !(NR == 3 && $at["pressure_MPa_median"] < pressure && $at["porosity_after_percent_median"] > left) }' \
+  gap/gap.csv || fail "gap.csv: $(cat gap/gap.csv)"
+grep -q "What each reading taught" model/model.html || fail "the page does not say what each reading taught"
 
 refuses() { # WORDS ARGUMENTS...
   local words=$1 status=0
@@ -63,6 +71,9 @@ refuses() { # WORDS ARGUMENTS...
   [ ! -e bad ] || fail "something was written for: $*"
 }
 refuses "the bank has 20 to 300" predict model/model.json film.toml --pressure 5
+refuses "without pores is" predict model/model.json film.toml --gap 30
+refuses "thick before it is pressed" predict model/model.json film.toml --gap 90
+refuses "give um as" predict model/model.json film.toml --gap narrow
 refuses "a range is LOW:HIGH" predict model/model.json film.toml --pressure 80:20
 refuses "give MPa as 20,50,80" predict model/model.json film.toml --pressure twenty
 refuses "'nan' is no number" predict model/model.json film.toml --vary porosity_before_percent=nan
@@ -101,7 +112,7 @@ by_runs >again.log
 grep -q "8 runs, 8 of them done already" again.log || fail "runs were made twice"
 cmp first.csv own/prediction.csv || fail "the same runs gave another prediction"
 grep -q '"runs": 4' own/prediction.json || fail "it is not said that runs predict"
-grep -q "by 4 runs of its own" own/prediction.html || fail "the page does not say that runs predict"
+grep -q "from 4 simulations at each pressure" own/prediction.html || fail "the page does not say that runs predict"
 awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
   { p = $at["porosity_after_percent_median"]; if (!(p > 20 && p < 50) || (NR > 2 && p >= last)) exit 1; last = p }' \
   first.csv || fail "own/prediction.csv: more pressure leaves less, below 50 %"

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <random>
@@ -353,10 +354,48 @@ TEST(HeatMap, ConditionsStandOnceInTheOrderGiven) {
   EXPECT_EQ(second[1]["text"], "–");
 }
 
-TEST(Shown, WritesAMinusForPeople) {
-  EXPECT_EQ(shown(-0.46, "{:+.1f}"), "−0.5");
-  EXPECT_EQ(shown(0.46, "{:+.1f}"), "+0.5");
-  EXPECT_EQ(shown(nullptr, "{:.2f}"), "–");
+bool has(const std::vector<std::string> &texts, const std::string &part) {
+  return std::any_of(texts.begin(), texts.end(), [&part](const std::string &text) {
+    return text.find(part) != std::string::npos;
+  });
+}
+
+// Without a mass a thickness beside a porosity is no second measurement; it is not passed over in
+// silence.
+TEST(FindGap, SaysThatAThicknessBesideAPorosityIsNotCompared) {
+  Experiment e = paper();
+  Condition &c = e.conditions[1];
+  const std::vector<SimulatedRun> runs = {pressed_to(150, 0.2997, "a")};
+  const auto loading = c.mass_mg;
+  c.mass_mg.reset();
+  c.loading_mg_cm2.reset();
+  const Gap gap = find_gap(e, runs);
+  EXPECT_EQ(gap.rows.size(), 1u);
+  // 52.9 um of coating, of which 74.83 % are solid
+  const double expected = 52.9 * 0.7483 / solid_thickness_um(e, 1.0);
+  EXPECT_TRUE(has(gap.not_said, fmt::format("p150: thickness_after_um is not compared, because the "
+                                            "porosity is stated too. Together they mean a loading "
+                                            "of {:.3g} mg/cm²",
+                                            expected)));
+  c.mass_mg = loading;
+  EXPECT_FALSE(has(find_gap(e, runs).not_said, "thickness_after_um is not compared"));
+  EXPECT_TRUE(has(find_gap(e, runs).not_said, "mass and thickness give a porosity of"));
+}
+
+TEST(FindGap, SentencesHaveUnitsAndSignsForPeople) {
+  Experiment e = paper();
+  for (Condition &c : e.conditions) {
+    c.porosity_after_percent.reset();
+    c.mass_mg.reset();
+  }
+  const Gap gap = find_gap(e, {pressed_to(80, 0.2, "a"), pressed_to(150, 0.17, "a")});
+  EXPECT_TRUE(has(gap.said, "µm too low (z = −"));
+  EXPECT_TRUE(has(gap.said, "p080 → p150, thickness: measured −"));
+  EXPECT_TRUE(has(gap.not_said, "its thickness is compared in µm"));
+  for (const auto *texts : {&gap.said, &gap.not_said}) {
+    EXPECT_FALSE(has(*texts, " um"));
+    EXPECT_FALSE(has(*texts, " -"));
+  }
 }
 
 TEST(GapPage, HoldsItsNumbers) {
@@ -366,6 +405,7 @@ TEST(GapPage, HoldsItsNumbers) {
     EXPECT_NE(page.find(text), std::string::npos) << text;
   EXPECT_EQ(calendem_test::without_scripts(page).find("{{"), std::string::npos);
   EXPECT_EQ(calendem_test::data_in(page), j);
+  EXPECT_NE(page.find("<td>hashes</td><td class=\"file\">64-bit FNV-1a</td>"), std::string::npos);
 }
 
 } // namespace

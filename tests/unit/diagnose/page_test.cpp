@@ -209,6 +209,15 @@ TEST(PredictionsPart, StripsAreScaledToTheFarthestAndCurvesAreCharts) {
   EXPECT_TRUE(part["strips"][0]["at_best"].is_null());
 }
 
+TEST(ConflictPart, SmallProbabilitiesArePowersOfTen) {
+  const nlohmann::json gap = {
+      {"conflict_matrix", {{"blocks", {"a", "b"}}, {"p", {{0.5, 4.1e-8}, {4.1e-8, 0.5}}}}},
+      {"conflicts", {{{"one", "a"}, {"other", "b"}, {"p", 4.1e-8}}}}};
+  const nlohmann::json part = conflict_part(gap);
+  EXPECT_EQ(part["rows"][1]["cells"][0]["text"], "4.1·10⁻⁸ !");
+  EXPECT_EQ(part["found"][0], "a and b: each can be met, both together not (p = 4.1·10⁻⁸).");
+}
+
 TEST(DriftPart, StagesThatAskForOtherParametersAreApart) {
   const nlohmann::json gap = {
       {"parameters", {{{"parameter", "E"}}, {{"parameter", "s"}}}},

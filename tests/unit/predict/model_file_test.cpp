@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/messages.h"
 #include "base/provenance.h"
-#include "predict/pages.h"
+#include "predict/files.h"
 #include "support/made_coatings.h"
 #include "support/page.h"
 #include "support/test_folder.h"
@@ -127,24 +127,42 @@ TEST(Pages, AreWholeAndHoldTheirNumbers) {
   const std::string model = model_page(m.bank, m.calibration, m.json);
   const Film film = made_film("new", 45.0, 2.2);
   std::vector<PredictedFilm> films = {predicted(m.bank, m.calibration, film, {50.0, 100.0}, 0.0)};
-  nlohmann::ordered_json json = to_json(m.bank, films);
+  nlohmann::ordered_json json = to_json(m.bank, films), designs;
+  json["provenance"] = {{"model", "my/model.json"}};
   const std::string page = prediction_page(m.calibration, films, json);
   const Target target = {0.3, 0.01, 0.2};
   Design design;
   design.film = film;
   design.chances = chances(m.bank, m.calibration, film, {50.0, 100.0}, 0.0, target);
   design.predicted = films[0];
-  const std::string designed = design_page(target, {design}, to_json(m.bank, target, {design}));
+  designs = to_json(m.bank, target, {design});
+  designs["provenance"] = json["provenance"];
+  const std::string designed = design_page(target, {design}, designs);
   for (const std::string *text : {&model, &page, &designed}) {
     const std::string bare = without_scripts(*text);
     EXPECT_EQ(bare.find("{{"), std::string::npos);
     EXPECT_EQ(bare.find("http"), std::string::npos);
   }
+  EXPECT_NE(model.find("<td>bank: table hash</td>"), std::string::npos);
+  for (const std::string *text : {&page, &designed})
+    EXPECT_NE(text->find("<td>model</td><td class=\"file\">my/model.json</td>"), std::string::npos);
   EXPECT_NE(model.find("Every film left out in turn"), std::string::npos);
   EXPECT_NE(designed.find("30 ± 1 % porosity with fewer than 20 % cracked"), std::string::npos);
   const std::string table = prediction_table(m.bank, films);
   EXPECT_EQ(table.substr(0, 60).find("film,porosity_before_percent,"), 0u);
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
+}
+
+// The ends of an interval are as exact as its middle.
+TEST(Pages, IntervalsHaveTheSameDecimals) {
+  const OnDisk d;
+  PredictedFilm film = predicted(d.bank, d.calibration, made_film("new", 45.0, 2.2), {50.0}, 0.0);
+  film.after[0] = {0.3004, 0.29, 0.31, 0.28, 0.322};
+  film.cracked[0] = {0.381, 0.2, 0.5, 0.09, 1.0};
+  const auto json = to_json(d.bank, {film});
+  const std::string page = prediction_page(d.calibration, {film}, json);
+  EXPECT_NE(page.find(">30.0 (28.0 to 32.2)<"), std::string::npos);
+  EXPECT_NE(page.find(">38 (9 to 100)<"), std::string::npos);
 }
 
 } // namespace

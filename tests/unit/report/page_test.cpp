@@ -78,3 +78,19 @@ TEST(Page, TextCannotBecomeMarkup) {
   EXPECT_EQ(data_in(html)["name"], name);
   EXPECT_FALSE(data_in(html).contains("charts"));
 }
+
+// Requirement: a provenance is rows of a name and a text; paths stay as they are.
+TEST(Page, ProvenanceIsRows) {
+  const nlohmann::ordered_json j = {{"calendem", "1.0"},
+                                    {"model_hash", "aa"},
+                                    {"runs", {{"build/my_run", "bb"}}},
+                                    {"recipes",
+                                     {{{"file", "my/a_s.toml"}, {"hash", "cc"}},
+                                      {{"file", "b.toml"}, {"hash", "dd"}, {"table_hash", "ee"}}}}};
+  std::string text;
+  for (const auto &row : provenance_rows(j))
+    text += row["name"].get<std::string>() + " = " + row["text"].get<std::string>() + "\n";
+  EXPECT_EQ(text, "calendem = 1.0\nmodel hash = aa\nruns: build/my_run = bb\n"
+                  "recipes: my/a_s.toml = cc\nrecipes: b.toml = dd\n"
+                  "recipes: table hash = ee\n");
+}

@@ -3,7 +3,7 @@
 #include "base/output_folder.h"
 #include "base/provenance.h"
 #include "commands/commands.h"
-#include "predict/pages.h"
+#include "predict/files.h"
 #include "predict/prediction.h"
 #include <CLI/CLI.hpp>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "base/recipe.h"
 #include "commands/commands.h"
 #include "predict/by_gap.h"
-#include "predict/pages.h"
+#include "predict/files.h"
 #include "predict/prediction.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -234,12 +234,12 @@ std::vector<PredictedFilm> films_by_runs(const Asked &a, const PredictOptions &o
 }
 
 void say(const AtGap &at) {
-  fmt::print("  {:6.1f} um  {:5.0f} ({:.0f} to {:.0f})  {:5.1f} ({:.1f} to {:.1f})  {:5.1f} ({:.1f} to "
-             "{:.1f})\n",
-             at.gap, at.pressure.median, at.pressure.low90, at.pressure.high90,
-             kPercent * at.after.median, kPercent * at.after.low90, kPercent * at.after.high90,
-             kPercent * at.cracked.median, kPercent * at.cracked.low90,
-             kPercent * at.cracked.high90);
+  fmt::print(
+      "  {:6.1f} um  {:5.0f} ({:.0f} to {:.0f})  {:5.1f} ({:.1f} to {:.1f})  {:5.1f} ({:.1f} to "
+      "{:.1f})\n",
+      at.gap, at.pressure.median, at.pressure.low90, at.pressure.high90, kPercent * at.after.median,
+      kPercent * at.after.low90, kPercent * at.after.high90, kPercent * at.cracked.median,
+      kPercent * at.cracked.low90, kPercent * at.cracked.high90);
   for (const auto &[share, where] : {std::pair(at.below, "below"), std::pair(at.above, "above")})
     if (share >= 0.01)
       fmt::print("    note: with {:.0f} % the pressure lies {} the bank's; its band ends there\n",
@@ -435,9 +435,9 @@ void add_predict_verb(CLI::App &app) {
   add_common_options(*verb, *o);
   CLI::Option *pressure =
       verb->add_option("--pressure", o->pressures, "MPa: 20,50,80 or a range 20:300 (default)");
-  CLI::Option *gap = verb->add_option(
-      "--gap", o->gaps,
-      "um, instead of a pressure: thickness of the coating under load, without foil; 30,32 or 28:36");
+  CLI::Option *gap = verb->add_option("--gap", o->gaps,
+                                      "um, instead of a pressure: thickness of the coating under "
+                                      "load, without foil; 30,32 or 28:36");
   gap->excludes(pressure);
   add_run_options(*verb, *o, "--runs",
                   "so many simulations of each recipe at each pressure, each with another draw of "

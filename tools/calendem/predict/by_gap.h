@@ -6,7 +6,6 @@
 #define CALENDEM_PREDICT_BY_GAP_H
 
 #include "predict/prediction.h"
-#include <nlohmann/json.hpp>
 
 namespace calendem {
 
@@ -23,16 +22,6 @@ struct AtGap {
 /// leaves the film no pores, or does not touch it.
 std::vector<AtGap> at_gaps(const FilmBank &bank, const Calibration &calibration, const Film &film,
                            const std::vector<double> &gaps);
-
-/// A row for each gap; percent, um, MPa.
-std::string gap_table(const FilmBank &bank, const std::vector<Film> &films,
-                      const std::vector<std::vector<AtGap>> &at);
-
-nlohmann::ordered_json gap_json(const FilmBank &bank, const Film &film,
-                                const std::vector<AtGap> &at);
-/// Pressure, porosity and cracked particles against the gap.
-std::string gap_page(const std::vector<Film> &films, const std::vector<std::vector<AtGap>> &at,
-                     const nlohmann::ordered_json &json);
 
 } // namespace calendem
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "predict/model_file.h"
 #include "base/messages.h"
 #include "base/provenance.h"
+#include "predict/files.h"
+#include "predict/learnt.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -130,6 +131,34 @@ Json parameters_of(const FilmBank &bank, const Calibration &c) {
   return out;
 }
 
+Json learnt_of(const FilmBank &bank, const Calibration &c) {
+  Json out = Json::array();
+  const std::vector<Lesson> lessons = lessons_of(bank, c);
+  for (std::size_t k = 0; k < lessons.size(); ++k) {
+    const Datum &d = c.data[k];
+    const Lesson &l = lessons[k];
+    Json row = {{"film", c.films[std::size_t(d.film)].name},
+                {"condition", d.condition},
+                {"number", kNumberNames[int(d.number)]},
+                {"pressure_MPa", d.pressure},
+                {"measured", d.measured}};
+    row.update(Json{{"without", band_json(l.without, 1.0)},
+                    {"gain_nats", l.gain},
+                    {"parameter", l.parameter},
+                    {"shift_sd", l.shift},
+                    {"effective_draws", l.effective}});
+    out.push_back(row);
+  }
+  return out;
+}
+
+Json trade_offs_json(const FilmBank &bank, const Calibration &c) {
+  Json out = Json::array();
+  for (const TradeOff &t : trade_offs_of(bank, c))
+    out.push_back({{"first", t.first}, {"second", t.second}, {"correlation", t.correlation}});
+  return out;
+}
+
 /// How well packings that were left out are predicted.
 Json emulators_of(const FilmBank &bank) {
   Json out = Json::array();
@@ -195,6 +224,8 @@ Json to_json(const FilmBank &bank, const Calibration &c, const std::vector<LeftO
             {"cracked", c.error.cracked}}},
           {"hypotheses", hypotheses_of(bank, c)},
           {"parameters", parameters_of(bank, c)},
+          {"learnt", learnt_of(bank, c)},
+          {"trade_offs", trade_offs_json(bank, c)},
           {"emulators", emulators_of(bank)},
           {"left_out", left_out_json(rows)},
           {"draws", draws_of(bank, c)},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/page.h"
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
@@ -65,8 +66,43 @@ nlohmann::json places_of(const std::vector<Chart> &charts) {
   return places;
 }
 
+namespace {
+
+void add_provenance(const std::string &name, const nlohmann::ordered_json &value,
+                    nlohmann::json &rows) {
+  if (!value.is_structured()) {
+    rows.push_back(
+        {{"name", name}, {"text", value.is_string() ? value.get<std::string>() : value.dump()}});
+    return;
+  }
+  const bool is_file = value.is_object() && value.contains("file") && value.contains("hash");
+  if (is_file)
+    add_provenance(name + ": " + value["file"].get<std::string>(), value["hash"], rows);
+  for (const auto &[key, part] : value.items()) {
+    if (is_file && (key == "file" || key == "hash"))
+      continue;
+    std::string named = key;
+    if (key.find_first_of("/.") == std::string::npos) // a path stays as it is
+      std::replace(named.begin(), named.end(), '_', ' ');
+    add_provenance(value.is_array() ? name
+                   : name.empty()   ? named
+                                    : name + ": " + named,
+                   part, rows);
+  }
+}
+
+} // namespace
+
+nlohmann::json provenance_rows(const nlohmann::ordered_json &provenance) {
+  nlohmann::json rows = nlohmann::json::array();
+  add_provenance("", provenance, rows);
+  return rows;
+}
+
 std::string to_html(const Page &page) {
   nlohmann::json values = page.json;
+  if (page.json.contains("provenance"))
+    values["provenance_rows"] = provenance_rows(page.json["provenance"]);
   values.update(page.values);
   values["charts"] = places_of(page.charts);
   values["css"] = embedded::kPageCss;

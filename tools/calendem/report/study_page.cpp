@@ -208,7 +208,6 @@ std::string study_page(const StudyTable &table, const std::vector<report::Chart>
     rows.push_back(row_of(table, group));
   page.json["finished"] = table.finished();
   page.json["table"] = {{"head", head(table)}, {"rows", rows}};
-  page.values = {{"provenance_rows", report::facts_of(description["provenance"], {})}};
   return report::to_html(page);
 }
 

@@ -95,7 +95,8 @@ void finish(Gap &gap) {
 }
 
 std::string amount(double value, const std::string &unit) {
-  return fmt::format("{:.3g}{}{}", value, unit.empty() ? "" : " ", unit == "%" ? "points" : unit);
+  return shown(value, "{:.3g}") +
+         (unit.empty() ? "" : " " + (unit == "%" ? "points" : shown_unit(unit)));
 }
 
 void say(Gap &gap) {
@@ -128,8 +129,9 @@ void say_changes(Gap &gap) {
       const double change = y.measured - x.measured,
                    sd = std::hypot(y.sd_measurement, x.sd_measurement);
       gap.said.push_back(fmt::format(
-          "{} → {}, {}: measured {:+.3g} ± {:.2g}, simulated {:+.3g}{}.", x.condition, y.condition,
-          x.observable, change, sd, y.simulated - x.simulated,
+          "{} → {}, {}: measured {} ± {}, simulated {}{}.", x.condition, y.condition, x.observable,
+          shown(change, "{:+.3g}"), shown(sd, "{:.2g}"),
+          shown(y.simulated - x.simulated, "{:+.3g}"),
           std::fabs(change) < 3.0 * sd ? "; the measured change itself is below 3 of its standard "
                                          "deviations and carries little information"
                                        : ""));
@@ -334,17 +336,6 @@ void add(std::vector<std::string> &list, const std::string &name) {
 }
 
 } // namespace
-
-std::string shown(const nlohmann::json &number, const char *format) {
-  if (!number.is_number())
-    return "–";
-  std::string text = fmt::format(fmt::runtime(format), number.get<double>());
-  if (text.front() == '-')
-    text.replace(0, 1, "−");
-  return text;
-}
-
-std::string shown_unit(const std::string &unit) { return unit == "um" ? "µm" : unit; }
 
 nlohmann::json heat_map(const nlohmann::json &where, double threshold,
                         const std::vector<std::string> &conditions) {

@@ -6,6 +6,7 @@
 
 #include "base/experiment.h"
 #include "base/gap_file.h"
+#include "base/shown.h"
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -76,12 +77,6 @@ std::string gap_page(const nlohmann::ordered_json &gap);
 /// is beyond `threshold`. Conditions in the order of `conditions`, the others by name.
 nlohmann::json heat_map(const nlohmann::json &where, double threshold,
                         const std::vector<std::string> &conditions = {});
-
-/// A JSON number in that format, for people: with a minus, not a hyphen; a dash where it is none.
-std::string shown(const nlohmann::json &number, const char *format);
-
-/// A unit of gap.json as a reader writes it.
-std::string shown_unit(const std::string &unit);
 
 } // namespace calendem
 

@@ -43,7 +43,7 @@ Observable thickness_ratio(const Experiment &e, const Measured &thickness, const
 }
 
 std::string without_loading(const Condition &c, const std::string &what) {
-  return fmt::format("{}: without a mass or a loading of this sample its {} compared in um, as if "
+  return fmt::format("{}: without a mass or a loading of this sample its {} compared in µm, as if "
                      "it carried the recipe's.",
                      c.id, what);
 }
@@ -66,6 +66,12 @@ void add_thickness(const Experiment &e, const Condition &c, const Measured &thic
   };
   out.push_back(o);
   not_said.push_back(without_loading(c, "thickness is"));
+}
+
+/// Of a sample of that thickness and porosity [mg/cm2].
+double loading_by(const Experiment &e, const Measured &thickness, const Measured &porosity) {
+  return coating_thickness_um(e, thickness) * (1.0 - 0.01 * porosity.value) /
+         solid_thickness_um(e, 1.0);
 }
 
 void porosity_before(const Condition &c, std::vector<Observable> &out) {
@@ -107,6 +113,12 @@ void porosity_after(const Experiment &e, const Condition &c, std::vector<Observa
         c.id, 100.0 * (1.0 - 1.0 / ratio->measured),
         100.0 * std::hypot(ratio->sd, ratio->by_loading) / (ratio->measured * ratio->measured),
         o.measured));
+  else if (c.thickness_after_um)
+    not_said.push_back(fmt::format(
+        "{}: thickness_after_um is not compared, because the porosity is stated too. Together they "
+        "mean a loading of {:.3g} mg/cm²; give mass_mg or loading_mg_cm2 to check one by the "
+        "other.",
+        c.id, loading_by(e, *c.thickness_after_um, *c.porosity_after_percent)));
 }
 
 void under_load(const Experiment &e, const Condition &c, std::vector<Observable> &out,

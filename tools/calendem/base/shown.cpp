@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/shown.h"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace calendem {
+
+namespace {
+
+std::string raised(int exponent) {
+  static const char *const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string out = exponent < 0 ? "⁻" : "";
+  for (const char c : std::to_string(std::abs(exponent)))
+    out += digits[c - '0'];
+  return out;
+}
+
+/// Place of a number's first digit: 1 for 28, 0 for 3, -1 for 0.5.
+int place_of(double x) { return int(std::floor(std::log10(std::fabs(x)))); }
+
+} // namespace
+
+std::string shown(const nlohmann::json &number, const char *format) {
+  if (!number.is_number())
+    return "–";
+  std::string text = fmt::format(fmt::runtime(format), number.get<double>());
+  if (const auto e = text.find('e'); e != std::string::npos)
+    text = text.substr(0, e) + "·10" + raised(std::stoi(text.substr(e + 1)));
+  if (text.front() == '-')
+    text.replace(0, 1, "−");
+  return text;
+}
+
+std::vector<std::string> shown_alike(const std::vector<double> &numbers) {
+  int most = 0, least = 0; // places of the first digits
+  bool any = false;
+  for (const double x : numbers)
+    if (std::isfinite(x) && x != 0.0) {
+      most = any ? std::max(most, place_of(x)) : place_of(x);
+      least = any ? std::min(least, place_of(x)) : place_of(x);
+      any = true;
+    }
+  const std::string alike = fmt::format("{{:.{}f}}", std::max(0, 2 - most));
+  const bool fits = most - least < 2 && most > -4 && most < 4;
+  std::vector<std::string> out;
+  for (const double x : numbers)
+    out.push_back(shown(std::isfinite(x) ? nlohmann::json(x) : nlohmann::json(),
+                        fits ? alike.c_str() : "{:.3g}"));
+  return out;
+}
+
+std::string shown_unit(const std::string &unit) { return unit == "um" ? "µm" : unit; }
+
+} // namespace calendem

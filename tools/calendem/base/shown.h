@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Numbers and units as a reader writes them: on pages and in sentences.
+#ifndef CALENDEM_BASE_SHOWN_H
+#define CALENDEM_BASE_SHOWN_H
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace calendem {
+
+/// A JSON number in that format: with a minus, not a hyphen, and a power of ten instead of an
+/// exponent ("4.1·10⁻⁸"); a dash where it is none.
+std::string shown(const nlohmann::json &number, const char *format);
+
+/// Numbers that stand side by side, all with the decimals that give the largest three digits: "28.0",
+/// "32.2". If less than two digits of another were left, each has three of its own.
+std::vector<std::string> shown_alike(const std::vector<double> &numbers);
+
+/// A unit of our files: "µm" for "um".
+std::string shown_unit(const std::string &unit);
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "predict/files.h"
+#include "predict/film_charts.h"
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace calendem {
+
+extern const char *const kDesignHtml;
+
+using Json = nlohmann::ordered_json;
+using nlohmann::json;
+using report::Chart;
+using report::kSeriesColours;
+using report::kSeriesSymbols;
+
+Json to_json(const FilmBank &bank, const Target &t, const std::vector<Design> &designs) {
+  Json out = Json::array();
+  for (const Design &d : designs) {
+    Json row = film_json(bank, d.film);
+    row["beyond"] = d.predicted.beyond;
+    row["best"] = {{"pressure_MPa", d.chances[d.best].pressure},
+                   {"probability", d.chances[d.best].both},
+                   {"assured", d.chances[d.best].assured},
+                   {"porosity_after_percent", band_json(d.predicted.after[d.best], kPercent)},
+                   {"cracked_percent", band_json(d.predicted.cracked[d.best], kPercent)},
+                   {"springback_percent", band_json(d.predicted.springback[d.best], kPercent)}};
+    if (d.confirmed)
+      row["confirmed"] = {{"runs", d.confirmed->runs},
+                          {"probability", d.confirmed_chance.both},
+                          {"porosity_after_percent", band_json(d.confirmed->after[0], kPercent)},
+                          {"cracked_percent", band_json(d.confirmed->cracked[0], kPercent)}};
+    row["chances"] = Json::array();
+    for (const Chance &c : d.chances)
+      row["chances"].push_back({{"pressure_MPa", c.pressure},
+                                {"porosity", c.porosity},
+                                {"cracked", c.cracked},
+                                {"both", c.both},
+                                {"assured", c.assured}});
+    out.push_back(row);
+  }
+  return {{"target",
+           {{"porosity_percent", kPercent * t.porosity},
+            {"within_points", kPercent * t.within},
+            {"cracked_below_percent", kPercent * t.cracked_below}}},
+          {"films", out}};
+}
+
+namespace {
+
+/// Median and the interval that holds 90 % [%].
+std::string band_text(const Band &b, int decimals) {
+  return fmt::format("{:.{}f} ({:.{}f} to {:.{}f})", kPercent * b.median, decimals,
+                     kPercent * b.low90, decimals, kPercent * b.high90, decimals);
+}
+
+json row_of(const Design &d) {
+  const Chance &best = d.chances[d.best];
+  json row = {{"film", d.film.name},
+              {"pressure", fmt::format("{:.0f}", best.pressure)},
+              {"probability", fmt::format("{:.0f}", kPercent * best.both)},
+              {"assured", fmt::format("{:.0f}", kPercent * best.assured)},
+              {"porosity", band_text(d.predicted.after[d.best], 1)},
+              {"cracked", band_text(d.predicted.cracked[d.best], 0)}};
+  if (d.confirmed)
+    row["confirmed"] =
+        fmt::format("{} runs: {:.0f} %, porosity {}", d.confirmed->runs,
+                    kPercent * d.confirmed_chance.both, band_text(d.confirmed->after[0], 1));
+  return row;
+}
+
+/// The probability of meeting the target against pressure.
+Chart chance_chart(const std::vector<Design> &designs) {
+  Chart chart = chart_of("chance", "Probability of meeting the target", "Probability (%)");
+  for (std::size_t k = 0; k < designs.size(); ++k) {
+    std::vector<double> pressures, both;
+    for (const Chance &c : designs[k].chances) {
+      pressures.push_back(c.pressure);
+      both.push_back(kPercent * c.both);
+    }
+    chart.series.push_back(
+        line_of(designs[k].film.name, pressures, both, kSeriesColours[k % kSeriesColours.size()]));
+    chart.series.back().symbol = kSeriesSymbols[k % kSeriesSymbols.size()];
+  }
+  return chart;
+}
+
+/// Cracked particles against porosity, along the pressure.
+Chart cracks_chart(const std::vector<Design> &designs) {
+  Chart chart = chart_of("pareto", "Cracks against porosity", "Cracked particles (%)");
+  chart.x_label = "Total porosity after release (%)";
+  chart.note = "The pressure rises from right to left. Porosity: median; cracked particles: median "
+               "and intervals.";
+  for (std::size_t k = 0; k < designs.size(); ++k) {
+    const PredictedFilm &p = designs[k].predicted;
+    const std::vector<double> porosity = part_of(p.after, &Band::median, kPercent);
+    if (designs.size() == 1)
+      add_bands(porosity, p.cracked, kPercent, kSeriesColours[0], chart);
+    else
+      add_edges(designs[k].film.name, porosity, p.cracked, kPercent, k, chart);
+  }
+  return chart;
+}
+
+} // namespace
+
+std::string design_page(const Target &t, const std::vector<Design> &designs, const Json &json_of) {
+  report::Page page{kDesignHtml, json_of};
+  page.charts = {chance_chart(designs), cracks_chart(designs)};
+  json rows = json::array();
+  for (const Design &d : designs)
+    rows.push_back(row_of(d));
+  page.values = {
+      {"rows", rows},
+      {"any_confirmed", std::any_of(designs.begin(), designs.end(),
+                                    [](const Design &d) { return d.confirmed.has_value(); })},
+      {"porosity", fmt::format("{:g}", kPercent * t.porosity)},
+      {"within", fmt::format("{:g}", kPercent * t.within)},
+      {"cracked_below",
+       t.cracked_below < 1.0 ? json(fmt::format("{:g}", kPercent * t.cracked_below)) : json()}};
+  return report::to_html(page);
+}
+
+} // namespace calendem

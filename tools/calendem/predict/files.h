@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What calibrate, predict and design write: model.json, the case, tables and pages. model.json names
+// the bank by its files and their hashes; it does not hold it.
+#ifndef CALENDEM_PREDICT_FILES_H
+#define CALENDEM_PREDICT_FILES_H
+
+#include "predict/by_gap.h"
+#include "predict/prediction.h"
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace calendem {
+
+/// model.json of the bank's files; `left_out` may be empty.
+nlohmann::ordered_json to_json(const FilmBank &bank, const Calibration &calibration,
+                               const std::vector<LeftOut> &left_out);
+
+/// How that case begins.
+inline constexpr const char *kHeadOfCase = "# The most probable material of a calibration";
+
+/// A case.toml of one of the materials: the middle of the draws of the most probable hypothesis.
+std::string case_of(const FilmBank &bank, const Calibration &calibration, std::size_t material);
+
+/// The bank's table beside its file, with the file's name.
+std::string table_file(const std::string &bank_file);
+
+struct Model {
+  FilmBank bank;
+  Calibration calibration;
+  nlohmann::ordered_json json; ///< of the file
+};
+/// Throws Failure(2): a file that is missing, cut or no model, or a bank that has changed.
+Model read_model(const std::string &file);
+
+/// Predictions at all draws for every film that the model was calibrated on, and the page.
+std::string model_page(const FilmBank &bank, const Calibration &calibration,
+                       const nlohmann::ordered_json &model);
+
+/// A row for each film and pressure; percent and MPa.
+std::string prediction_table(const FilmBank &bank, const std::vector<PredictedFilm> &films);
+nlohmann::ordered_json to_json(const FilmBank &bank, const std::vector<PredictedFilm> &films);
+std::string prediction_page(const Calibration &calibration, const std::vector<PredictedFilm> &films,
+                            const nlohmann::ordered_json &json);
+
+/// What a film's pressures offer.
+struct Design {
+  Film film;
+  std::vector<Chance> chances;
+  PredictedFilm predicted;                ///< at the same pressures
+  std::size_t best = 0;                   ///< as best_of
+  std::optional<PredictedFilm> confirmed; ///< by runs of its own at that pressure
+  Chance confirmed_chance;
+};
+nlohmann::ordered_json to_json(const FilmBank &bank, const Target &target,
+                               const std::vector<Design> &designs);
+std::string design_page(const Target &target, const std::vector<Design> &designs,
+                        const nlohmann::ordered_json &json);
+
+/// Pressure, porosity and cracked particles of films against the gap: a row for each film and gap
+/// [percent, um, MPa], the same as JSON, and the page.
+std::string gap_table(const FilmBank &bank, const std::vector<Film> &films,
+                      const std::vector<std::vector<AtGap>> &at);
+nlohmann::ordered_json gap_json(const FilmBank &bank, const Film &film,
+                                const std::vector<AtGap> &at);
+std::string gap_page(const std::vector<Film> &films, const std::vector<std::vector<AtGap>> &at,
+                     const nlohmann::ordered_json &json);
+
+// Parts of these files.
+
+/// Name, loading and what the bank varies of a film.
+nlohmann::ordered_json film_json(const FilmBank &bank, const Film &film);
+nlohmann::ordered_json band_json(const Band &band, double scale);
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/shown.h"
+#include "predict/files.h"
+#include "predict/film_charts.h"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace calendem {
+
+extern const char *const kModelHtml;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using nlohmann::json;
+using report::Chart;
+using report::kSeriesColours;
+
+json percent_row(const Json &row, std::initializer_list<const char *> keys) {
+  json out;
+  for (const char *key : keys)
+    out[key] = row.contains(key) ? fmt::format("{:.1f}", kPercent * row[key].get<double>()) : "–";
+  return out;
+}
+
+/// Films left out, with what the rules of thumb say, and how far each is off.
+json left_out_part(const Json &model) {
+  const Json &rows = model.at("left_out");
+  if (rows.empty())
+    return nullptr;
+  json table = json::array();
+  std::vector<double> off, heckel, meyer;
+  int in50 = 0, in90 = 0;
+  for (const Json &r : rows) {
+    json row = percent_row(r, {"measured", "median", "low90", "high90"});
+    const double measured = r["measured"];
+    row["film"] = r["film"];
+    row["pressure"] = shown(r["pressure_MPa"], "{:.0f}");
+    row["heckel"] = fmt::format("{:.1f}", kPercent * r["rules"]["Heckel"].get<double>());
+    row["meyer"] = fmt::format("{:.1f}", kPercent * r["rules"]["Meyer"].get<double>());
+    const bool inside = measured >= r["low90"] && measured <= r["high90"];
+    row["inside"] = inside ? "yes" : "no";
+    in90 += inside;
+    in50 += measured >= r["low50"] && measured <= r["high50"];
+    off.push_back(std::fabs(r["median"].get<double>() - measured));
+    heckel.push_back(std::fabs(r["rules"]["Heckel"].get<double>() - measured));
+    meyer.push_back(std::fabs(r["rules"]["Meyer"].get<double>() - measured));
+    table.push_back(row);
+  }
+  const auto median = [](std::vector<double> v) {
+    std::sort(v.begin(), v.end());
+    const std::size_t n = v.size();
+    return fmt::format("{:.1f}", kPercent * 0.5 * (v[(n - 1) / 2] + v[n / 2]));
+  };
+  return {{"rows", table},
+          {"in90", fmt::format("{} of {}", in90, rows.size())},
+          {"in50", fmt::format("{} of {}", in50, rows.size())},
+          {"off", median(off)},
+          {"heckel_off", median(heckel)},
+          {"meyer_off", median(meyer)}};
+}
+
+json hypotheses_part(const Json &model) {
+  json rows = json::array();
+  for (const Json &h : model.at("hypotheses")) {
+    std::string values;
+    for (const Json &e : h["effects"]) {
+      const auto text = shown_alike({e["median"], e["low90"], e["high90"]});
+      values += fmt::format("{}{} = {} (90 %: {} to {})", values.empty() ? "" : "; ",
+                            e["key"].get<std::string>(), text[0], text[1], text[2]);
+    }
+    rows.push_back({{"name", h["name"]},
+                    {"percent", fmt::format("{:.0f}", kPercent * h["probability"].get<double>())},
+                    {"value", values},
+                    {"samples", shown(h["effective_samples"], "{:.0f}")}});
+  }
+  return rows;
+}
+
+json parameters_part(const Json &model) {
+  json rows = json::array();
+  for (const Json &p : model.at("parameters")) {
+    const auto text = shown_alike({p["median"], p["low90"], p["high90"]});
+    rows.push_back({{"name", p["parameter"]},
+                    {"prior", fmt::format("{:g} to {:g}", p["prior_low"].get<double>(),
+                                          p["prior_high"].get<double>())},
+                    {"median", text[0]},
+                    {"low", text[1]},
+                    {"high", text[2]}});
+  }
+  return rows;
+}
+
+constexpr double kFewDraws = 20.0;
+
+json learnt_part(const Json &model) {
+  json rows = json::array();
+  for (const Json &l : model.at("learnt")) {
+    const bool cracked = l["number"] == "cracked";
+    const auto value = [&](const Json &of) {
+      return fmt::format(cracked ? "{:.0f}" : "{:.1f}", kPercent * of.get<double>());
+    };
+    const Json &without = l["without"];
+    const bool few = l["effective_draws"].get<double>() < kFewDraws;
+    const double shift = l["shift_sd"];
+    rows.push_back({{"film", l["film"]},
+                    {"condition", l["condition"]},
+                    {"number", cracked ? "cracked particles" : "porosity after release"},
+                    {"measured", value(l["measured"])},
+                    {"without", fmt::format("{} ({}–{})", value(without["median"]),
+                                            value(without["low90"]), value(without["high90"]))},
+                    {"gain", few ? "much" : shown(l["gain_nats"], "{:.2f}")},
+                    {"moves", fmt::format("{} by {}{:.1f} sd", l["parameter"].get<std::string>(),
+                                          shift < 0.0 ? "−" : "+", std::fabs(shift))}});
+  }
+  return rows;
+}
+
+json trade_offs_part(const Json &model) {
+  json rows = json::array();
+  for (const Json &t : model.at("trade_offs")) {
+    const double r = t["correlation"];
+    rows.push_back({{"first", t["first"]},
+                    {"second", t["second"]},
+                    {"correlation", fmt::format("{}{:.2f}", r < 0.0 ? "−" : "+", std::fabs(r))}});
+  }
+  return rows;
+}
+
+json emulators_part(const Json &model) {
+  json rows = json::array();
+  for (const Json &e : model.at("emulators"))
+    if (e["number"] == "porosity_after")
+      rows.push_back({{"pressure", shown(e["pressure_MPa"], "{:g}")},
+                      {"q2", shown(e["q2"], "{:.2f}")},
+                      {"error", fmt::format("{:.2f}", kPercent * e["error"].get<double>())},
+                      {"own", fmt::format("{:.2f}", kPercent * e["own_error"].get<double>())}});
+  return rows;
+}
+
+/// The bank's files beside the rest.
+json provenance_of(const Json &model) {
+  Json all = {{"bank", model.at("bank")}};
+  all.update(model.at("provenance"));
+  return report::provenance_rows(all);
+}
+
+} // namespace
+
+std::string model_page(const FilmBank &bank, const Calibration &c, const Json &model) {
+  const auto pressures =
+      spread_pressures(bank.spec().pressures.front(), bank.spec().pressures.back(), 25);
+  report::Page page{kModelHtml, model};
+  for (std::size_t k = 0; k < c.films.size(); ++k) {
+    const PredictedFilm p = predicted(bank, c, c.films[k], pressures, 0.0);
+    Chart chart =
+        chart_of(fmt::format("film{}", k), c.films[k].name, "Total porosity after release (%)");
+    add_bands(pressures, p.after, kPercent, kSeriesColours[0], chart);
+    chart.series.push_back(points_of(c, int(k), kSeriesColours[5]));
+    page.charts.push_back(chart);
+  }
+  page.values = {{"left_out_part", left_out_part(model)},
+                 {"hypotheses_rows", hypotheses_part(model)},
+                 {"parameters_rows", parameters_part(model)},
+                 {"learnt_rows", learnt_part(model)},
+                 {"any_learnt", !model.at("learnt").empty()},
+                 {"trade_offs_rows", trade_offs_part(model)},
+                 {"any_trade_off", !model.at("trade_offs").empty()},
+                 {"emulators_rows", emulators_part(model)},
+                 {"bank_name", bank.spec().name},
+                 {"provenance_rows", provenance_of(model)}};
+  return report::to_html(page);
+}
+
+} // namespace calendem
