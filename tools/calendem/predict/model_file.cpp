@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "predict/files.h"
 #include "base/messages.h"
 #include "base/provenance.h"
+#include "predict/files.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
