@@ -89,7 +89,7 @@ TEST_F(ImageObservables, ParticlesInPieces) {
   EXPECT_NEAR(list[3].measured, 0.5, 1e-12);
   EXPECT_NEAR(list[3].sd, std::sqrt(0.25 / 2.0), 1e-12);
   ASSERT_EQ(not_said_.size(), 1u);
-  EXPECT_NE(not_said_[0].find("numbers the pieces one by one"), std::string::npos);
+  EXPECT_NE(not_said_[0].find("gives each piece its own label"), std::string::npos);
 }
 
 // Requirement: a run without frames has no value, and the gap says why, once for all of an image.

@@ -13,6 +13,7 @@ TEST(Shown, WritesAMinusForPeople) {
   EXPECT_EQ(shown(-0.46, "{:+.1f}"), "−0.5");
   EXPECT_EQ(shown(0.46, "{:+.1f}"), "+0.5");
   EXPECT_EQ(shown(nullptr, "{:.2f}"), "–");
+  EXPECT_EQ(shown(-0.04, "{:+.1f}"), "0.0");
 }
 
 TEST(Shown, WritesPowersOfTenForPeople) {
@@ -32,6 +33,12 @@ TEST(Shown, NumbersSideBySideHaveTheSameDecimals) {
 TEST(Shown, NumbersOfManyDecadesKeepTheirDigits) {
   EXPECT_EQ(shown_alike({0.012, 10.0}), (Texts{"0.012", "10"}));
   EXPECT_EQ(shown_alike({2e8, 1e8}), (Texts{"2·10⁸", "1·10⁸"}));
+}
+
+TEST(Shown, ADifferenceHasItsUnit) {
+  EXPECT_EQ(shown_difference(9.06, "%"), "9.06 points");
+  EXPECT_EQ(shown_difference(-2.0, "um"), "−2 µm");
+  EXPECT_EQ(shown_difference(0.138, "fraction"), "0.138");
 }
 
 TEST(InWords, HasUnitsAndSignsForPeople) {

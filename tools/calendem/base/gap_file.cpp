@@ -20,12 +20,11 @@ Json to_json(const Place &p) {
 }
 
 std::string in_words(const Json &place, const std::string &model) {
-  const std::string unit = place["unit"];
   const double residual = place["residual"];
-  return fmt::format("{}, {} ({}): {} is {}{}{} too {} (z = {}, {:.0f} % of the gap).",
+  return fmt::format("{}, {} ({}): {} is {} too {} (z = {}, {:.0f} % of the gap).",
                      place["condition"].get<std::string>(), place["observable"].get<std::string>(),
-                     place["stage"].get<std::string>(), model, shown(std::fabs(residual), "{:.3g}"),
-                     unit.empty() ? "" : " ", unit == "%" ? "points" : shown_unit(unit),
+                     place["stage"].get<std::string>(), model,
+                     shown_difference(std::fabs(residual), place["unit"]),
                      residual > 0.0 ? "high" : "low", shown(place["z"], "{:.1f}"),
                      100.0 * place["share"].get<double>());
 }

@@ -28,6 +28,10 @@ std::string shown(const nlohmann::json &number, const char *format) {
   std::string text = fmt::format(fmt::runtime(format), number.get<double>());
   if (const auto e = text.find('e'); e != std::string::npos)
     text = text.substr(0, e) + "·10" + raised(std::stoi(text.substr(e + 1)));
+  const bool is_zero =
+      text.find('0') != std::string::npos && text.find_first_of("123456789") == std::string::npos;
+  if (is_zero && text.find_first_of("+-") == 0)
+    text.erase(0, 1); // zero has no sign
   if (text.front() == '-')
     text.replace(0, 1, "−");
   return text;
@@ -52,5 +56,14 @@ std::vector<std::string> shown_alike(const std::vector<double> &numbers) {
 }
 
 std::string shown_unit(const std::string &unit) { return unit == "um" ? "µm" : unit; }
+
+std::string unit_of_difference(const std::string &unit) {
+  return unit == "%" ? "points" : unit == "fraction" ? "" : shown_unit(unit);
+}
+
+std::string shown_difference(double value, const std::string &unit) {
+  const std::string of = unit_of_difference(unit);
+  return shown(value, "{:.3g}") + (of.empty() ? "" : " " + of);
+}
 
 } // namespace calendem

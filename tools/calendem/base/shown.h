@@ -20,6 +20,10 @@ std::vector<std::string> shown_alike(const std::vector<double> &numbers);
 /// A unit of our files: "µm" for "um".
 std::string shown_unit(const std::string &unit);
 
+/// That of percent is points; a fraction has none.
+std::string unit_of_difference(const std::string &unit);
+std::string shown_difference(double value, const std::string &unit);
+
 } // namespace calendem
 
 #endif

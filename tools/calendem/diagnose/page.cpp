@@ -101,7 +101,7 @@ std::string release_noise(const json &gap) {
 std::string diagnosis_page(const nlohmann::ordered_json &ordered) {
   const json gap = ordered;
   const std::vector<report::Chart> predicted = prediction_charts(gap), rerun = rerun_charts(gap);
-  report::Page page{kDiagnosisHtml, ordered, {}, predicted};
+  report::Page page{kDiagnosisHtml, ordered, json::object(), predicted};
   page.charts.insert(page.charts.end(), rerun.begin(), rerun.end());
   page.values = {{"claim", gap["which"]["claim"]},
                  {"why", gap["which"]["why"]},

@@ -69,18 +69,22 @@ json row_of(const Design &d) {
   return row;
 }
 
-/// The probability of meeting the target against pressure.
+/// The probability of meeting the target against pressure, and what is assured of it.
 Chart chance_chart(const std::vector<Design> &designs) {
   Chart chart = chart_of("chance", "Probability of meeting the target", "Probability (%)");
+  chart.note = "Dashed: assured, by which the pressure is chosen.";
   for (std::size_t k = 0; k < designs.size(); ++k) {
-    std::vector<double> pressures, both;
+    std::vector<double> pressures, both, assured;
     for (const Chance &c : designs[k].chances) {
       pressures.push_back(c.pressure);
       both.push_back(kPercent * c.both);
+      assured.push_back(kPercent * c.assured);
     }
-    chart.series.push_back(
-        line_of(designs[k].film.name, pressures, both, kSeriesColours[k % kSeriesColours.size()]));
+    const std::string colour = kSeriesColours[k % kSeriesColours.size()];
+    chart.series.push_back(line_of(designs[k].film.name, pressures, both, colour));
     chart.series.back().symbol = kSeriesSymbols[k % kSeriesSymbols.size()];
+    chart.series.push_back(line_of("", pressures, assured, colour));
+    chart.series.back().dash = "4 3";
   }
   return chart;
 }

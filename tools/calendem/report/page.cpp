@@ -68,26 +68,27 @@ nlohmann::json places_of(const std::vector<Chart> &charts) {
 
 namespace {
 
-void add_provenance(const std::string &name, const nlohmann::ordered_json &value,
-                    nlohmann::json &rows) {
+/// `prefix`: a file that the text belongs to.
+void add_provenance(const std::string &name, const std::string &prefix,
+                    const nlohmann::ordered_json &value, nlohmann::json &rows) {
   if (!value.is_structured()) {
-    rows.push_back(
-        {{"name", name}, {"text", value.is_string() ? value.get<std::string>() : value.dump()}});
+    const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+    rows.push_back({{"name", name}, {"text", prefix.empty() ? text : prefix + ", " + text}});
     return;
   }
   const bool is_file = value.is_object() && value.contains("file") && value.contains("hash");
   if (is_file)
-    add_provenance(name + ": " + value["file"].get<std::string>(), value["hash"], rows);
+    add_provenance(name, value["file"], value["hash"], rows);
   for (const auto &[key, part] : value.items()) {
     if (is_file && (key == "file" || key == "hash"))
       continue;
+    const bool is_path = key.find_first_of("/.") != std::string::npos;
     std::string named = key;
-    if (key.find_first_of("/.") == std::string::npos) // a path stays as it is
-      std::replace(named.begin(), named.end(), '_', ' ');
-    add_provenance(value.is_array() ? name
-                   : name.empty()   ? named
-                                    : name + ": " + named,
-                   part, rows);
+    std::replace(named.begin(), named.end(), '_', ' ');
+    if (is_path || value.is_array())
+      add_provenance(name, is_path ? key : "", part, rows);
+    else
+      add_provenance(name.empty() ? named : name + ": " + named, "", part, rows);
   }
 }
 
@@ -95,7 +96,7 @@ void add_provenance(const std::string &name, const nlohmann::ordered_json &value
 
 nlohmann::json provenance_rows(const nlohmann::ordered_json &provenance) {
   nlohmann::json rows = nlohmann::json::array();
-  add_provenance("", provenance, rows);
+  add_provenance("", "", provenance, rows);
   return rows;
 }
 

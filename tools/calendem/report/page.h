@@ -67,7 +67,7 @@ nlohmann::ordered_json data_of(const Page &page);
 /// One file that needs no other and no network. {{> provenance}} shows the object's "provenance".
 std::string to_html(const Page &page);
 
-/// [{name, text}] of a provenance: nested names joined, {file, hash} as the hash of that file.
+/// [{name, text}] of a provenance: nested names joined, files in the text before their hash.
 nlohmann::json provenance_rows(const nlohmann::ordered_json &provenance);
 
 /// Some of a page's charts as a section of a template: [{id, title, note}].

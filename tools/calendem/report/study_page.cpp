@@ -202,7 +202,7 @@ double distance_to_paper(const StudyTable &table, const StudyGroup &group) {
 
 std::string study_page(const StudyTable &table, const std::vector<report::Chart> &charts,
                        const nlohmann::json &description) {
-  report::Page page{kStudyHtml, description, {}, charts};
+  report::Page page{kStudyHtml, description, nlohmann::json::object(), charts};
   nlohmann::json rows = nlohmann::json::array();
   for (const StudyGroup &group : table.groups())
     rows.push_back(row_of(table, group));

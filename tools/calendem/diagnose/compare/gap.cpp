@@ -94,11 +94,6 @@ void finish(Gap &gap) {
                    [&size](const Residual &a, const Residual &b) { return size(a) > size(b); });
 }
 
-std::string amount(double value, const std::string &unit) {
-  return shown(value, "{:.3g}") +
-         (unit.empty() ? "" : " " + (unit == "%" ? "points" : shown_unit(unit)));
-}
-
 void say(Gap &gap) {
   for (const Residual &r : gap.rows)
     if (r.significant)
@@ -106,13 +101,13 @@ void say(Gap &gap) {
     else if (r.sd > 0.0)
       gap.not_said.push_back(fmt::format(
           "{}, {}: a difference of {} is not significant; the detection limit here is {}.",
-          r.condition, r.observable, amount(std::fabs(r.residual), r.unit),
-          amount(gap.threshold * r.sd, r.unit)));
+          r.condition, r.observable, shown_difference(std::fabs(r.residual), r.unit),
+          shown_difference(gap.threshold * r.sd, r.unit)));
     else
       gap.not_said.push_back(fmt::format(
           "{}, {}: without a standard deviation it cannot be said whether a difference of {} is "
           "one. Give {{ value = ..., sd = ... }}, or runs of several packings.",
-          r.condition, r.observable, amount(std::fabs(r.residual), r.unit)));
+          r.condition, r.observable, shown_difference(std::fabs(r.residual), r.unit)));
   if (gap.degrees_of_freedom < 0)
     gap.not_said.push_back(
         "Scatter between packings is not known: every condition has one packing. All z are upper "
@@ -324,7 +319,7 @@ std::string colour_of(double z, double threshold) {
 
 nlohmann::json square(const nlohmann::json &r, double threshold) {
   const double z = r["z"].is_number() ? r["z"].get<double>() : INFINITY;
-  const std::string unit = r["unit"] == "%" ? "points" : shown_unit(r["unit"]);
+  const std::string unit = unit_of_difference(r["unit"]);
   return {{"text", fmt::format("{}{} (z\u00a0{})", shown(r["residual"], "{:+.3g}"),
                                unit.empty() ? "" : "\u00a0" + unit, shown(r["z"], "{:+.1f}"))},
           {"colour", colour_of(z, threshold)}};

@@ -182,8 +182,8 @@ std::vector<Observable> image_observables_of(const Experiment &e, const Conditio
   if (!c.labels_after.empty()) {
     compare_image(e, c.labels_after, true, out);
     not_said.push_back(fmt::format(
-        "{}: a particle counts as in pieces where less than 95 % of the voxels with its label hang "
-        "together; a segmentation that numbers the pieces one by one shows none.",
+        "{}: a particle counts as in pieces if less than 95 % of the voxels with its label are "
+        "connected; a segmentation that gives each piece its own label shows none.",
         c.id));
   }
   return out;
