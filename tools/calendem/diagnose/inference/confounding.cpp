@@ -299,11 +299,11 @@ double Signatures::odds_recalibrated(const Signature &truth, const Signature &ri
   const Matrix covariance = covariance_about(problem_, unmoved);
   const double usual = log_determinant(Cholesky(covariance));
   const auto square = [&](const Vector &scores, Vector &gradient) {
-    const Prediction p = problem_.predict(scores, rival.on);
-    Slopes slopes = slopes_of(problem_, scores, rival.on);
+    const Slopes all = slopes_of(problem_, scores, rival.on);
     const auto n = scores.size(); // what the rival's own amplitude does is not asked
-    slopes = {slopes.mean.leftCols(n), slopes.variance.leftCols(n)};
-    const Misfit m = misfit_of(problem_, seen, p, covariance_about(problem_, p), slopes);
+    const Slopes slopes{all.mean.leftCols(n), all.variance.leftCols(n), all.here};
+    const Misfit m =
+        misfit_of(problem_, seen, all.here, covariance_about(problem_, all.here), slopes);
     gradient = m.square_slopes + m.determinant_slopes + 2.0 * (scores - base_.at);
     return m.square + m.log_determinant - usual + (scores - base_.at).squaredNorm();
   };
