@@ -75,22 +75,22 @@ struct Hardest {
 };
 
 /// First amplitude up to `reach` at which the log-odds are enough, between the steps by their growth
-/// with its square; NaN: none. `odds`: at the k-th step, from 0. `rival`: of the last amplitude
-/// looked at.
+/// with its square; NaN: none. `odds`: at the k-th step, from 0; once they are below a given number
+/// it need not look on. `rival`: of the last amplitude looked at.
 template <class Odds>
 double first_decisive(double reach, const ConfoundingSettings &settings, const Odds &odds,
                       std::string &rival) {
-  double before = 0.0; // log-odds at the step below
   for (int k = 1; k <= settings.amplitudes; ++k) {
-    const Hardest here = odds(k - 1);
+    const Hardest here = odds(k - 1, settings.decisive);
+    if (here.odds < settings.decisive)
+      continue;
     rival = here.rival;
-    if (here.odds >= settings.decisive) {
-      const double from = std::sqrt(std::max(before, 0.0));
-      const double within = (std::sqrt(settings.decisive) - from) / (std::sqrt(here.odds) - from);
-      return (k - 1 + within) / settings.amplitudes * reach;
-    }
-    before = here.odds;
+    const double before = k == 1 ? 0.0 : odds(k - 2, -INFINITY).odds;
+    const double from = std::sqrt(std::max(before, 0.0));
+    const double within = (std::sqrt(settings.decisive) - from) / (std::sqrt(here.odds) - from);
+    return (k - 1 + within) / settings.amplitudes * reach;
   }
+  rival = odds(settings.amplitudes - 1, -INFINITY).rival;
   return std::nan("");
 }
 
@@ -121,7 +121,7 @@ DetectionLimit limit_on(double sign, const Problem &problem, int effect,
     truths.push_back(
         signatures.of({{effect, at_share(e, sign * k / double(settings.amplitudes), 1)}}));
   std::vector<double> of_none(truths.size(), NAN); // both limits ask for them
-  const auto from_none = [&](int k) {
+  const auto from_none = [&](int k, double) {
     double &odds = of_none[std::size_t(k)];
     if (std::isnan(odds))
       odds = signatures.odds_recalibrated(truths[k], grids[effect].front());
@@ -129,10 +129,10 @@ DetectionLimit limit_on(double sign, const Problem &problem, int effect,
   };
   const double end = reach(e, sign);
   const std::vector<double> occam = occam_of(first_prior(e), sign * end, truths, signatures.off());
-  const auto from_all = [&](int k) {
-    Hardest least = from_none(k);
+  const auto from_all = [&](int k, double enough) {
+    Hardest least = from_none(k, enough);
     least.odds -= occam[std::size_t(k)];
-    for (int other = 0; other < int(grids.size()); ++other) {
+    for (int other = 0; other < int(grids.size()) && least.odds >= enough; ++other) {
       const Signature &rival = nearest(truths[k], grids[other]);
       if (other == effect || Signatures::odds(truths[k], rival) > kLookAgain * settings.decisive)
         continue;
@@ -299,11 +299,11 @@ double Signatures::odds_recalibrated(const Signature &truth, const Signature &ri
   const Matrix covariance = covariance_about(problem_, unmoved);
   const double usual = log_determinant(Cholesky(covariance));
   const auto square = [&](const Vector &scores, Vector &gradient) {
-    const Prediction p = problem_.predict(scores, rival.on);
-    Slopes slopes = slopes_of(problem_, scores, rival.on);
+    const Slopes all = slopes_of(problem_, scores, rival.on);
     const auto n = scores.size(); // what the rival's own amplitude does is not asked
-    slopes = {slopes.mean.leftCols(n), slopes.variance.leftCols(n)};
-    const Misfit m = misfit_of(problem_, seen, p, covariance_about(problem_, p), slopes);
+    const Slopes slopes{all.mean.leftCols(n), all.variance.leftCols(n), all.here};
+    const Misfit m =
+        misfit_of(problem_, seen, all.here, covariance_about(problem_, all.here), slopes);
     gradient = m.square_slopes + m.determinant_slopes + 2.0 * (scores - base_.at);
     return m.square + m.log_determinant - usual + (scores - base_.at).squaredNorm();
   };

@@ -172,36 +172,27 @@ KnownBase recalibrated(const Model &model, const Vector &values, Vector &predict
 
 Problem change_of(const Model &model, const Vector &values, const Vector &predicted,
                   const KnownBase &base) {
-  Problem p = model.problem(values);
+  Problem p = model.problem(values, Part::change);
   const Matrix factor = Cholesky(base.covariance).matrixL();
   const auto scores = [mean = base.mean, factor](const Vector &s) {
     return Vector(mean + factor * s);
   };
   p.scores_of_the_prior = scores;
-  const Vector before = model.map().features_of(predicted);
-  p.scatter *= 2.0;
-  p.predict = [predict = p.predict, scores, before,
-               emulated = model.map().emulated()](const Vector &s, const std::vector<Applied> &on) {
-    const Vector at = scores(s);
-    const Prediction off = predict(at, {});
-    Prediction out{Vector::Zero(off.mean.size()), Vector::Zero(off.mean.size())};
-    out.mean.head(emulated) = before.head(emulated);
-    if (on.empty())
-      return out;
-    const Prediction with = predict(at, on);
-    out.mean += with.mean - off.mean;
-    out.variance = (with.variance - off.variance).cwiseMax(0.0);
-    return out;
+  const auto after = [before = Vector(model.map().features_of(predicted)),
+                      emulated = model.map().emulated()](Prediction change) {
+    change.mean.head(emulated) += before.head(emulated);
+    return change;
   };
-  p.slopes = [slopes = p.slopes, scores, factor](const Vector &s, const std::vector<Applied> &on) {
-    const Vector at = scores(s);
-    const Slopes off = slopes(at, {});
-    Slopes out = on.empty() ? off : slopes(at, on);
-    const auto chain = [&](Matrix &with, const Matrix &without) {
-      with.leftCols(s.size()) = Matrix((with.leftCols(s.size()) - without) * factor);
-    };
-    chain(out.mean, off.mean);
-    chain(out.variance, off.variance);
+  p.scatter *= 2.0;
+  p.predict = [change = p.predict, scores, after](const Vector &s, const std::vector<Applied> &on) {
+    return after(change(scores(s), on));
+  };
+  p.slopes = [change = p.slopes, scores, factor, after](const Vector &s,
+                                                        const std::vector<Applied> &on) {
+    Slopes out = change(scores(s), on);
+    for (Matrix *along : {&out.mean, &out.variance})
+      along->leftCols(s.size()) = Matrix(along->leftCols(s.size()) * factor);
+    out.here = after(std::move(out.here));
     return out;
   };
   return p;

@@ -138,9 +138,9 @@ Vector Emulators::scaled(const Vector &base_scores) const {
 }
 
 void Emulators::predict(const Vector &base_scores, const std::vector<Applied> &on, double share,
-                        int first, Prediction &out) const {
+                        int first, Prediction &out, Part of) const {
   const Vector base = scaled(base_scores);
-  for (std::size_t f = 0; f < base_.size(); ++f) {
+  for (std::size_t f = 0; f < base_.size() && of == Part::whole; ++f) {
     const Mean m = base_[f].at(base, Vector());
     out.mean[first + Eigen::Index(f)] += m.mean;
     out.variance[first + Eigen::Index(f)] += m.variance;
@@ -158,15 +158,17 @@ void Emulators::predict(const Vector &base_scores, const std::vector<Applied> &o
 }
 
 void Emulators::slopes(const Vector &base_scores, const std::vector<Applied> &on, double share,
-                       int first, Slopes &out) const {
+                       int first, Slopes &out, Part of) const {
   const Vector base = scaled(base_scores);
   const auto n = base.size();
   Vector per_score(n);
   for (Eigen::Index j = 0; j < n; ++j)
     per_score[j] = parameters_[std::size_t(j)].prior.scaled_slope(base_scores[j]);
-  for (std::size_t f = 0; f < base_.size(); ++f) {
+  for (std::size_t f = 0; f < base_.size() && of == Part::whole; ++f) {
     const MeanSlopes s = base_[f].slopes_at(base, Vector());
     const Eigen::Index row = first + Eigen::Index(f);
+    out.here.mean[row] += s.here.mean;
+    out.here.variance[row] += s.here.variance;
     out.mean.row(row).head(n) += s.mean_inputs.cwiseProduct(per_score).transpose();
     out.variance.row(row).head(n) += s.variance_inputs.cwiseProduct(per_score).transpose();
   }
@@ -179,6 +181,9 @@ void Emulators::slopes(const Vector &base_scores, const std::vector<Applied> &on
       MeanSlopes s = g.slopes_at(p.input, p.amplitudes);
       s.variance_amplitudes += share * g.packing_variance() * 2.0 * p.amplitudes;
       const Eigen::Index row = first + Eigen::Index(f);
+      out.here.mean[row] += s.here.mean;
+      out.here.variance[row] +=
+          s.here.variance + share * g.packing_variance() * p.amplitudes.squaredNorm();
       out.mean.row(row).head(n) += s.mean_inputs.head(n).cwiseProduct(per_score).transpose();
       out.variance.row(row).head(n) +=
           s.variance_inputs.head(n).cwiseProduct(per_score).transpose();

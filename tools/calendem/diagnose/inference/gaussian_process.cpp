@@ -146,8 +146,8 @@ Matrix GaussianProcess::expected_covariance() const {
   const int n = int(scaled_values_.size());
   Matrix k(n, n);
   for (int i = 0; i < n; ++i)
-    k.col(i) = covariances_with(training_.inputs.col(i), training_.amplitudes.col(i));
-  return k;
+    k.col(i) = near(training_.inputs.col(i)).covariance;
+  return k.cwiseProduct(amplitude_product_);
 }
 
 void GaussianProcess::use(const Vector &x) {
@@ -156,7 +156,8 @@ void GaussianProcess::use(const Vector &x) {
   noise_ = std::exp(x[1]) + kSmallest;
   packing_ = repeated_ ? std::exp(x[2]) : 0.0;
   lengths_ = x.tail(training_.inputs.rows()).array().exp();
-  scaled_inverse_ = lengths_.cwiseInverse().asDiagonal() * training_.inputs;
+  inputs_ = training_.inputs.transpose();
+  scaled_inputs_ = inputs_ * lengths_.cwiseInverse().asDiagonal();
   const Matrix expected = expected_covariance();
   Matrix k = expected;
   for (int j = 0; j < n; ++j)
@@ -164,57 +165,69 @@ void GaussianProcess::use(const Vector &x) {
       if (training_.packing[i] == training_.packing[j])
         k(i, j) += packing_ * amplitude_product_(i, j) + (i == j ? noise_ : 0.0);
   const Cholesky factor(k);
+  factor_ = factor.matrixL();
   covariance_inverse_ = factor.solve(Matrix::Identity(n, n));
   weights_ = covariance_inverse_ * scaled_values_;
   residuals_ = std::sqrt(square_) * (scaled_values_ - expected * weights_);
   parameters_used_ = expected.cwiseProduct(covariance_inverse_).sum();
 }
 
-Vector GaussianProcess::covariances_with(const Vector &input, const Vector &amplitudes) const {
-  const int n = int(training_.inputs.cols());
-  const Vector scaled = input.cwiseQuotient(lengths_);
-  Vector k(n);
-  for (int i = 0; i < n; ++i) {
-    const double g = amplitudes.size() ? training_.amplitudes.col(i).dot(amplitudes) : 1.0;
-    k[i] = g * (kTrend + slopes_ * training_.inputs.col(i).dot(input) +
-                signal_ * matern((scaled_inverse_.col(i) - scaled).squaredNorm()).value);
-  }
-  return k;
+GaussianProcess::Near GaussianProcess::near(const Vector &input) const {
+  Near all;
+  all.root = Vector::Zero(inputs_.rows());
+  for (Eigen::Index m = 0; m < input.size(); ++m)
+    all.root.array() += (scaled_inputs_.col(m).array() - input[m] / lengths_[m]).square();
+  all.root = (5.0 * all.root.array()).sqrt();
+  all.decay = (-all.root.array()).exp();
+  const auto r = all.root.array();
+  all.covariance.noalias() = slopes_ * (inputs_ * input);
+  all.covariance.array() += kTrend + signal_ * (1.0 + r + r.square() / 3.0) * all.decay.array();
+  return all;
+}
+
+Mean GaussianProcess::mean_of(const Vector &input, const Vector &amplitudes,
+                              const Vector &covariances, const Vector &white) const {
+  const double g = amplitudes.size() ? amplitudes.squaredNorm() : 1.0;
+  const double prior = g * (kTrend + slopes_ * input.squaredNorm() + signal_);
+  const double left = prior - white.squaredNorm();
+  return {centre_ + std::sqrt(square_) * covariances.dot(weights_), square_ * std::max(left, 0.0)};
 }
 
 Mean GaussianProcess::at(const Vector &input, const Vector &amplitudes) const {
-  const Vector k = covariances_with(input, amplitudes);
-  const double g = amplitudes.size() ? amplitudes.squaredNorm() : 1.0;
-  const double prior = g * (kTrend + slopes_ * input.squaredNorm() + signal_);
-  const double left = prior - k.dot(covariance_inverse_ * k);
-  return {centre_ + std::sqrt(square_) * k.dot(weights_), square_ * std::max(left, 0.0)};
+  Vector k = near(input).covariance;
+  if (amplitudes.size())
+    k.array() *= (training_.amplitudes.transpose() * amplitudes).array();
+  return mean_of(input, amplitudes, k, factor_.triangularView<Eigen::Lower>().solve(k));
 }
 
 MeanSlopes GaussianProcess::slopes_at(const Vector &input, const Vector &amplitudes) const {
-  const auto n = training_.inputs.cols();
-  const Vector scaled = input.cwiseQuotient(lengths_);
-  Vector bare(n), share = Vector::Ones(n); // covariance is share * bare
+  const Near all = near(input);
+  Vector share = Vector::Ones(inputs_.rows()); // covariance is share * that of `near`
   if (amplitudes.size())
     share = training_.amplitudes.transpose() * amplitudes;
-  Matrix turned = slopes_ * training_.inputs; // d covariance / d input, inputs x runs
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Vector apart = scaled_inverse_.col(i) - scaled;
-    const Matern m = matern(apart.squaredNorm());
-    bare[i] = kTrend + slopes_ * training_.inputs.col(i).dot(input) + signal_ * m.value;
-    turned.col(i) += signal_ * m.slope * apart.cwiseQuotient(lengths_);
-  }
-  turned *= share.asDiagonal();
-  const Vector k = share.cwiseProduct(bare);
-  const Vector solved = covariance_inverse_ * k;
+  const Vector k = share.cwiseProduct(all.covariance);
+  const Vector white = factor_.triangularView<Eigen::Lower>().solve(k);
+  const Vector solved = factor_.transpose().triangularView<Eigen::Upper>().solve(white);
+  const Vector slope =
+      5.0 / 3.0 * signal_ * (1.0 + all.root.array()) * all.decay.array(); // as in `matern`
+  /// d covariance / d input, times these weights of the runs.
+  const auto turned = [&](const Vector &weights) {
+    const Vector pulled = slope.cwiseProduct(weights);
+    const Vector apart =
+        scaled_inputs_.transpose() * pulled - pulled.sum() * input.cwiseQuotient(lengths_);
+    return Vector(slopes_ * (inputs_.transpose() * weights) + apart.cwiseQuotient(lengths_));
+  };
+  MeanSlopes s;
+  s.here = mean_of(input, amplitudes, k, white);
   const double scale = std::sqrt(square_), own = amplitudes.size() ? amplitudes.squaredNorm() : 1.0;
   const double prior = kTrend + slopes_ * input.squaredNorm() + signal_;
-  const double square = own * prior > k.dot(solved) ? square_ : 0.0; // `at` gives no less than 0
-  MeanSlopes s;
-  s.mean_inputs = scale * (turned * weights_);
-  s.variance_inputs = square * 2.0 * (own * slopes_ * input - turned * solved);
-  s.mean_amplitudes = scale * (training_.amplitudes * bare.cwiseProduct(weights_));
+  const double square = s.here.variance > 0.0 ? square_ : 0.0; // it is never below 0
+  s.mean_inputs = scale * turned(share.cwiseProduct(weights_));
+  s.variance_inputs = square * 2.0 * (own * slopes_ * input - turned(share.cwiseProduct(solved)));
+  s.mean_amplitudes = scale * (training_.amplitudes * all.covariance.cwiseProduct(weights_));
   s.variance_amplitudes =
-      square * 2.0 * (prior * amplitudes - training_.amplitudes * bare.cwiseProduct(solved));
+      square * 2.0 *
+      (prior * amplitudes - training_.amplitudes * all.covariance.cwiseProduct(solved));
   return s;
 }
 

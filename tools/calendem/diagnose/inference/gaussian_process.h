@@ -21,8 +21,9 @@ struct Mean {
   double mean = 0.0, variance = 0.0; ///< of the expectation over packings; variance: emulator's
 };
 
-/// Derivatives of a `Mean` along the inputs and the amplitudes.
+/// A `Mean` and its derivatives along the inputs and the amplitudes.
 struct MeanSlopes {
+  Mean here;
   Vector mean_inputs, mean_amplitudes, variance_inputs, variance_amplitudes;
 };
 
@@ -67,12 +68,22 @@ private:
   double slopes_ = 0.0;                ///< prior variance of the trend's slopes
   double signal_ = 0.0, packing_ = 0.0, noise_ = 1.0; ///< variances, in the scaled values
   Vector lengths_;
-  Matrix amplitude_product_, scaled_inverse_, covariance_inverse_;
+  Matrix amplitude_product_, covariance_inverse_;
+  Matrix factor_;                 ///< Cholesky's, of the covariance
+  Matrix inputs_, scaled_inputs_; ///< runs x dimension; scaled: divided by the lengths
   Vector weights_, residuals_, scaled_values_;
   double parameters_used_ = 0.0;
   bool repeated_ = false; ///< a packing has more than one run
 
-  Vector covariances_with(const Vector &input, const Vector &amplitudes) const;
+  /// Of a point with the runs, before the amplitudes: the shape of the kernel, and the covariance.
+  struct Near {
+    Vector root, decay; ///< sqrt(5) distance in lengths, exp(-root)
+    Vector covariance;
+  };
+  Near near(const Vector &input) const;
+  /// `white`: the covariances times the inverse of the factor.
+  Mean mean_of(const Vector &input, const Vector &amplitudes, const Vector &covariances,
+               const Vector &white) const;
   Matrix expected_covariance() const;
   double misfit(const Vector &logarithms, Vector &gradient) const;
   void use(const Vector &logarithms);

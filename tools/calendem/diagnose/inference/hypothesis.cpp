@@ -102,17 +102,20 @@ double Likelihood::log_of_points(const Vector &scores) const {
 
 double Likelihood::log(const Vector &scores) const { return log_about(scores, bare(scores)); }
 
-Misfit Likelihood::misfit(const Vector &scores, const Prediction &bare) const {
-  const Prediction p = shifted(scores, bare);
-  return misfit_of(problem_, problem_.observed, p, covariance(scores, p),
-                   slopes_of(problem_, scores.head(problem_.base_parameters),
-                             applied_at(problem_, hypothesis_, scores)));
+Slopes Likelihood::bare_slopes(const Vector &scores) const {
+  return slopes_of(problem_, scores.head(problem_.base_parameters),
+                   applied_at(problem_, hypothesis_, scores));
+}
+
+Misfit Likelihood::misfit(const Vector &scores, const Slopes &bare) const {
+  const Prediction p = shifted(scores, bare.here);
+  return misfit_of(problem_, problem_.observed, p, covariance(scores, p), bare);
 }
 
 double Likelihood::log(const Vector &scores, Vector &gradient) const {
-  const Prediction here = bare(scores);
+  const Slopes here = bare_slopes(scores);
   const Misfit m = misfit(scores, here);
-  const int n = int(here.mean.size());
+  const int n = int(here.mean.rows());
   const double nu = problem_.degrees_of_freedom;
   const double pull = nu >= kNormal ? 1.0 : (nu + n) / (nu + m.square);
   const auto predicted = m.square_slopes.size();
@@ -121,21 +124,21 @@ double Likelihood::log(const Vector &scores, Vector &gradient) const {
     Vector moved = scores;
     double &last = moved[predicted];
     last = scores[predicted] + kSizeStep;
-    const double above = log_about(moved, here);
+    const double above = log_about(moved, here.here);
     last = scores[predicted] - kSizeStep;
-    gradient[predicted] = (above - log_about(moved, here)) / (2.0 * kSizeStep);
+    gradient[predicted] = (above - log_about(moved, here.here)) / (2.0 * kSizeStep);
   }
   return log_student_t(m.square, m.log_determinant, n, nu) + log_of_points(scores);
 }
 
 double Likelihood::square(const Vector &scores, Vector &gradient) const {
-  const Misfit m = misfit(scores, bare(scores));
+  const Misfit m = misfit(scores, bare_slopes(scores));
   gradient = m.square_slopes;
   return m.square;
 }
 
 double Likelihood::deviance(const Vector &scores, Vector &gradient) const {
-  const Misfit m = misfit(scores, bare(scores));
+  const Misfit m = misfit(scores, bare_slopes(scores));
   gradient = m.square_slopes + m.determinant_slopes;
   return m.square + m.log_determinant;
 }

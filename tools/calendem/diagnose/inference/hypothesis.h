@@ -57,10 +57,11 @@ private:
   bool has_size() const;
   double noise_factor(const Vector &scores) const;
   Prediction bare(const Vector &scores) const;
+  Slopes bare_slopes(const Vector &scores) const;
   Prediction shifted(const Vector &scores, const Prediction &bare) const;
   double log_of_points(const Vector &scores) const;
   double log_about(const Vector &scores, const Prediction &bare) const;
-  Misfit misfit(const Vector &scores, const Prediction &bare) const;
+  Misfit misfit(const Vector &scores, const Slopes &bare) const;
 };
 
 /// With the likelihood's own gradients.

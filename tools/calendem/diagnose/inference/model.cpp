@@ -148,7 +148,7 @@ std::vector<std::string> Model::poor_effects() const {
   return names;
 }
 
-Problem Model::problem(const Vector &values) const {
+Problem Model::problem(const Vector &values, Part of) const {
   Problem p;
   const int n = map_->emulated(), all = map_->size();
   const double share = 1.0 / settings_.packings_in_sample;
@@ -166,18 +166,21 @@ Problem Model::problem(const Vector &values) const {
   p.base_parameters = base_parameters_;
   p.effects = effects_;
   p.discrepancy = map_->discrepancy(unknown_covariance(observables_, sd_));
-  p.predict = [learnt = emulators_, share, all](const Vector &base,
-                                                const std::vector<Applied> &on) {
+  p.predict = [learnt = emulators_, share, all, of](const Vector &base,
+                                                    const std::vector<Applied> &on) {
     Prediction out{Vector::Zero(all), Vector::Zero(all)};
-    learnt->predict(base, on, share, 0, out);
+    learnt->predict(base, on, share, 0, out, of);
     return out;
   };
-  p.slopes = [learnt = emulators_, share, all](const Vector &base, const std::vector<Applied> &on) {
+  p.slopes = [learnt = emulators_, share, all, of](const Vector &base,
+                                                   const std::vector<Applied> &on) {
     Eigen::Index scores = base.size();
     for (const Applied &a : on)
       scores += a.scores.size();
-    Slopes out{Matrix::Zero(all, scores), Matrix::Zero(all, scores)};
-    learnt->slopes(base, on, share, 0, out);
+    Slopes out{Matrix::Zero(all, scores),
+               Matrix::Zero(all, scores),
+               {Vector::Zero(all), Vector::Zero(all)}};
+    learnt->slopes(base, on, share, 0, out, of);
     return out;
   };
   return p;

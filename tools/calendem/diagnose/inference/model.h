@@ -56,8 +56,8 @@ public:
   Model(const Bank &bank, const ObservableVector &experiment, const ModelSettings &settings,
         const std::vector<Candidate> &candidates = {});
 
-  /// For measured values of the observables given at the start.
-  Problem problem(const Vector &values) const;
+  /// For measured values of the observables given at the start. `of`: what it predicts.
+  Problem problem(const Vector &values, Part of = Part::whole) const;
   std::vector<Extension> extensions(const Vector &values) const;
 
   const std::vector<EmulatorQuality> &quality() const { return quality_; }

@@ -20,7 +20,7 @@ Slopes by_differences(const Problem &problem, const Vector &base, const std::vec
     for (double &v : a.scores)
       scores.push_back(&v);
   const auto features = Eigen::Index(problem.features.size()), n = Eigen::Index(scores.size());
-  Slopes s{Matrix(features, n), Matrix(features, n)};
+  Slopes s{Matrix(features, n), Matrix(features, n), problem.predict(base, on)};
   for (Eigen::Index j = 0; j < n; ++j) {
     double &moved = *scores[std::size_t(j)];
     const double here = moved;
@@ -117,10 +117,10 @@ Matrix covariance_about(const Problem &problem, const Prediction &prediction) {
 Linearised linearise(const Problem &problem, const Vector &base) {
   Linearised l;
   l.at = base;
-  const Prediction here = problem.predict(base, {});
-  l.mean = here.mean;
-  l.covariance = covariance_about(problem, here);
-  l.sensitivity = slopes_of(problem, base, {}).mean;
+  const Slopes here = slopes_of(problem, base, {});
+  l.mean = here.here.mean;
+  l.covariance = covariance_about(problem, here.here);
+  l.sensitivity = here.mean;
   return l;
 }
 

@@ -16,16 +16,20 @@ struct Applied {
   Vector scores;
 };
 
+/// Of a prediction: all of it, or what the effects that are on change.
+enum class Part { whole, change };
+
 /// Of all features.
 struct Prediction {
   Vector mean;
   Vector variance; ///< of the emulators, and of the scatter the effects add
 };
 
-/// Derivatives of a prediction along the scores, the base parameters' and then the effects' in
+/// A prediction and its derivatives along the scores, the base parameters' and then the effects' in
 /// order: features x scores.
 struct Slopes {
   Matrix mean, variance;
+  Prediction here;
 };
 
 /// How the points of a measured curve scatter beside a smooth line.
