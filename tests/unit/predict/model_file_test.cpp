@@ -121,6 +121,20 @@ TEST(ModelFile, TheCaseIsOneThatRunTakes) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
 }
 
+// A bank's collapse need not be that of the defaults: whoever runs the case gets the bank's.
+TEST(ModelFile, TheCaseHasTheBanksSettingsOfItsEffect) {
+  BankTable table = made_coatings({"cbd_collapse"});
+  table.spec.case_file = CALENDEM_SOURCE_DIR "/input_scripts/cases/bank/case.toml";
+  const FilmBank bank(table);
+  Calibration c;
+  c.hypotheses = {{"none", 0.1, 100.0}, {"cbd_collapse", 0.9, 100.0}};
+  c.draws = {{{{{190.0, 2.4, 480.0}, {{0, 0.5}}}}, {0.001, 0.5}}};
+  const std::string text = case_of(bank, c, 0);
+  for (const char *part : {"[effects.cbd_collapse]", "floor_nanoporosity = 0\n",
+                           "hardening_MPa = 10\n", "yield_pressure_MPa = "})
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+}
+
 TEST(Pages, AreWholeAndHoldTheirNumbers) {
   const OnDisk d;
   const Model m = read_model(d.file);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/case.h"
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "predict/files.h"
@@ -250,10 +251,13 @@ std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_t
     return values[values.size() / 2];
   };
   std::map<std::string, std::string> tables; // lines by table
-  const auto add = [&](const std::string &key, double value) {
+  const auto add_text = [&](const std::string &key, const std::string &value) {
     const std::string bare = key.rfind("case.", 0) == 0 ? key.substr(5) : key;
     const std::size_t dot = bare.rfind('.');
-    tables[bare.substr(0, dot)] += fmt::format("{} = {:.4g}\n", bare.substr(dot + 1), value);
+    tables[bare.substr(0, dot)] += fmt::format("{} = {}\n", bare.substr(dot + 1), value);
+  };
+  const auto add = [&](const std::string &key, double value) {
+    add_text(key, fmt::format("{:.4g}", value));
   };
   std::size_t material = 0;
   for (const BankParameter &p : bank.spec().parameters)
@@ -265,6 +269,7 @@ std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_t
         add(key, value);
     }
   std::string of_recipe;
+  const Settings of_bank = read_case(bank.spec().case_file);
   for (std::size_t k = 0; k < effects.size(); ++k) {
     const Effect effect = find_effect(bank.effects()[std::size_t(effects[k])].name);
     const double value =
@@ -274,6 +279,11 @@ std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_t
         of_recipe += fmt::format("# In the recipe: {} = {:.4g}\n", key, value);
       else
         add(key, value);
+    const auto &moved = effect.parameter.keys;
+    for (const Key &key : effect.settings) // as the bank's runs have them
+      if (!effect.in_recipe && of_bank.text(key.name) != key.fallback &&
+          std::find(moved.begin(), moved.end(), key.name) == moved.end())
+        add_text(key.name, of_bank.text(key.name));
   }
   std::string out = fmt::format(
       "{}{} ({}, {:.0f} %): the middle of its draws, each\n"
