@@ -149,7 +149,8 @@ TEST(DiagnosisPage, EveryEffectHasARangeOrALimitOverAllExplanations) {
     EXPECT_GE(p["high95"], p["high90"]) << p.dump();
   }
   const std::string page = diagnosis_page(friction().gap);
-  for (const char *part : {"how large at most", "Budget of uncertainty", "reading 0.1, "})
+  for (const char *part :
+       {"Every effect: probability and limits", "Budget of uncertainty", "reading 0.1, "})
     EXPECT_NE(page.find(part), std::string::npos) << part;
 }
 
