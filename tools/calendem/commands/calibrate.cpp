@@ -64,7 +64,7 @@ void run_calibrate(const CalibrateOptions &o) {
     fmt::print("- {}\n", text);
   fmt::print("page: {0}/model.html\nmodel: {0}/model.json\n", o.folder);
   for (std::size_t m = 0; m < c.materials.size(); ++m)
-    fmt::print("case: {}{}\n", cases[m], c.materials.size() > 1 ? ", " + c.materials[m] : "");
+    fmt::print("case: {}{}\n", cases[m], of_material(c, m));
 }
 
 } // namespace

@@ -130,8 +130,6 @@ struct Asked {
   std::vector<double> pressures;
 };
 
-constexpr const char *kOther = "other";
-
 /// Which of a model's materials the films are of.
 int material_of(const PredictOptions &o, const std::vector<std::string> &names) {
   if (o.material.empty() && names.size() == 1)

@@ -58,23 +58,22 @@ void check_gap(const Film &film, double gap, double solid, double before) {
 
 /// Curves of a film at a grid of pressures: draws x pressures.
 struct Curves {
-  std::vector<double> pressures, logs;
-  Guesses after, springback, load, cracked;
+  std::vector<double> logs; ///< of the pressures
+  Guesses springback, load, cracked;
 };
 
 Curves curves_of(const FilmBank &bank, const Calibration &c, const Film &film) {
   Curves out;
-  out.pressures =
+  const std::vector<double> pressures =
       spread_pressures(bank.spec().pressures.front(), bank.spec().pressures.back(), kGrid);
-  for (const double p : out.pressures)
+  for (const double p : pressures)
     out.logs.push_back(std::log(p));
   const auto of = [&](FilmNumber number) {
-    return under_draws(bank, c, {film, number, out.pressures}, 0.0);
+    return under_draws(bank, c, {film, number, pressures}, 0.0);
   };
-  out.after = of(FilmNumber::PorosityAfter);
   out.springback = of(FilmNumber::Springback);
   out.cracked = of(FilmNumber::Cracked);
-  out.load = under_load_of(out.after, out.springback);
+  out.load = under_load_of(of(FilmNumber::PorosityAfter), out.springback);
   return out;
 }
 

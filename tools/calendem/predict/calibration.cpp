@@ -40,10 +40,16 @@ void add_experiment(const Experiment &experiment, const FilmBank &bank, Calibrat
     to.materials.clear();
   to.films.push_back(bank.film_of(experiment.recipe));
   to.films.back().name = experiment.name;
-  const auto known = std::find(to.materials.begin(), to.materials.end(), experiment.material);
+  const std::string material = experiment.material.empty() ? kUnnamed : experiment.material;
+  if (material == kOther)
+    throw Failure(kBadInput,
+                  fmt::format("{}: material is '{}', which stands for one that was not measured. "
+                              "Give it another name.",
+                              experiment.name, kOther));
+  const auto known = std::find(to.materials.begin(), to.materials.end(), material);
   to.films.back().material = int(known - to.materials.begin());
   if (known == to.materials.end())
-    to.materials.push_back(experiment.material);
+    to.materials.push_back(material);
   for (const std::string &why : bank.beyond(to.films.back()))
     not_said.push_back(fmt::format("{}: {}.", experiment.name, why));
   for (const Condition &c : experiment.conditions) {
@@ -227,11 +233,10 @@ std::vector<std::string> warnings_of(const FilmBank &bank, const Calibration &c)
       const int end = end_of_range(c.draws, p.prior,
                                    [&](const Draw &d) { return d.materials[m].parameters[k]; });
       if (end != 0)
-        out.push_back(
-            fmt::format("{}{} lies at the {} end of the bank's range, {:g} to {:g}: a "
-                        "material outside it may fit better, or the model lacks something.",
-                        c.materials.size() > 1 ? c.materials[m] + ": " : "", p.name,
-                        end < 0 ? "lower" : "upper", p.prior.a, p.prior.b));
+        out.push_back(fmt::format(
+            "{}{} lies at the {} end of the bank's range, {:g} to {:g}: a "
+            "material outside it may fit better, or the model lacks something.",
+            p.name, of_material(c, m), end < 0 ? "lower" : "upper", p.prior.a, p.prior.b));
     }
   const inference::Prior missed = discrepancy_of(c.error);
   if (end_of_range(c.draws, missed, [](const Draw &d) { return d.missed.sd; }) > 0)
@@ -244,6 +249,10 @@ std::vector<std::string> warnings_of(const FilmBank &bank, const Calibration &c)
                               "more are wanted): its intervals are rough. Ask for more --samples.",
                               samples, kFewSamples));
   return out;
+}
+
+std::string of_material(const Calibration &c, std::size_t material) {
+  return c.materials.size() > 1 ? ", " + c.materials[material] : "";
 }
 
 bool is_same_film(const Film &a, const Film &b) {

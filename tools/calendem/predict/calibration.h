@@ -49,6 +49,9 @@ struct Weighed {
   double probability = 0.0, effective_samples = 0.0;
 };
 
+/// Of experiments that name no material, and of one that was not measured.
+inline constexpr const char *kUnnamed = "unnamed", *kOther = "other";
+
 struct Calibration {
   std::vector<std::string> materials = {""}; ///< names
   std::vector<Film> films;
@@ -101,6 +104,9 @@ void calibrate(const FilmBank &bank, const CalibrationSettings &settings, Calibr
 /// range (half of the draws lie in its outer tenth), the model's own error at its upper end, few
 /// effective samples.
 std::vector<std::string> warnings_of(const FilmBank &bank, const Calibration &calibration);
+
+/// ", NAME", to stand behind a parameter's name; empty where there is only one material.
+std::string of_material(const Calibration &calibration, std::size_t material);
 
 /// By what they are, not by their names.
 bool is_same_film(const Film &a, const Film &b);

@@ -6,7 +6,7 @@
 
 namespace calendem {
 
-extern const char *const kByGapHtml;
+extern const char *const kPredictionHtml;
 
 namespace {
 
@@ -90,7 +90,7 @@ Json gap_json(const FilmBank &bank, const Film &film, const std::vector<AtGap> &
 
 std::string gap_page(const std::vector<Film> &films, const std::vector<std::vector<AtGap>> &at,
                      const Json &json_of) {
-  report::Page page{kByGapHtml, json_of};
+  report::Page page{kPredictionHtml, json_of};
   for (const Column &column : kColumns) {
     Chart chart = chart_of(column.name, column.title, column.title);
     chart.x_label = "Gap (µm)";
@@ -105,27 +105,45 @@ std::string gap_page(const std::vector<Film> &films, const std::vector<std::vect
           fmt::format(" The first {} of {} films; the table has all.", kMostFilms, films.size());
     page.charts.push_back(chart);
   }
-  json rows = json::array(), beyond = json::array();
+  json rows = json::array(), basis = json::array();
   for (std::size_t f = 0; f < films.size(); ++f)
     for (const AtGap &row : at[f]) {
-      json of = {{"film", films[f].name}, {"gap", fmt::format("{:.4g}", row.gap)}};
+      json of = {{"film", films[f].name}, {"at", fmt::format("{:.4g}", row.gap)}};
       for (const Column &column : kColumns) {
         const Band &b = row.*column.band;
-        of["cells"].push_back(fmt::format("{0:.{3}f} ({1:.{3}f}–{2:.{3}f})",
+        of["cells"].push_back(fmt::format("{0:.{3}f} ({1:.{3}f} to {2:.{3}f})",
                                           column.scale * b.median, column.scale * b.low90,
                                           column.scale * b.high90, column.decimals));
       }
       rows.push_back(of);
       if (std::max(row.below, row.above) >= 0.01)
-        beyond.push_back(
+        basis.push_back(
             fmt::format("{}, {:.4g} µm: with {:.0f} % the pressure lies outside the bank's; its "
-                        "interval ends there",
+                        "interval ends there.",
                         films[f].name, row.gap, kPercent * (row.below + row.above)));
     }
   for (const Json &film : json_of.at("films"))
     for (const Json &text : film.at("beyond"))
-      beyond.push_back(film.at("name").get<std::string>() + ": " + text.get<std::string>());
-  page.values = {{"rows", rows}, {"beyond_rows", beyond}};
+      basis.push_back(film.at("name").get<std::string>() + ": " + text.get<std::string>() + ".");
+  basis.push_back(
+      "The gap is that of rigid rolls, less the foil. Rolls, bearings and press give way "
+      "under load: the gap to be set is smaller by that much.");
+  basis.push_back(
+      "The porosity after release follows from gap and springback alone; the pressure that "
+      "it takes, from the bank. Springback was not measured on these films: these "
+      "intervals are valid only if the model is right.");
+  page.values = {{"title", "Prediction at a gap"},
+                 {"subtitle",
+                  "Films that were not measured, against the gap: the thickness of the "
+                  "coating under load, without foil. The 50 and 90 % intervals include "
+                  "the uncertainty of the parameters, the model error, the emulators and "
+                  "the numerics of the bank."},
+                 {"against", "Against the gap"},
+                 {"heads",
+                  {"Gap, µm", "Pressure, MPa", "Porosity after, %", "Thickness after, µm",
+                   "Springback, %", "Cracked, %"}},
+                 {"rows", rows},
+                 {"basis", basis}};
   return report::to_html(page);
 }
 

@@ -2,7 +2,6 @@
 #include "predict/learnt.h"
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace calendem {
 namespace {
@@ -18,7 +17,7 @@ std::vector<Scores> scores_of(const FilmBank &bank, const Calibration &c) {
   for (std::size_t m = 0; m < c.materials.size(); ++m)
     for (std::size_t k = 0; k < bank.material().size(); ++k) {
       Scores s;
-      s.name = bank.material()[k].name + (c.materials.size() > 1 ? ", " + c.materials[m] : "");
+      s.name = bank.material()[k].name + of_material(c, m);
       for (const Draw &d : c.draws)
         s.of.push_back(bank.material()[k].prior.score(d.materials[m].parameters[k]));
       out.push_back(s);

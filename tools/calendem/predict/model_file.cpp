@@ -98,11 +98,6 @@ Json spread_of(std::vector<double> values) {
   return {{"median", at(0.5)}, {"low90", at(0.05)}, {"high90", at(0.95)}};
 }
 
-/// Behind a name, where there are several materials.
-std::string of_material(const Calibration &c, std::size_t material) {
-  return c.materials.size() > 1 ? ", " + c.materials[material] : "";
-}
-
 Json parameters_of(const FilmBank &bank, const Calibration &c) {
   Json out = Json::array();
   for (std::size_t m = 0; m < c.materials.size(); ++m)

@@ -34,8 +34,8 @@ std::vector<Draw> prior_draws(const FilmBank &bank, const ModelError &error,
   return out;
 }
 
-/// Gives each of the draws, which have the same effects, one more material. With the first two it is drawn how alike
-/// materials are. Scores are normal with that correlation between any two materials.
+/// Gives each of the draws, which have the same effects, one more material; with the second, how
+/// alike materials are. Scores are normal with that correlation between any two materials.
 void add_material(const FilmBank &bank, std::uint64_t seed, std::vector<Draw> &draws) {
   const inference::Prior alike = {inference::Prior::uniform, 0.0, 1.0};
   const std::size_t d = bank.material().size(), before = draws.front().materials.size();
@@ -110,20 +110,23 @@ Sampled sampled(const FilmBank &bank, const CalibrationSettings &settings, const
       logs.push_back(log_likelihood(bank, seen, draw));
     return logs;
   };
-  out.logs = likelihoods(1);
+  std::vector<double> before = likelihoods(1);
+  out.logs = before;
   out.effective = Weights(out.logs).effective;
   for (std::size_t next = 2; next <= c.materials.size(); ++next) {
     const Weights weights(out.logs);
     const double evidence = weights.largest + std::log(weights.sum / settings.samples);
     std::vector<Draw> again;
-    for (const std::size_t k : resampled(weights.of, settings.samples))
+    std::vector<double> of_again; // what the first materials' data say of them
+    for (const std::size_t k : resampled(weights.of, settings.samples)) {
       again.push_back(out.draws[k]);
+      of_again.push_back(before[k]);
+    }
     out.draws = again;
-    const std::vector<double> before = likelihoods(next - 1);
     add_material(bank, seed, out.draws);
-    out.logs = likelihoods(next);
-    for (std::size_t k = 0; k < out.logs.size(); ++k)
-      out.logs[k] += evidence - before[k];
+    before = likelihoods(next);
+    for (std::size_t k = 0; k < before.size(); ++k)
+      out.logs[k] = evidence + before[k] - of_again[k];
     out.effective = std::min(out.effective, Weights(out.logs).effective);
   }
   return out;

@@ -120,7 +120,7 @@ json rows_of(const std::vector<PredictedFilm> &films) {
   json rows = json::array();
   for (const PredictedFilm &f : films)
     for (std::size_t k = 0; k < f.pressures.size(); ++k) {
-      json row = {{"film", f.film.name}, {"pressure", fmt::format("{:.3g}", f.pressures[k])}};
+      json row = {{"film", f.film.name}, {"at", fmt::format("{:.3g}", f.pressures[k])}};
       for (const Number &n : numbers()) {
         const Band &b = (f.*n.bands)[k];
         row["cells"].push_back(fmt::format("{:.{}f} ({:.{}f} to {:.{}f})", n.scale * b.median,
@@ -161,10 +161,22 @@ std::string prediction_page(const Calibration &c, const std::vector<PredictedFil
     page.charts.push_back(number_chart(n, c, films));
   const bool cracks = std::any_of(c.data.begin(), c.data.end(),
                                   [](const Datum &d) { return d.number == FilmNumber::Cracked; });
-  page.values = {{"rows", rows_of(films)},
-                 {"basis", basis_of(films)},
-                 {"not_measured",
-                  cracks ? "Springback and modulus were" : "Springback, cracks and modulus were"}};
+  json basis = basis_of(films);
+  basis.push_back(
+      fmt::format("{} not measured on these films: their intervals are valid only if "
+                  "the model is right.",
+                  cracks ? "Springback and modulus were" : "Springback, cracks and modulus were"));
+  page.values = {{"title", "Prediction"},
+                 {"subtitle",
+                  "Films that were not measured, against the maximum pressure. The 50 and "
+                  "90 % intervals include the uncertainty of the parameters, the model "
+                  "error, the emulators, the numerics of the bank and the press."},
+                 {"against", "Against pressure"},
+                 {"heads",
+                  {"MPa", "Porosity after, %", "Under load, %", "Springback, %", "Cracked, %",
+                   "Modulus, GPa"}},
+                 {"rows", rows_of(films)},
+                 {"basis", basis}};
   return report::to_html(page);
 }
 
