@@ -84,6 +84,9 @@ refuses "particles.median_um: 9 instead of 4.35" predict model/model.json other.
 sed 's/^median_um.*/median_um = 9/' "$cases/real/blb_nmc111_90/electrode.toml" >coarse.toml
 sed 's/electrode.toml/coarse.toml/' "$cases/real/blb_nmc111_90/experiment.toml" >coarse_pressed.toml
 refuses "the film is not of the bank's kind" calibrate coarse_pressed.toml --bank "$cases/coatings/bank.toml"
+sed "s#^electrode = .*#electrode = \"$cases/real/artistic_96/electrode.toml\"#; s/^material = .*/material = \"other\"/" \
+  "$cases/real/artistic_96/experiment.toml" >named_other.toml
+refuses "material is 'other', which stands for one that was not measured" calibrate named_other.toml --bank "$cases/coatings/bank.toml"
 sed 's/"hash": "[0-9a-f]*"/"hash": "0"/' model/model.json >changed.json
 refuses "--material is needed; the model has 'ARTISTIC NMC111', 'BLB NMC111'" predict three/model.json film.toml
 refuses "--material is 'ARTISTIC'; the model has" predict three/model.json film.toml --material ARTISTIC
