@@ -10,6 +10,7 @@
 #include "global_properties.h"
 #include "memory.h"
 #include "modify.h"
+#include "physics/fixed_point.h"
 #include "physics/sjkr_cohesion.h"
 #include "update.h"
 #include <cmath>
@@ -20,7 +21,8 @@ using namespace FixConst;
 
 namespace {
 const double kFourThirdsPi = 4.18879020478639098462;
-}
+const calendem::FixedPoint kForces(8e9); // nN; sums that depend on no order of the contacts
+} // namespace
 
 FixCbdCollapse::FixCbdCollapse(LAMMPS *lmp, int narg, char **arg)
     : Fix(lmp, narg, arg), type_(0), imposed_until_(0.0), nanoporosity_(NULL),
@@ -126,7 +128,7 @@ void FixCbdCollapse::init() {
 bool FixCbdCollapse::is_mine(int i) const { return i < atom->nlocal && atom->type[i] == type_; }
 
 // What presses, less what cohesion pulls.
-void FixCbdCollapse::add_pair_forces(std::vector<double> &sum) const {
+void FixCbdCollapse::add_pair_forces(std::vector<long long> &sum) const {
   const double *R = atom->radius;
   bonds_->for_each_touching_copy([&](int i, int j, double r, const BondHistory &bond) {
     if (!is_mine(i) && !is_mine(j))
@@ -138,20 +140,20 @@ void FixCbdCollapse::add_pair_forces(std::vector<double> &sum) const {
         calendem::sjkr_force(cohesion_energy_density_[ti][tj], r, R[i], R[j]);
     for (int a : {i, j})
       if (is_mine(a))
-        sum[a] += net;
+        sum[a] += kForces.of(net);
   });
 }
 
-void FixCbdCollapse::add_wall_forces(std::vector<double> &sum) const {
+void FixCbdCollapse::add_wall_forces(std::vector<long long> &sum) const {
   for (FixWallGranPlaten *wall : walls_) {
     const int tw = wall->atom_type_wall();
     const double ced = wall->sticks() ? cohesion_energy_density_[type_][tw] : 0.0;
     for (int i = 0; i < atom->nlocal; ++i) {
       const double R = atom->radius[i], r = std::fabs(atom->x[i][2] - wall->position());
       if (is_mine(i))
-        sum[i] +=
+        sum[i] += kForces.of(
             effects_.force(EffectContact::at_wall(type_, tw, R, R - r), wall->effect_memory(i)) -
-            calendem::sjkr_wall_force(ced, r, R);
+            calendem::sjkr_wall_force(ced, r, R));
     }
   }
 }
@@ -167,14 +169,14 @@ double FixCbdCollapse::rotational_energy() const {
 }
 
 // The nanoporosities after this update; returns whether one of this rank falls.
-bool FixCbdCollapse::decide(const std::vector<double> &sum, std::vector<double> &next) {
+bool FixCbdCollapse::decide(const std::vector<long long> &sum, std::vector<double> &next) {
   bool falls = false;
   largest_pressure_ = 0.0;
   next.assign(atom->nlocal, 0.0);
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!is_mine(i))
       continue;
-    const double p = calendem::mean_pressure(sum[i], atom->radius[i]);
+    const double p = calendem::mean_pressure(kForces.value(sum[i]), atom->radius[i]);
     const double phi = nanoporosity_[i], time = nevery * update->dt;
     next[i] = imposed_until_ > 0.0
                   ? law_.follow(phi, law_.imposed(upper_->largest_pressure(), imposed_until_), time)
@@ -197,7 +199,8 @@ void FixCbdCollapse::shrink(const std::vector<double> &next) {
 }
 
 void FixCbdCollapse::end_of_step() {
-  std::vector<double> sum(atom->nlocal, 0.0), next;
+  std::vector<long long> sum(atom->nlocal, 0);
+  std::vector<double> next;
   add_pair_forces(sum);
   add_wall_forces(sum);
   int mine = decide(sum, next), any = 0;

@@ -67,9 +67,9 @@ private:
   void check();
   double number(const std::string &key, const char *text, double low, double high);
   bool is_mine(int i) const;
-  void add_pair_forces(std::vector<double> &sum) const;
-  void add_wall_forces(std::vector<double> &sum) const;
-  bool decide(const std::vector<double> &sum, std::vector<double> &next);
+  void add_pair_forces(std::vector<long long> &sum) const;
+  void add_wall_forces(std::vector<long long> &sum) const;
+  bool decide(const std::vector<long long> &sum, std::vector<double> &next);
   void shrink(const std::vector<double> &next);
   double rotational_energy() const;
 };

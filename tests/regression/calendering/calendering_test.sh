@@ -32,6 +32,13 @@ kill_and_resume() { # CASE DIR: kill -9 once a restart file and twelve rows are 
   wait $run && fail "a killed run must not end with exit status 0"
   "$bin/calendem" run "$1" -o "$2" --ranks 1 --resume
 }
+same_on_two_ranks() { # CASE RUN: the breaks, pressures and gaps of a run on one rank, to the last digit
+  rm -rf "$work/ranks"
+  "$bin/calendem" run "$1" -o "$work/ranks" --ranks 2
+  cmp "$2/breaks.csv" "$work/ranks/breaks.csv" || fail "1 and 2 ranks broke different bonds"
+  cmp <(cut -d, -f1-13 "$2/curve_raw.csv") <(cut -d, -f1-13 "$work/ranks/curve_raw.csv") ||
+    fail "1 and 2 ranks gave different curves"
+}
 
 mkdir -p "$work"
 cp "$here/case.toml" "$work/"
@@ -127,7 +134,9 @@ case $case in
       "nmc_confinement.bulk_modulus_GPa = 150
        nmc_confinement.free_surface = 0.95
        cbd_plasticity.yield_pressure_GPa = 0.55
-       cbd_plasticity.hardening_GPa = 0.2"; do
+       cbd_plasticity.hardening_GPa = 0.2" \
+      "binder_bridges.strength_MPa = 20
+       pre_cracks.fraction = 0.1"; do
       sed 's/^max_pressure_MPa = .*/control = "displacement"\ndisplacement_um = 2.8/; s/= 2$/= 4/' "$here/case.toml" >"$work/effects.toml"
       printf '\n[effects]\n%s\n' "$effects" >>"$work/effects.toml"
       rm -rf "$work/effects" "$work/effects_killed"
@@ -137,6 +146,7 @@ case $case in
       kill_and_resume "$work/effects.toml" "$work/effects_killed"
       cmp "$work/effects/breaks.csv" "$work/effects_killed/breaks.csv" || fail "break logs differ after --resume"
       cmp "$work/effects/curve.csv" "$work/effects_killed/curve.csv" || fail "curves differ after --resume"
+      same_on_two_ranks "$work/effects.toml" "$work/effects"
     done ;;
   roll) # two passes with slip and elongation are gone on with to the same bytes; one pass is the platen at equal smallest gap
     under() { # FILE SETTINGS-OF-PLATEN SETTINGS-OF-ROLL
@@ -291,12 +301,7 @@ EOF
     refused "initial_nanoporosity is 0.4, but the electrode was packed with a nanoporosity of 0.5" "$work/pores.toml" -o "$work/pores"
     refused "LIGGGHTS cannot take a path with a blank" "$work/case.toml" -o "$work/a run"
     [ ! -e "$work/a run" ] || fail "a folder was made for nothing" ;;
-  two_ranks) # the same breaks, pressures and gaps to the last digit
-    rm -rf "$work/ranks"
-    "$bin/calendem" run "$work/case.toml" -o "$work/ranks" --ranks 2
-    cmp "$work/run/breaks.csv" "$work/ranks/breaks.csv" || fail "1 and 2 ranks broke different bonds"
-    cmp <(cut -d, -f1-13 "$work/run/curve.csv") <(cut -d, -f1-13 "$work/ranks/curve.csv") ||
-      fail "1 and 2 ranks gave different curves" ;;
+  two_ranks) same_on_two_ranks "$work/case.toml" "$work/run" ;;
   measured) # calendem measure agrees with the run's own files; the report shows it
     rm -rf "$work/measured"
     cp -r "$work/run" "$work/measured"

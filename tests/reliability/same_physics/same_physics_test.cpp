@@ -293,7 +293,7 @@ Outcome press_them(const std::string &law, Settings more, int ranks = 1) {
   more.insert({{"law", law},
                {"how", "once"},
                {"steps", "3000"},
-               {"contact", law == "none" ? "hertz" : "hertz_effects"}});
+               {"contact", law == "none" || law == "collapse" ? "hertz" : "hertz_effects"}});
   return outcome(CaseRun("in.breaks", more, ranks, thrown_bodies(2.7)));
 }
 
@@ -307,6 +307,18 @@ TEST(SamePhysics, ContactsAreTheSameOnEveryProcessorGrid) {
     const Outcome four = press_them(law, {{"px", "2"}, {"py", "2"}, {"pz", "1"}}, 4);
     EXPECT_EQ(four.breaks, one.breaks) << law;
     EXPECT_EQ(four.state, one.state) << law;
+  }
+}
+
+// The pressure of a sphere sums the forces of its contacts.
+TEST(SamePhysics, CollapseIsTheSameOnEveryProcessorGridAndAfterRebuilds) {
+  const Outcome one = press_them("collapse", kSerial);
+  EXPECT_GT(difference(one.state, press_them("none", kSerial).state, 1), 1e-6) << "it does not act";
+  const Outcome four = press_them("collapse", {{"px", "2"}, {"py", "2"}, {"pz", "1"}}, 4);
+  const Outcome rebuilt = press_them("collapse", with({{"rebuild", "every"}}));
+  for (const Outcome *o : {&four, &rebuilt}) {
+    EXPECT_EQ(o->breaks, one.breaks);
+    EXPECT_EQ(o->state, one.state);
   }
 }
 

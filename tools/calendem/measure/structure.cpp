@@ -136,6 +136,8 @@ std::vector<StructureMeasures> measure_run(const std::string &folder,
                                            const MeasureOptions &options) {
   std::vector<StructureMeasures> out;
   for (const RunMoment &moment : moments_of_run(folder)) {
+    if (!options.moment.empty() && moment.name != options.moment)
+      continue;
     out.push_back(measure_spheres(moment.structure, options));
     out.back().moment = moment.name;
     out.back().time_us = moment.time_us;

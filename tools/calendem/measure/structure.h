@@ -49,6 +49,7 @@ struct MeasureOptions {
   std::int32_t background = 0;           ///< label of an image's pores
   std::optional<std::int32_t> cbd_label; ///< none: an image shows no CBD
   std::optional<double> nanoporosity;    ///< of an image's CBD, 0-1; none: no total porosity
+  std::string moment;                    ///< of a run, the only one to measure; empty: all
 };
 
 /// One structure at one moment.

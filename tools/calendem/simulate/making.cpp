@@ -92,6 +92,8 @@ void Making::make(int k) {
   std::string failed = o_.step == StudyStep::Run ? "" : pack(k);
   if (failed.empty())
     failed = run(k);
+  if (failed.empty() && study_.measured)
+    failed = measure(k);
   if (failed.empty() && !study_.keep_all)
     keep_tables(k);
   set_status(k, failed.empty() ? "done" : failed);
@@ -269,6 +271,12 @@ std::string Making::run(int k) {
   std::vector<std::string> words = command("run", folder + ".toml", folder);
   words.push_back("--resume");
   return ended_with(run_program(words, folder + ".log"));
+}
+
+std::string Making::measure(int k) {
+  const std::string folder = run_folder(states_[k]);
+  return ended_with(run_program({this_program(), "measure", folder, "--moment", "after"},
+                                folder + ".measure.log"));
 }
 
 /// Leaves the tables of a finished run, removes frames and restart files.

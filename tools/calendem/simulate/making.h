@@ -74,6 +74,7 @@ private:
                                    const std::string &folder) const;
   std::string pack(int k);
   std::string run(int k);
+  std::string measure(int k);
   void keep_tables(int k) const;
 };
 

@@ -36,6 +36,7 @@ struct Study {
   std::string file, name, recipe_file, case_file;
   std::vector<double> at_pressure; ///< MPa, increasing
   bool keep_all = true;
+  bool measured = false;            ///< the structure after release, structure.json
   std::vector<std::string> columns; ///< the keys that are varied: "case.…", "recipe.…"
   std::vector<StudyRun> runs;
 };

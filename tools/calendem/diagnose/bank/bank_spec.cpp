@@ -25,7 +25,8 @@ const std::vector<Key> &head_keys() {
       {"effect_points", "", "24", 2, 10000, "", "of every effect", "", false, true},
       {"seed", "", "1", 0, 4e9, "", "of the design", "", false, true},
       {"pressures_MPa", "", "", 0.1, 2000, "MPa", "a run for each at every point"},
-      {"first_point", "", "0", 0, 5000, "", "number of the first base point", "", false, true}};
+      {"first_point", "", "0", 0, 5000, "", "number of the first base point", "", false, true},
+      {"tortuosity", "", "no", 0, 0, "", "of the pores after release", "yes|no"}};
   return keys;
 }
 
@@ -35,7 +36,7 @@ public:
 
   void read_head(const toml::table &t, BankSpec &out) {
     report_unknown(t, {"name", "recipe", "case", "packings", "base_points", "effect_points", "seed",
-                       "first_point", "pressures_MPa", "effects"});
+                       "first_point", "tortuosity", "pressures_MPa", "effects"});
     out.name = text(t, head_keys()[0]);
     out.recipe_file = path(t, head_keys()[1]);
     out.case_file = path(t, head_keys()[2]);
@@ -44,6 +45,7 @@ public:
     out.effect_points = int(number(t, head_keys()[5]));
     out.seed = static_cast<unsigned long>(number(t, head_keys()[6]));
     out.first_point = int(number(t, head_keys()[8]));
+    out.tortuosity = text(t, head_keys()[9]) == "yes";
     if (out.effect_points > out.base_points)
       mistakes_.add(0, fmt::format("effect_points is {}, base_points {}: every point of an effect "
                                    "needs a base point of its own.",
@@ -335,6 +337,7 @@ Study bank_study(const BankSpec &spec, const std::vector<BankPoint> &points) {
   study.recipe_file = spec.recipe_file;
   study.case_file = spec.case_file;
   study.keep_all = false;
+  study.measured = spec.tortuosity;
   study.columns = columns_of(spec);
   std::vector<std::vector<std::string>> rows;
   for (const BankPoint &p : points)

@@ -11,6 +11,7 @@
 //   effects = ["friction"]           # default: all
 //   seed = 1                         # of the design
 //   first_point = 0                  # number of the first base point, where tables are joined
+//   tortuosity = "yes"               # of the pores after release; default: no
 //   [[parameter]]                    # of the base model, recalibrated by the diagnosis
 //   name = "E_am"
 //   keys = ["case.material.am.youngs_modulus_GPa"]
@@ -83,7 +84,8 @@ struct BankSpec {
   std::vector<double> pressures; ///< MPa, increasing
   int packings = 12, base_points = 48, effect_points = 24;
   unsigned long seed = 1;
-  int first_point = 0; ///< number of the first base point
+  int first_point = 0;     ///< number of the first base point
+  bool tortuosity = false; ///< of the pores after release, of every run
   std::vector<BankParameter> parameters;
   std::vector<std::string> effects;
   std::map<std::string, std::pair<double, double>> ranges; ///< of effects, where not the table's

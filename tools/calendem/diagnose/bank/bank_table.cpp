@@ -52,6 +52,10 @@ constexpr Number kNumbers[] = {{"target_MPa", &SimulatedRun::target},
                                {"cracked_fraction", &SimulatedRun::cracked_fraction},
                                {"porosity_slope_per_MPa", &SimulatedRun::porosity_slope}};
 
+/// Columns that an earlier table lacks, and cells that may be empty.
+constexpr Number kMoreNumbers[] = {{"broken_fraction", &SimulatedRun::broken_fraction},
+                                   {"inverse_tortuosity", &SimulatedRun::inverse_tortuosity}};
+
 std::string cell(double v) { return std::isfinite(v) ? fmt::format("{:.8g}", v) : ""; }
 std::string grid_column(double pressure) {
   return fmt::format("displacement_um_at_{:g}_MPa", pressure);
@@ -85,6 +89,8 @@ BankRow row_at(const BankSpec &spec, const Columns &t, std::size_t k, const std:
   row.point.value = base ? 0.0 : number("value");
   row.run.control = "pressure";
   for (const Number &n : kNumbers)
+    row.run.*(n.field) = number(n.column);
+  for (const Number &n : kMoreNumbers)
     row.run.*(n.field) = number(n.column);
   for (const double p : grid())
     if (const double d = number(grid_column(p)); std::isfinite(d)) {
@@ -132,6 +138,8 @@ std::string write_bank_table(const BankTable &table) {
   out += ",value";
   for (const Number &n : kNumbers)
     out += std::string(",") + n.column;
+  for (const Number &n : kMoreNumbers)
+    out += std::string(",") + n.column;
   for (const double p : grid())
     out += "," + grid_column(p);
   for (const double share : released())
@@ -144,6 +152,8 @@ std::string write_bank_table(const BankTable &table) {
     const bool base = row.point.effect.empty() || row.point.effect == kFullCell;
     out += "," + (base ? "" : cell(row.point.value));
     for (const Number &n : kNumbers)
+      out += "," + cell(row.run.*(n.field));
+    for (const Number &n : kMoreNumbers)
       out += "," + cell(row.run.*(n.field));
     for (const double p : grid())
       out += "," + cell(displacement_at(row.run.pressure, row.run.displacement, p));
@@ -178,10 +188,14 @@ BankTable read_bank_table(const BankSpec &spec, const std::string &file) {
   Columns numbers;
   for (const std::string &column : wanted)
     numbers[column] = t.numbers(column);
+  const auto if_there = [&](const std::string &column) {
+    numbers[column] =
+        t.has(column) ? t.numbers(column) : std::vector<double>(t.rows(), std::nan(""));
+  };
+  for (const Number &n : kMoreNumbers)
+    if_there(n.column);
   for (const double share : released())
-    numbers[release_column(share)] = t.has(release_column(share))
-                                         ? t.numbers(release_column(share))
-                                         : std::vector<double>(t.rows(), std::nan(""));
+    if_there(release_column(share));
   const std::vector<std::string> effect = t.texts("effect");
   for (std::size_t k = 0; k < t.rows(); ++k)
     check_row(numbers, k, effect[k], due, mistakes);
@@ -219,6 +233,8 @@ SimulatedRun between_runs(const SimulatedRun &lower, const SimulatedRun &upper, 
   const double share = (pressure - lower.target) / (upper.target - lower.target);
   SimulatedRun out = upper;
   for (const Number &n : kNumbers)
+    out.*(n.field) = lower.*(n.field) + share * (upper.*(n.field) - lower.*(n.field));
+  for (const Number &n : kMoreNumbers)
     out.*(n.field) = lower.*(n.field) + share * (upper.*(n.field) - lower.*(n.field));
   for (std::size_t k = 0; k < upper.release_pressure.size(); ++k) {
     const double of_largest = upper.release_pressure[k] / upper.target;

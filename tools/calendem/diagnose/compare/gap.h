@@ -7,6 +7,7 @@
 #include "base/experiment.h"
 #include "base/gap_file.h"
 #include "base/shown.h"
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -23,8 +24,12 @@ struct SimulatedRun {
   double target = 0.0; ///< of the platen: MPa or um
   double max_pressure = 0.0, thickness_at_max = 0.0, thickness_after = 0.0;
   double porosity_initial = 0.0, porosity_at_max = 0.0, porosity_after = 0.0;
-  double solid_column = 0.0;                  ///< solid volume per area [um]
-  double cracked_fraction = 0.0;              ///< of the bodies
+  double solid_column = 0.0;     ///< solid volume per area [um]
+  double cracked_fraction = 0.0; ///< of the bodies
+  double broken_fraction = NAN;  ///< of the bonds, after release
+  /// 1 / tortuosity factor of the macro pores through the plane, after release; 0: no path leads
+  /// through; NaN: not measured.
+  double inverse_tortuosity = NAN;
   std::vector<double> pressure, displacement; ///< of the compression, highest pressure so far
   /// Of the release, by rising pressure: the lowest so far.
   std::vector<double> release_pressure, release_displacement;

@@ -45,7 +45,22 @@ void read_summary(RunFolder &folder, SimulatedRun &run, Mistakes &mistakes) {
     run.imposed = s["imposed"].value("what", "something that this version does not know");
   const double bodies = number("bodies");
   run.cracked_fraction = bodies > 0.0 ? number("cracked_bodies") / bodies : 0.0;
+  run.broken_fraction = number("broken_fraction_after");
   run.solid_column = number("thickness_at_max_um") * (1.0 - run.porosity_at_max);
+}
+
+/// Of structure.json, if the run was measured.
+double inverse_tortuosity(RunFolder &folder) {
+  if (!folder.has("structure.json"))
+    return NAN;
+  for (const auto &moment :
+       folder.object("structure.json").value("moments", nlohmann::json::array())) {
+    const nlohmann::json through =
+        moment.value("/tortuosity/through_plane"_json_pointer, nlohmann::json::object());
+    if (moment.value("moment", "") == "after" && through.contains("effective_diffusivity"))
+      return through.value("effective_diffusivity", NAN) / through.value("porosity", NAN);
+  }
+  return NAN;
 }
 
 } // namespace
@@ -79,6 +94,7 @@ SimulatedRun read_simulated_run(const std::string &path) {
   read_summary(folder, run, mistakes);
   mistakes.stop_if_any();
   read_curve(folder, run, mistakes);
+  run.inverse_tortuosity = inverse_tortuosity(folder);
   if (const auto &electrode = folder.object("electrode.json", mistakes); electrode.is_object()) {
     run.electrode_hash = hash_of_file(folder.path_of("electrode.json"));
     const nlohmann::json recipe = electrode.value("recipe", nlohmann::json::object());
