@@ -26,10 +26,10 @@ Calibration of(const Truth &truth, std::uint64_t seed = 1) {
   return c;
 }
 
-double probability(const Calibration &c, const std::string &name) {
+double probability(const Calibration &c, const std::string &name, std::size_t material = 0) {
   for (const Weighed &w : c.hypotheses)
     if (w.name == name)
-      return w.probability;
+      return w.probability[material];
   return NAN;
 }
 
@@ -223,7 +223,45 @@ TEST(Calibrate, TheOrderOfMaterialsDoesNotMatter) {
   const Calibration a = calibrated(0), b = calibrated(1);
   EXPECT_NEAR(shown_of(a, 0).mean, shown_of(b, 1).mean, 0.05);
   EXPECT_NEAR(shown_of(a, 1).mean, shown_of(b, 0).mean, 0.05);
-  EXPECT_NEAR(probability(a, "none"), probability(b, "none"), 0.1);
+  EXPECT_NEAR(probability(a, "none", 0), probability(b, "none", 1), 0.1);
+  EXPECT_NEAR(probability(a, "none", 1), probability(b, "none", 0), 0.1);
+}
+
+// Two materials have the same effects as often as they are alike, half of the time before the data; the others have each
+// as often as the prior says. 200 draws: 0.035 a standard deviation.
+TEST(Calibrate, AMaterialThatWasNotMeasuredMayHaveOtherEffects) {
+  const Calibration c = of({{190.0, 1.7, 260.0}, 1.0});
+  const double measured = 1.0 - probability(c, "none");
+  EXPECT_GT(measured, 0.9);
+  double acts = 0.0, same = 0.0;
+  for (const Draw &d : c.draws) {
+    acts += !d.materials[1].effects.empty() / 200.0;
+    same += effects_of(d.materials[0]) == effects_of(d.materials[1]) ? 1.0 / 200.0 : 0.0;
+  }
+  EXPECT_NEAR(acts, 0.5 * measured + 0.5 * 0.5, 0.1);
+  EXPECT_NEAR(same, 0.75, 0.1);
+}
+
+// The other material's films change the odds of an effect by less than a factor of two: at most 3 to 1 in favour of what they
+// show, and half of the time nothing.
+TEST(Calibrate, AnEffectMayActInOneOfTwoMaterials) {
+  const auto calibrated = [](bool both) {
+    Random random(4, 21);
+    Calibration c;
+    c.error = {0.0, 0.001, 0.02, 0.1};
+    c.materials = {"yielding"};
+    measure_film({{190.0, 1.7, 260.0}, 1.0}, "a", 0, random, c);
+    if (both) {
+      c.materials.push_back("plain");
+      measure_film({{190.0, 2.4, 480.0}, 0.0}, "b", 1, random, c);
+    }
+    calibrate(made_film_bank(), few(), c);
+    return c;
+  };
+  const Calibration alone = calibrated(false), both = calibrated(true);
+  const auto odds = [](double p) { return p / (1.0 - p); };
+  EXPECT_LT(odds(probability(both, "none", 0)), 2.0 * odds(probability(alone, "none")));
+  EXPECT_GT(probability(both, "none", 1), 0.5);
 }
 
 TEST(Calibrate, IsDeterministic) {

@@ -127,7 +127,7 @@ TEST(ModelFile, TheCaseHasTheBanksSettingsOfItsEffect) {
   table.spec.case_file = CALENDEM_SOURCE_DIR "/input_scripts/cases/bank/case.toml";
   const FilmBank bank(table);
   Calibration c;
-  c.hypotheses = {{"none", 0.1, 100.0}, {"cbd_collapse", 0.9, 100.0}};
+  c.hypotheses = {{"none", {0.1}, 100.0}, {"cbd_collapse", {0.9}, 100.0}};
   c.draws = {{{{{190.0, 2.4, 480.0}, {{0, 0.5}}}}, {0.001, 0.5}}};
   const std::string text = case_of(bank, c, 0);
   for (const char *part : {"[effects.cbd_collapse]", "floor_nanoporosity = 0\n",

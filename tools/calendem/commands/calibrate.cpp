@@ -49,9 +49,14 @@ void run_calibrate(const CalibrateOptions &o) {
   for (std::size_t m = 0; m < c.materials.size(); ++m)
     write_file(cases[m], case_of(bank, c, m));
   write_file(o.folder + "/model.html", model_page(bank, c, model));
-  for (const Weighed &w : c.hypotheses)
-    fmt::print("  {:<24} {:5.1f} %   ({:.0f} effective samples)\n", w.name,
-               kPercent * w.probability, w.effective_samples);
+  if (c.materials.size() > 1)
+    fmt::print("probability of effects in {}\n", fmt::join(c.materials, " | "));
+  for (const Weighed &w : c.hypotheses) {
+    fmt::print("  {:<28}", w.name);
+    for (const double probability : w.probability)
+      fmt::print(" {:5.1f} %", kPercent * probability);
+    fmt::print("   ({:.0f} effective samples)\n", w.effective_samples);
+  }
   if (!rows.empty())
     fmt::print("each film left out in turn: porosity after release, %\n");
   for (const LeftOut &r : rows)

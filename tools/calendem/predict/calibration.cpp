@@ -203,8 +203,8 @@ constexpr double kFewSamples = 50.0;
 double effective_samples(const Calibration &c) {
   double squares = 0.0;
   for (const Weighed &w : c.hypotheses)
-    if (w.probability > 0.0)
-      squares += w.probability * w.probability / w.effective_samples;
+    if (w.probability[0] > 0.0)
+      squares += w.probability[0] * w.probability[0] / w.effective_samples;
   return 1.0 / squares;
 }
 

@@ -34,19 +34,20 @@ struct Missed {
 };
 
 struct Draw {
-  /// Of each of Calibration::materials, and last of one more that was not measured. All have the
-  /// same effects.
+  /// Of each of Calibration::materials, and last of one more that was not measured.
   std::vector<Material> materials;
   Missed missed;
-  /// Correlation between materials of each parameter and amplitude (of its normal score), 0-1.
+  /// Correlation between materials of each parameter and amplitude (of its normal score), 0-1, and
+  /// the probability that two have the same effects because they are alike.
   double alike = 0.5;
   const Material &of(const Film &film) const { return materials[std::size_t(film.material)]; }
 };
 
 /// Effects that may act: none, one, or two.
 struct Weighed {
-  std::string name; ///< "none", an effect, "a + b"
-  double probability = 0.0, effective_samples = 0.0;
+  std::string name;                ///< "none", an effect, "a + b"
+  std::vector<double> probability; ///< in each of Calibration::materials
+  double effective_samples = 0.0;  ///< of those with these effects in the first material
 };
 
 /// Of experiments that name no material, and of one that was not measured.
@@ -86,18 +87,19 @@ inference::Prior discrepancy_of(const ModelError &error);
 /// are both free, and their emulators add.
 std::vector<std::vector<int>> hypotheses_of(const FilmBank &bank);
 std::string name_of(const FilmBank &bank, const std::vector<int> &effects);
-/// The effects that act in a draw.
-std::vector<int> effects_of(const Draw &draw);
+/// The effects that act in a material.
+std::vector<int> effects_of(const Material &material);
 
 /// Systematic resampling by weights: the k-th of `count` is the first whose summed share passes
 /// (k + 1/2) / count.
 std::vector<std::size_t> resampled(const std::vector<double> &weights, int count);
 
 /// Fills hypotheses and draws from films, data and error. Pairs share their prior probability, the
-/// others what is left, in equal parts. Samples are a Sobol sequence over the priors, weighted by the likelihood of the data
-/// (importance sampling). Of several materials each takes its turn: samples of those before it, drawn anew by their weights,
-/// get one more material, which is drawn given those it is like, and are weighted by what its films add (sequential Monte
-/// Carlo, Del Moral, Doucet and Jasra 2006). Deterministic.
+/// others what is left, in equal parts. Samples are a Sobol sequence over the priors, weighted by
+/// the likelihood of the data (importance sampling). Of several materials each takes its turn:
+/// samples of those before it, drawn anew by their weights, get one more material, which is drawn
+/// given those it is like, and are weighted by what its films add (sequential Monte Carlo, Del
+/// Moral, Doucet and Jasra 2006). Deterministic.
 void calibrate(const FilmBank &bank, const CalibrationSettings &settings, Calibration &calibration);
 
 /// What speaks against trusting a calibration: parameters that the data drive to an end of the bank's

@@ -183,7 +183,7 @@ Json hypotheses_of(const FilmBank &bank, const Calibration &c) {
       for (std::size_t m = 0; m < c.materials.size(); ++m) {
         std::vector<double> values;
         for (const Draw &d : c.draws)
-          if (effects_of(d) == effects)
+          if (effects_of(d.materials[m]) == effects)
             values.push_back(key_value(bank, d.materials[m].effects[k]));
         if (values.empty())
           continue;
@@ -229,13 +229,14 @@ Json to_json(const FilmBank &bank, const Calibration &c, const std::vector<LeftO
 }
 
 std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_those) {
-  const auto best = std::max_element(
-      c.hypotheses.begin(), c.hypotheses.end(),
-      [](const Weighed &a, const Weighed &b) { return a.probability < b.probability; });
+  const auto best = std::max_element(c.hypotheses.begin(), c.hypotheses.end(),
+                                     [&](const Weighed &a, const Weighed &b) {
+                                       return a.probability[of_those] < b.probability[of_those];
+                                     });
   const std::vector<int> effects = hypotheses_of(bank)[std::size_t(best - c.hypotheses.begin())];
   std::vector<const Draw *> of;
   for (const Draw &d : c.draws)
-    if (effects_of(d) == effects)
+    if (effects_of(d.materials[of_those]) == effects)
       of.push_back(&d);
   const auto middle = [&](const auto &value) {
     std::vector<double> values;
@@ -283,7 +284,7 @@ std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_t
   std::string out = fmt::format(
       "{}{} ({}, {:.0f} %): the middle of its draws, each\n"
       "# parameter by itself. Put the folder of your electrode here.\nelectrode = \"electrode\"\n",
-      kHeadOfCase, of_material(c, of_those), best->name, 100.0 * best->probability);
+      kHeadOfCase, of_material(c, of_those), best->name, 100.0 * best->probability[of_those]);
   out += of_recipe;
   for (const auto &[table, lines] : tables)
     out += fmt::format("\n[{}]\n{}", table, lines);
@@ -347,8 +348,15 @@ Calibration calibration_of(const FilmBank &bank, const Json &json) {
   }
   const Json &error = json.at("model_error");
   out.error = {error.at("numerics"), error.at("low"), error.at("high"), error.at("cracked")};
-  for (const Json &row : json.at("hypotheses"))
-    out.hypotheses.push_back({row.at("name"), row.at("probability"), row.at("effective_samples")});
+  for (const Json &row : json.at("hypotheses")) {
+    out.hypotheses.push_back({row.at("name"), row.at("probability").get<std::vector<double>>(),
+                              row.at("effective_samples")});
+    if (out.hypotheses.back().probability.size() != out.materials.size())
+      throw Failure(kBadInput,
+                    fmt::format("hypothesis {} has {} probabilities; it must have {}.",
+                                out.hypotheses.back().name,
+                                out.hypotheses.back().probability.size(), out.materials.size()));
+  }
   for (const Json &row : json.at("draws"))
     out.draws.push_back(draw_of(bank, row, out.materials.size() + 1));
   if (out.draws.empty())

@@ -61,6 +61,13 @@ json left_out_part(const Json &model) {
           {"meyer_off", median(meyer)}};
 }
 
+json heads_of(const Calibration &c) {
+  json out = json::array();
+  for (std::size_t m = 0; m < c.materials.size(); ++m)
+    out.push_back("Probability" + of_material(c, m) + ", %");
+  return out;
+}
+
 json hypotheses_part(const Json &model) {
   json rows = json::array();
   for (const Json &h : model.at("hypotheses")) {
@@ -70,8 +77,11 @@ json hypotheses_part(const Json &model) {
       values += fmt::format("{}{} = {} (90 %: {} to {})", values.empty() ? "" : "; ",
                             e["key"].get<std::string>(), text[0], text[1], text[2]);
     }
+    json percents = json::array();
+    for (const double probability : h["probability"])
+      percents.push_back(fmt::format("{:.0f}", kPercent * probability));
     rows.push_back({{"name", h["name"]},
-                    {"percent", fmt::format("{:.0f}", kPercent * h["probability"].get<double>())},
+                    {"percents", percents},
                     {"value", values},
                     {"samples", shown(h["effective_samples"], "{:.0f}")}});
   }
@@ -161,6 +171,7 @@ std::string model_page(const FilmBank &bank, const Calibration &c, const Json &m
     page.charts.push_back(chart);
   }
   page.values = {{"left_out_part", left_out_part(model)},
+                 {"probabilities", heads_of(c)},
                  {"hypotheses_rows", hypotheses_part(model)},
                  {"parameters_rows", parameters_part(model)},
                  {"learnt_rows", learnt_part(model)},

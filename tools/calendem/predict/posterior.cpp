@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace calendem {
 
@@ -34,35 +35,88 @@ std::vector<Draw> prior_draws(const FilmBank &bank, const ModelError &error,
   return out;
 }
 
-/// Gives each of the draws, which have the same effects, one more material; with the second, how
-/// alike materials are. Scores are normal with that correlation between any two materials.
-void add_material(const FilmBank &bank, std::uint64_t seed, std::vector<Draw> &draws) {
+/// Of a hypothesis that is as probable before the data as all others of as many effects.
+double prior_of(const std::vector<std::vector<int>> &all, const std::vector<int> &effects,
+                double pair_share) {
+  const auto pairs =
+      double(std::count_if(all.begin(), all.end(), [](const auto &of) { return of.size() > 1; }));
+  return effects.size() > 1 ? pair_share / pairs
+                            : (pairs > 0.0 ? 1.0 - pair_share : 1.0) / (double(all.size()) - pairs);
+}
+
+/// A sample on its way to one more material. Materials that follow what all have in common have the
+/// same effects, the others effects of their own: each follows with a probability whose square is
+/// Draw::alike, so that this is how often two of them do.
+struct Sample {
+  Draw draw;
+  int follows = -1; ///< place of a material that does; -1: none
+};
+
+/// The hypothesis at a place (0-1) of all, each as wide as its prior probability.
+std::vector<int> effects_at(const FilmBank &bank, double pair_share, double place) {
+  const auto all = hypotheses_of(bank);
+  double passed = 0.0;
+  for (const std::vector<int> &effects : all)
+    if ((passed += prior_of(all, effects, pair_share)) > place)
+      return effects;
+  return all.back();
+}
+
+/// A score of a new material, given those that others have of the same parameter.
+double score_given(const std::vector<double> &others, double alike, double own) {
+  const auto n = double(others.size());
+  const double pull = n > 0.0 ? alike / (1.0 + (n - 1.0) * alike) : 0.0;
+  return pull * std::accumulate(others.begin(), others.end(), 0.0) +
+         std::sqrt(1.0 - n * alike * pull) * own;
+}
+
+/// Gives each of the samples one more material; with the second, how alike materials are. Scores are
+/// normal with that correlation between any two materials that have the parameter.
+void add_material(const FilmBank &bank, double pair_share, std::uint64_t seed,
+                  std::vector<Sample> &samples) {
   const inference::Prior alike = {inference::Prior::uniform, 0.0, 1.0};
-  const std::size_t d = bank.material().size(), before = draws.front().materials.size();
+  const std::size_t d = bank.material().size(), effects = bank.effects().size(),
+                    before = samples.front().draw.materials.size();
   const Matrix scores =
-      inference::sobol_normals(int(d + draws.front().materials[0].effects.size()) + 1,
-                               int(draws.size()), seed + 1000 * before);
-  for (std::size_t k = 0; k < draws.size(); ++k) {
-    Draw &draw = draws[k];
-    const Vector own = scores.col(Eigen::Index(k));
-    if (before == 1)
-      draw.alike = alike.value(own[own.size() - 1]);
-    const double pull = draw.alike / (1.0 + double(before - 1) * draw.alike),
-                 sd = std::sqrt(1.0 - double(before) * draw.alike * pull);
-    const auto next = [&](const inference::Prior &prior, std::size_t place, const auto &value) {
-      double sum = 0.0;
-      for (const Material &m : draw.materials)
-        sum += prior.score(value(m));
-      return prior.value(pull * sum + sd * own[Eigen::Index(place)]);
+      inference::sobol_normals(int(d + effects) + 4, int(samples.size()), seed + 1000 * before);
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    Sample &sample = samples[k];
+    Draw &draw = sample.draw;
+    const auto own = [&](std::size_t place) {
+      return scores(Eigen::Index(place), Eigen::Index(k));
     };
-    Material more = draw.materials[0];
+    if (before == 1) {
+      draw.alike = alike.value(own(d + effects));
+      sample.follows = alike.value(own(d + effects + 1)) < std::sqrt(draw.alike) ? 0 : -1;
+    }
+    const auto next = [&](const inference::Prior &prior, std::size_t place, const auto &value) {
+      std::vector<double> others;
+      for (const Material &m : draw.materials)
+        if (const std::optional<double> v = value(m))
+          others.push_back(prior.score(*v));
+      return prior.value(score_given(others, draw.alike, own(place)));
+    };
+    Material more;
     for (std::size_t j = 0; j < d; ++j)
-      more.parameters[j] =
-          next(bank.material()[j].prior, j, [j](const Material &m) { return m.parameters[j]; });
-    for (std::size_t j = 0; j < more.effects.size(); ++j)
-      more.effects[j].amplitude =
-          next(bank.effects()[std::size_t(more.effects[j].effect)].prior, d + j,
-               [j](const Material &m) { return m.effects[j].amplitude; });
+      more.parameters.push_back(next(bank.material()[j].prior, j, [j](const Material &m) {
+        return std::optional<double>(m.parameters[j]);
+      }));
+    const bool follows = alike.value(own(d + effects + 2)) < std::sqrt(draw.alike);
+    const std::vector<int> acting =
+        follows && sample.follows >= 0
+            ? effects_of(draw.materials[std::size_t(sample.follows)])
+            : effects_at(bank, pair_share, alike.value(own(d + effects + 3)));
+    for (const int effect : acting)
+      more.effects.push_back(
+          {effect, next(bank.effects()[std::size_t(effect)].prior, d + std::size_t(effect),
+                        [effect](const Material &m) -> std::optional<double> {
+                          for (const Acting &a : m.effects)
+                            if (a.effect == effect)
+                              return a.amplitude;
+                          return std::nullopt;
+                        })});
+    if (follows && sample.follows < 0)
+      sample.follows = int(before);
     draw.materials.push_back(more);
   }
 }
@@ -95,19 +149,21 @@ struct Weights {
 
 /// Samples of one hypothesis, weighted by the likelihood.
 struct Sampled {
-  std::vector<Draw> draws;
+  std::vector<Sample> samples;
   std::vector<double> logs;
   double effective = 0.0; ///< the least of all turns
 };
 
 Sampled sampled(const FilmBank &bank, const CalibrationSettings &settings, const Calibration &c,
                 const std::vector<int> &effects, std::uint64_t seed) {
-  Sampled out = {prior_draws(bank, c.error, effects, settings.samples, seed), {}, 0.0};
+  Sampled out;
+  for (Draw &draw : prior_draws(bank, c.error, effects, settings.samples, seed))
+    out.samples.push_back({std::move(draw), -1});
   const auto likelihoods = [&](std::size_t materials) {
     const Calibration seen = of_first(c, materials);
     std::vector<double> logs;
-    for (const Draw &draw : out.draws)
-      logs.push_back(log_likelihood(bank, seen, draw));
+    for (const Sample &s : out.samples)
+      logs.push_back(log_likelihood(bank, seen, s.draw));
     return logs;
   };
   std::vector<double> before = likelihoods(1);
@@ -116,29 +172,20 @@ Sampled sampled(const FilmBank &bank, const CalibrationSettings &settings, const
   for (std::size_t next = 2; next <= c.materials.size(); ++next) {
     const Weights weights(out.logs);
     const double evidence = weights.largest + std::log(weights.sum / settings.samples);
-    std::vector<Draw> again;
+    std::vector<Sample> again;
     std::vector<double> of_again; // what the first materials' data say of them
     for (const std::size_t k : resampled(weights.of, settings.samples)) {
-      again.push_back(out.draws[k]);
+      again.push_back(out.samples[k]);
       of_again.push_back(before[k]);
     }
-    out.draws = again;
-    add_material(bank, seed, out.draws);
+    out.samples = again;
+    add_material(bank, settings.pair_share, seed, out.samples);
     before = likelihoods(next);
     for (std::size_t k = 0; k < before.size(); ++k)
       out.logs[k] = evidence + before[k] - of_again[k];
     out.effective = std::min(out.effective, Weights(out.logs).effective);
   }
   return out;
-}
-
-/// Of a hypothesis that is as probable before the data as all others of as many effects.
-double prior_of(const std::vector<std::vector<int>> &all, const std::vector<int> &effects,
-                double pair_share) {
-  const auto pairs =
-      double(std::count_if(all.begin(), all.end(), [](const auto &of) { return of.size() > 1; }));
-  return effects.size() > 1 ? pair_share / pairs
-                            : (pairs > 0.0 ? 1.0 - pair_share : 1.0) / (double(all.size()) - pairs);
 }
 
 } // namespace
@@ -161,9 +208,9 @@ std::string name_of(const FilmBank &bank, const std::vector<int> &effects) {
   return out.empty() ? "none" : out;
 }
 
-std::vector<int> effects_of(const Draw &draw) {
+std::vector<int> effects_of(const Material &material) {
   std::vector<int> out;
-  for (const Acting &a : draw.materials[0].effects)
+  for (const Acting &a : material.effects)
     out.push_back(a.effect);
   return out;
 }
@@ -181,37 +228,32 @@ std::vector<std::size_t> resampled(const std::vector<double> &weights, int count
 }
 
 void calibrate(const FilmBank &bank, const CalibrationSettings &settings, Calibration &c) {
-  std::vector<Draw> all;
+  std::vector<Sample> all;
   std::vector<double> logs;
   const auto of = hypotheses_of(bank);
   c.hypotheses.clear();
   for (std::size_t h = 0; h < of.size(); ++h) {
     const double prior = std::log(prior_of(of, of[h], settings.pair_share));
     const Sampled samples = sampled(bank, settings, c, of[h], std::uint64_t(h) + 1);
-    c.hypotheses.push_back({name_of(bank, of[h]), 0.0, samples.effective});
-    all.insert(all.end(), samples.draws.begin(), samples.draws.end());
+    c.hypotheses.push_back(
+        {name_of(bank, of[h]), std::vector<double>(c.materials.size(), 0.0), samples.effective});
+    all.insert(all.end(), samples.samples.begin(), samples.samples.end());
     for (const double l : samples.logs)
       logs.push_back(prior + l);
   }
   const Weights weights(logs);
   for (std::size_t k = 0; k < all.size(); ++k)
-    c.hypotheses[k / std::size_t(settings.samples)].probability += weights.of[k] / weights.sum;
-  c.draws.clear();
+    for (std::size_t m = 0; m < c.materials.size(); ++m) {
+      const auto at = std::find(of.begin(), of.end(), effects_of(all[k].draw.materials[m]));
+      c.hypotheses[std::size_t(at - of.begin())].probability[m] += weights.of[k] / weights.sum;
+    }
+  std::vector<Sample> kept;
   for (const std::size_t k : resampled(weights.of, settings.draws))
-    c.draws.push_back(all[k]);
-  for (std::size_t h = 0; h < of.size(); ++h) { // the one that was not measured
-    std::vector<Draw> same;
-    std::vector<std::size_t> places;
-    for (std::size_t k = 0; k < c.draws.size(); ++k)
-      if (effects_of(c.draws[k]) == of[h]) {
-        same.push_back(c.draws[k]);
-        places.push_back(k);
-      }
-    if (!same.empty())
-      add_material(bank, std::uint64_t(h) + 1, same);
-    for (std::size_t k = 0; k < places.size(); ++k)
-      c.draws[places[k]] = same[k];
-  }
+    kept.push_back(all[k]);
+  add_material(bank, settings.pair_share, 1, kept); // the one that was not measured
+  c.draws.clear();
+  for (Sample &s : kept)
+    c.draws.push_back(std::move(s.draw));
 }
 
 } // namespace calendem
