@@ -27,6 +27,9 @@ inline double made_cracked(const std::vector<double> &p, double pressure) {
   return 1.0 - std::exp(-pressure / p[2]);
 }
 
+/// 1 / tortuosity factor.
+inline double made_inverse(double porosity) { return 1.2 * porosity; }
+
 /// What collapse from `yield` [MPa] on takes from the porosity at first.
 inline double made_collapse(double yield, double pressure) {
   return 0.03 * std::log(300.0 / yield) * std::exp(-pressure / 60.0);
@@ -47,6 +50,8 @@ inline SimulatedRun made_coating(const BankPoint &point, double target) {
       0.002 * packing.normal();
   r.porosity_at_max = 1.0 - (1.0 - r.porosity_after) * (1.0 + made_springback(point.base, target));
   r.cracked_fraction = made_cracked(point.base, target);
+  r.broken_fraction = 0.3 * r.cracked_fraction;
+  r.inverse_tortuosity = made_inverse(r.porosity_after);
   r.solid_column = 12.0;
   r.thickness_at_max = 12.0 / (1.0 - r.porosity_at_max);
   for (const double share : {0.25, 0.5, 0.75, 0.95}) { // linear: a modulus of made_modulus

@@ -127,6 +127,23 @@ grep -q "run 4 times, each with another draw of the material on another packing:
   fail "the proposal was not run"
 grep -q '"confirmed": {' confirmed/design.json || fail "design.json does not hold what was run"
 sed '/<script type="application.json" id="data">/,$d' confirmed/design.html | grep -q "4 runs: .* %, porosity" || fail "the page does not show what was run"
+grep -q '"tortuosity_through_plane": {' own/prediction.json || fail "runs of their own are not measured"
+
+# A calibration runs its films again: simulated beside emulated.
+cat >pressed.toml <<'END'
+[experiment]
+name = "pressed"
+electrode = "small.toml"
+[[condition]]
+id = "p025"
+control = "pressure"
+max_pressure_MPa = { value = 25, sd_relative = 0.05 }
+porosity_after_percent = { value = 38, sd = 0.5 }
+END
+calendem calibrate pressed.toml -o small --samples 512 --confirm 4 --jobs 2 --bank "$cases/coatings/bank.toml" | tee small.log
+grep -q "pressed .* 25 MPa  measured 38.0, 4 runs .* emulators .*: off by .* ±" small.log || fail "the film was not run again"
+grep -q '"emulated":' small/model.json || fail "model.json does not hold what was run"
+grep -q "Run again" small/model.html || fail "the page does not show what was run"
 refuses "--confirm runs recipes as they are" design model/model.json small.toml --porosity 38 --confirm 4 --vary porosity_before_percent=44
 
 # The blind predictions are what their page's commands make: four digits, the last of which another processor may round.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "predict/prediction.h"
+#include "base/messages.h"
+#include "predict/own_runs.h"
 #include "support/made_coatings.h"
 #include "support/test_folder.h"
 #include <fstream>
@@ -132,12 +133,12 @@ TEST(Chances, AnAssuredProbabilityHoldsForFourOfFiveMaterials) {
     return draws;
   };
   const auto c = chances_from({50.0, 100.0}, of, target);
-  EXPECT_NEAR(c[0].both, 0.7, 1e-6);
+  EXPECT_NEAR(c[0].all, 0.7, 1e-6);
   EXPECT_NEAR(c[0].assured, 0.0, 1e-6);
   EXPECT_NEAR(c[1].assured, 0.4, 0.01);
   EXPECT_EQ(best_of(c), 1u);
   EXPECT_EQ(best_of({c[0]}), 0u);
-  EXPECT_EQ(best_of({{80.0, 0.1, 1.0, 0.1, 0.0}, {90.0, 0.2, 1.0, 0.2, 0.0}}), 1u);
+  EXPECT_EQ(best_of({{80.0, 0.1, 1.0, 1.0, 0.1, 0.0}, {90.0, 0.2, 1.0, 1.0, 0.2, 0.0}}), 1u);
 }
 
 // The pressure that gives the middle of the target is the best, and a bound on cracks takes the high ones away.
@@ -151,15 +152,46 @@ TEST(Chances, ThePressureThatMeetsTheTargetIsTheBest) {
   const auto c = chances(made_film_bank(), exact(), film, pressures, 0.0, target);
   std::size_t best = 0;
   for (std::size_t k = 1; k < c.size(); ++k)
-    if (c[k].both > c[best].both)
+    if (c[k].all > c[best].all)
       best = k;
   EXPECT_NEAR(std::log(c[best].pressure / 100.0), 0.0, 0.25);
-  EXPECT_GT(c[best].both, 0.9);
+  EXPECT_GT(c[best].all, 0.9);
   Target few_cracks = target;
   few_cracks.cracked_below = made_cracked(all, 30.0);
   const auto bounded = chances(made_film_bank(), exact(), film, pressures, 0.0, few_cracks);
-  EXPECT_LT(bounded[best].both, 0.5 * c[best].both + 0.3);
+  EXPECT_LT(bounded[best].all, 0.5 * c[best].all + 0.3);
   EXPECT_LT(bounded.back().cracked, 0.05);
+}
+
+// Pores of a third of the volume have a tortuosity factor of 2.5 here: a bound above it asks for nothing, one below it for what
+// no film of that porosity has.
+TEST(Chances, ABoundOnTheTortuosityCounts) {
+  const Film film = made_film("x", 46.0, 2.0);
+  const std::vector<double> all = {190.0, 2.4, 480.0, 46.0, 2.0};
+  const double porosity = made_porosity(all, 0.0, 100.0), tau = 1.0 / made_inverse(porosity);
+  const auto at = [&](double below) {
+    return chances(made_film_bank(), exact(), film, {100.0}, 0.0, {porosity, 0.01, 1.0, below})[0];
+  };
+  EXPECT_GT(at(1.1 * tau).tortuosity, 0.95);
+  EXPECT_LT(at(0.9 * tau).tortuosity, 0.05);
+  EXPECT_LT(at(0.9 * tau).all, 0.05);
+  EXPECT_GT(at(1.1 * tau).all, 0.9);
+  EXPECT_NEAR(predicted(made_film_bank(), exact(), film, {100.0}, 0.0).tortuosity[0].median, tau,
+              0.03 * tau);
+}
+
+// A bank of before has neither broken bonds nor tortuosities; nor has one whose effect was run without.
+TEST(Chances, WhatABankDoesNotHaveCannotBeAskedFor) {
+  BankTable table = made_coatings();
+  for (BankRow &row : table.rows)
+    if (!row.point.effect.empty())
+      row.run.inverse_tortuosity = NAN;
+  const FilmBank bank(table);
+  EXPECT_FALSE(bank.knows(FilmNumber::InverseTortuosity));
+  EXPECT_TRUE(bank.knows(FilmNumber::Broken));
+  const Film film = made_film("x", 46.0, 2.0);
+  EXPECT_TRUE(predicted(bank, exact(), film, {100.0}, 0.0).tortuosity.empty());
+  EXPECT_THROW(chances(bank, exact(), film, {100.0}, 0.0, {0.3, 0.01, 1.0, 3.0}), Failure);
 }
 
 } // namespace

@@ -3,11 +3,11 @@
 #include "base/output_folder.h"
 #include "base/provenance.h"
 #include "commands/commands.h"
-#include "predict/files.h"
-#include "predict/prediction.h"
+#include "commands/films_asked.h"
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 
 namespace calendem {
 namespace {
@@ -18,7 +18,39 @@ struct CalibrateOptions {
   std::vector<std::string> experiments;
   std::string bank, folder;
   CalibrationSettings settings;
+  int runs = 0; ///< of every film at every pressure, to confirm the model; 0: none
+  StudyOptions study;
 };
+
+/// Runs the films again, writing what there is after each. Returns what could not be run.
+MissedRuns confirm(const FilmBank &bank, const Calibration &c, const CalibrateOptions &o,
+                   const std::vector<Recipe> &recipes,
+                   const std::function<void(const std::vector<Confirmed> &)> &write) {
+  MissedRuns missed;
+  std::vector<Confirmed> all;
+  for (std::size_t k = 0; k < recipes.size(); ++k)
+    try {
+      StudyOptions study = o.study;
+      study.folder = fmt::format("{}/runs/{}", o.folder, k + 1);
+      fmt::print("calibrate: {}: {} draws of the material are run on packings of their own\n",
+                 c.films[k].name, o.runs);
+      for (const Confirmed &row : confirmed_by_runs(bank, c, int(k), recipes[k], o.runs, study))
+        all.push_back(row);
+      write(all);
+    } catch (const Failure &f) {
+      missed.add(o.experiments[k], f);
+    }
+  if (!all.empty())
+    fmt::print("run again: porosity after release, %\n");
+  for (const Confirmed &r : all)
+    fmt::print(
+        "  {:<36} {:4.0f} MPa  measured {:.1f}, {} runs {:.1f} ({:.1f} to {:.1f}), emulators "
+        "{:.1f}: off by {:.1f} ± {:.1f}\n",
+        r.film, r.pressure, kPercent * r.measured, r.runs, kPercent * r.mean, kPercent * r.low,
+        kPercent * r.high, kPercent * r.emulated, kPercent * (r.mean - r.emulated),
+        kPercent * r.error);
+  return missed;
+}
 
 void run_calibrate(const CalibrateOptions &o) {
   const FilmBank bank(read_bank_table(read_bank_spec(o.bank), table_file(o.bank)));
@@ -28,8 +60,12 @@ void run_calibrate(const CalibrateOptions &o) {
     numerics += n.porosity_points * n.porosity_points;
   c.error.numerics = std::sqrt(numerics) / kPercent;
   std::vector<std::string> not_said;
-  for (const std::string &file : o.experiments)
-    add_experiment(read_experiment(file), bank, c, not_said);
+  std::vector<Recipe> recipes;
+  for (const std::string &file : o.experiments) {
+    const Experiment experiment = read_experiment(file);
+    add_experiment(experiment, bank, c, not_said);
+    recipes.push_back(experiment.recipe);
+  }
   make_output_folder(o.folder);
   std::vector<std::string> cases;
   for (std::size_t m = 0; m < c.materials.size(); ++m) {
@@ -45,10 +81,14 @@ void run_calibrate(const CalibrateOptions &o) {
   for (const std::string &file : o.experiments)
     model["provenance"]["experiments"].push_back({{"file", file}, {"hash", hash_of_file(file)}});
   model["not_said"] = not_said;
-  write_file(o.folder + "/model.json", model.dump(1) + "\n");
+  const auto write = [&](const std::vector<Confirmed> &confirmed) {
+    model["confirmed"] = to_json(confirmed);
+    write_file(o.folder + "/model.json", model.dump(1) + "\n");
+    write_file(o.folder + "/model.html", model_page(bank, c, model));
+  };
+  write({});
   for (std::size_t m = 0; m < c.materials.size(); ++m)
     write_file(cases[m], case_of(bank, c, m));
-  write_file(o.folder + "/model.html", model_page(bank, c, model));
   if (c.materials.size() > 1)
     fmt::print("probability of effects in {}\n", fmt::join(c.materials, " | "));
   for (const Weighed &w : c.hypotheses) {
@@ -67,9 +107,11 @@ void run_calibrate(const CalibrateOptions &o) {
                kPercent * r.rules.at("Heckel"), kPercent * r.rules.at("Meyer"));
   for (const std::string &text : not_said)
     fmt::print("- {}\n", text);
+  const MissedRuns missed = o.runs > 0 ? confirm(bank, c, o, recipes, write) : MissedRuns();
   fmt::print("page: {0}/model.html\nmodel: {0}/model.json\n", o.folder);
   for (std::size_t m = 0; m < c.materials.size(); ++m)
     fmt::print("case: {}{}\n", cases[m], of_material(c, m));
+  missed.stop_if_any();
 }
 
 } // namespace
@@ -86,6 +128,9 @@ void add_calibrate_verb(CLI::App &app) {
   verb->add_option("--bank", o->bank, "bank (TOML) with its table (CSV) beside it");
   verb->add_option("--samples", o->settings.samples, "of each hypothesis, from its prior")
       ->check(CLI::Range(64, 1 << 20));
+  add_run_options(*verb, o->runs, o->study, "--confirm",
+                  "so many simulations of every film at every pressure, each with another draw of "
+                  "the material on another packing");
   verb->callback([o] { run_calibrate(*o); });
 }
 

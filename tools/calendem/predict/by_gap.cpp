@@ -58,8 +58,8 @@ void check_gap(const Film &film, double gap, double solid, double before) {
 
 /// Curves of a film at a grid of pressures: draws x pressures.
 struct Curves {
-  std::vector<double> logs; ///< of the pressures
-  Guesses springback, load, cracked;
+  std::vector<double> logs;                                      ///< of the pressures
+  Guesses springback, load, cracked, broken, inverse_tortuosity; ///< empty: not known
 };
 
 Curves curves_of(const FilmBank &bank, const Calibration &c, const Film &film) {
@@ -73,6 +73,8 @@ Curves curves_of(const FilmBank &bank, const Calibration &c, const Film &film) {
   };
   out.springback = of(FilmNumber::Springback);
   out.cracked = of(FilmNumber::Cracked);
+  out.broken = of(FilmNumber::Broken);
+  out.inverse_tortuosity = of(FilmNumber::InverseTortuosity);
   out.load = under_load_of(of(FilmNumber::PorosityAfter), out.springback);
   return out;
 }
@@ -80,19 +82,27 @@ Curves curves_of(const FilmBank &bank, const Calibration &c, const Film &film) {
 AtGap at_gap(const Curves &curves, double gap, double solid) {
   AtGap out;
   out.gap = gap;
-  Mixture pressure, springback, cracked;
+  Mixture pressure, springback, cracked, broken, inverse;
   const double step = curves.logs[1] - curves.logs[0];
   for (std::size_t d = 0; d < curves.load.size(); ++d) {
     const Met met = meets(curves.logs, curves.load[d], 1.0 - solid / gap);
     pressure.of.push_back(met.log_pressure);
     springback.of.push_back(number_at(curves.springback[d], met, step));
     cracked.of.push_back(number_at(curves.cracked[d], met, step));
+    if (!curves.broken.empty())
+      broken.of.push_back(number_at(curves.broken[d], met, step));
+    if (!curves.inverse_tortuosity.empty())
+      inverse.of.push_back(number_at(curves.inverse_tortuosity[d], met, step));
     out.below += met.below / double(curves.load.size());
     out.above += met.above / double(curves.load.size());
   }
   out.pressure = band_of(pressure, curves.logs.front(), curves.logs.back());
   out.springback = band_of(springback, 0.0, 1.0);
   out.cracked = band_of(cracked, 0.0, 1.0);
+  if (!broken.of.empty())
+    out.broken = band_of(broken, 0.0, 1.0);
+  if (!inverse.of.empty())
+    out.tortuosity = tortuosity_of(band_of(inverse, 1.0 / kMostTortuosity, 1.0));
   for (double Band::*part :
        {&Band::median, &Band::low50, &Band::high50, &Band::low90, &Band::high90}) {
     out.pressure.*part = std::exp(out.pressure.*part);

@@ -6,6 +6,7 @@
 #define CALENDEM_PREDICT_BY_GAP_H
 
 #include "predict/prediction.h"
+#include <optional>
 
 namespace calendem {
 
@@ -13,6 +14,7 @@ namespace calendem {
 struct AtGap {
   double gap = 0.0; ///< [um]
   Band pressure, after, thickness_after, springback, cracked;
+  std::optional<Band> broken, tortuosity; ///< as the bank has them
   /// Probability that the pressure lies below or above the bank's; its bands end there.
   double below = 0.0, above = 0.0;
 };

@@ -100,6 +100,8 @@ double error_covariance(const ModelError &e, const Draw &draw, const Spot &a, co
     return e.cracked * e.cracked * alike;
   case FilmNumber::Springback:
   case FilmNumber::LogModulus:
+  case FilmNumber::Broken:
+  case FilmNumber::InverseTortuosity:
     return 0.0;
   }
   return 0.0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "predict/files.h"
 #include "predict/film_charts.h"
+#include "predict/film_sheet.h"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -20,14 +21,16 @@ Json to_json(const FilmBank &bank, const Target &t, const std::vector<Design> &d
     Json row = film_json(bank, d.film);
     row["beyond"] = d.predicted.beyond;
     row["best"] = {{"pressure_MPa", d.chances[d.best].pressure},
-                   {"probability", d.chances[d.best].both},
+                   {"probability", d.chances[d.best].all},
                    {"assured", d.chances[d.best].assured},
                    {"porosity_after_percent", band_json(d.predicted.after[d.best], kPercent)},
                    {"cracked_percent", band_json(d.predicted.cracked[d.best], kPercent)},
                    {"springback_percent", band_json(d.predicted.springback[d.best], kPercent)}};
+    if (!d.predicted.tortuosity.empty())
+      row["best"]["tortuosity_through_plane"] = band_json(d.predicted.tortuosity[d.best], 1.0);
     if (d.confirmed)
       row["confirmed"] = {{"runs", d.confirmed->runs},
-                          {"probability", d.confirmed_chance.both},
+                          {"probability", d.confirmed_chance.all},
                           {"porosity_after_percent", band_json(d.confirmed->after[0], kPercent)},
                           {"cracked_percent", band_json(d.confirmed->cracked[0], kPercent)}};
     row["chances"] = Json::array();
@@ -35,37 +38,41 @@ Json to_json(const FilmBank &bank, const Target &t, const std::vector<Design> &d
       row["chances"].push_back({{"pressure_MPa", c.pressure},
                                 {"porosity", c.porosity},
                                 {"cracked", c.cracked},
-                                {"both", c.both},
+                                {"tortuosity", c.tortuosity},
+                                {"all", c.all},
                                 {"assured", c.assured}});
     out.push_back(row);
   }
   return {{"target",
            {{"porosity_percent", kPercent * t.porosity},
             {"within_points", kPercent * t.within},
-            {"cracked_below_percent", kPercent * t.cracked_below}}},
+            {"cracked_below_percent", kPercent * t.cracked_below},
+            {"tortuosity_below", t.tortuosity_below}}},
           {"films", out}};
 }
 
 namespace {
 
-/// Median and the interval that holds 90 % [%].
-std::string band_text(const Band &b, int decimals) {
-  return fmt::format("{:.{}f} ({:.{}f} to {:.{}f})", kPercent * b.median, decimals,
-                     kPercent * b.low90, decimals, kPercent * b.high90, decimals);
+/// Median and the interval that holds 90 %.
+std::string band_text(const Band &b, int decimals, double scale = kPercent) {
+  return fmt::format("{:.{}f} ({:.{}f} to {:.{}f})", scale * b.median, decimals, scale * b.low90,
+                     decimals, scale * b.high90, decimals);
 }
 
 json row_of(const Design &d) {
   const Chance &best = d.chances[d.best];
   json row = {{"film", d.film.name},
               {"pressure", fmt::format("{:.0f}", best.pressure)},
-              {"probability", fmt::format("{:.0f}", kPercent * best.both)},
+              {"probability", fmt::format("{:.0f}", kPercent * best.all)},
               {"assured", fmt::format("{:.0f}", kPercent * best.assured)},
               {"porosity", band_text(d.predicted.after[d.best], 1)},
               {"cracked", band_text(d.predicted.cracked[d.best], 0)}};
+  if (!d.predicted.tortuosity.empty())
+    row["tortuosity"] = band_text(d.predicted.tortuosity[d.best], 2, 1.0);
   if (d.confirmed)
     row["confirmed"] =
         fmt::format("{} runs: {:.0f} %, porosity {}", d.confirmed->runs,
-                    kPercent * d.confirmed_chance.both, band_text(d.confirmed->after[0], 1));
+                    kPercent * d.confirmed_chance.all, band_text(d.confirmed->after[0], 1));
   return row;
 }
 
@@ -77,7 +84,7 @@ Chart chance_chart(const std::vector<Design> &designs) {
     std::vector<double> pressures, both, assured;
     for (const Chance &c : designs[k].chances) {
       pressures.push_back(c.pressure);
-      both.push_back(kPercent * c.both);
+      both.push_back(kPercent * c.all);
       assured.push_back(kPercent * c.assured);
     }
     const std::string colour = kSeriesColours[k % kSeriesColours.size()];
@@ -89,19 +96,26 @@ Chart chance_chart(const std::vector<Design> &designs) {
   return chart;
 }
 
-/// Cracked particles against porosity, along the pressure.
-Chart cracks_chart(const std::vector<Design> &designs) {
-  Chart chart = chart_of("pareto", "Cracks against porosity", "Cracked particles (%)");
+bool all_have_tortuosity(const std::vector<Design> &designs) {
+  return std::none_of(designs.begin(), designs.end(),
+                      [](const Design &d) { return d.predicted.tortuosity.empty(); });
+}
+
+/// A number against porosity, along the pressure.
+Chart against_porosity(const std::vector<Design> &designs, const char *id, const char *title,
+                       const char *label, const std::vector<Band> PredictedFilm::*bands,
+                       double scale) {
+  Chart chart = chart_of(id, title, label);
   chart.x_label = "Total porosity after release (%)";
-  chart.note = "The pressure rises from right to left. Porosity: median; cracked particles: median "
-               "and intervals.";
+  chart.note = "The pressure rises from right to left. Porosity: median; the other: median and "
+               "intervals.";
   for (std::size_t k = 0; k < designs.size(); ++k) {
     const PredictedFilm &p = designs[k].predicted;
     const std::vector<double> porosity = part_of(p.after, &Band::median, kPercent);
     if (designs.size() == 1)
-      add_bands(porosity, p.cracked, kPercent, kSeriesColours[0], chart);
+      add_bands(porosity, p.*bands, scale, kSeriesColours[0], chart);
     else
-      add_edges(designs[k].film.name, porosity, p.cracked, kPercent, k, chart);
+      add_edges(designs[k].film.name, porosity, p.*bands, scale, k, chart);
   }
   return chart;
 }
@@ -110,7 +124,13 @@ Chart cracks_chart(const std::vector<Design> &designs) {
 
 std::string design_page(const Target &t, const std::vector<Design> &designs, const Json &json_of) {
   report::Page page{kDesignHtml, json_of};
-  page.charts = {chance_chart(designs), cracks_chart(designs)};
+  page.charts = {chance_chart(designs),
+                 against_porosity(designs, "cracks", "Cracks against porosity",
+                                  "Cracked particles (%)", &PredictedFilm::cracked, kPercent)};
+  if (all_have_tortuosity(designs))
+    page.charts.push_back(against_porosity(designs, "tortuosity", "Tortuosity against porosity",
+                                           "Tortuosity factor through the plane",
+                                           &PredictedFilm::tortuosity, 1.0));
   json rows = json::array();
   for (const Design &d : designs)
     rows.push_back(row_of(d));
@@ -118,10 +138,14 @@ std::string design_page(const Target &t, const std::vector<Design> &designs, con
       {"rows", rows},
       {"any_confirmed", std::any_of(designs.begin(), designs.end(),
                                     [](const Design &d) { return d.confirmed.has_value(); })},
+      {"any_tortuosity", all_have_tortuosity(designs)},
       {"porosity", fmt::format("{:g}", kPercent * t.porosity)},
       {"within", fmt::format("{:g}", kPercent * t.within)},
       {"cracked_below",
-       t.cracked_below < 1.0 ? json(fmt::format("{:g}", kPercent * t.cracked_below)) : json()}};
+       t.cracked_below < 1.0 ? json(fmt::format("{:g}", kPercent * t.cracked_below)) : json()},
+      {"tortuosity_below", t.tortuosity_below < kMostTortuosity
+                               ? json(fmt::format("{:g}", t.tortuosity_below))
+                               : json()}};
   return report::to_html(page);
 }
 

@@ -5,7 +5,7 @@
 #define CALENDEM_PREDICT_FILES_H
 
 #include "predict/by_gap.h"
-#include "predict/prediction.h"
+#include "predict/own_runs.h"
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -14,6 +14,12 @@ namespace calendem {
 /// model.json of the bank's files; `left_out` may be empty.
 nlohmann::ordered_json to_json(const FilmBank &bank, const Calibration &calibration,
                                const std::vector<LeftOut> &left_out);
+
+/// In model.json.
+const char *name_of(FilmNumber number);
+
+/// Rows of "confirmed" of model.json.
+nlohmann::ordered_json to_json(const std::vector<Confirmed> &rows);
 
 /// How that case begins.
 inline constexpr const char *kHeadOfCase = "# The most probable material of a calibration";
@@ -64,12 +70,6 @@ nlohmann::ordered_json gap_json(const FilmBank &bank, const Film &film,
                                 const std::vector<AtGap> &at);
 std::string gap_page(const std::vector<Film> &films, const std::vector<std::vector<AtGap>> &at,
                      const nlohmann::ordered_json &json);
-
-// Parts of these files.
-
-/// Name, loading and what the bank varies of a film.
-nlohmann::ordered_json film_json(const FilmBank &bank, const Film &film);
-nlohmann::ordered_json band_json(const Band &band, double scale);
 
 } // namespace calendem
 

@@ -51,6 +51,10 @@ double value_of(FilmNumber number, const SimulatedRun &run) {
     const double strain = (released_to(0.95) - released_to(0.5)) / run.thickness_at_max;
     return std::log(1e-3 * 0.45 * run.target / strain);
   }
+  case FilmNumber::Broken:
+    return run.broken_fraction;
+  case FilmNumber::InverseTortuosity:
+    return run.inverse_tortuosity;
   }
   return NAN;
 }
@@ -133,6 +137,13 @@ Learnt learnt_of(const BankSpec &spec, const std::vector<PointRuns> &points,
   return out;
 }
 
+/// Tables of earlier versions lack these.
+bool may_be_missing(int number) {
+  return FilmNumber(number) == FilmNumber::Broken ||
+         FilmNumber(number) == FilmNumber::InverseTortuosity;
+}
+
+/// Empty for a number that may be missing and is.
 std::vector<inference::GaussianProcess>
 emulators_of(const Learnt &learnt, int number, const std::vector<inference::GaussianProcess> *of) {
   std::vector<inference::GaussianProcess> out;
@@ -142,6 +153,8 @@ emulators_of(const Learnt &learnt, int number, const std::vector<inference::Gaus
     for (Eigen::Index k = 0; k < values.cols(); ++k)
       if (std::isfinite(values(p, k)))
         known.push_back(k);
+    if (known.size() < std::size_t(inference::kFewestRuns) && may_be_missing(number))
+      return {};
     if (known.size() < std::size_t(inference::kFewestRuns))
       throw Failure(kBadInput, fmt::format("the bank has {} usable points at its pressure number "
                                            "{}; at least {} are needed.",
@@ -181,8 +194,19 @@ void FilmBank::learn(const BankTable &table) {
     effects_.back().name = name;
     with_.emplace_back();
     for (int number = 0; number < kFilmNumbers; ++number)
-      with_.back()[std::size_t(number)] = emulators_of(with, number, &base_[std::size_t(number)]);
+      if (knows(FilmNumber(number)))
+        with_.back()[std::size_t(number)] = emulators_of(with, number, &base_[std::size_t(number)]);
   }
+  for (int number = 0; number < kFilmNumbers; ++number)
+    for (const auto &of_effect : with_)
+      if (of_effect[std::size_t(number)].empty())
+        forget(FilmNumber(number));
+}
+
+/// A number that the base model's runs have and an effect's, or the full cell's, lack.
+void FilmBank::forget(FilmNumber number) {
+  base_[std::size_t(number)].clear();
+  full_cell_[std::size_t(number)] = {};
 }
 
 namespace {
@@ -219,6 +243,8 @@ void FilmBank::learn_full_cell(const BankTable &table) {
   const Recipe recipe = read_recipe(spec_.full_cell.recipe_file);
   const Film film = film_of(recipe);
   for (int number = 0; number < kFilmNumbers; ++number) {
+    if (!knows(FilmNumber(number)))
+      continue;
     std::vector<std::map<int, double>> changes(spec_.pressures.size()); // by base point
     std::set<int> points;
     for (const BankRow *row : rows) {
@@ -234,8 +260,13 @@ void FilmBank::learn_full_cell(const BankTable &table) {
       if (std::isfinite(change))
         changes[p][*points.insert(row->point.base_point).first] = change;
     }
+    const auto few = [](const std::map<int, double> &of) { return of.size() < 2; };
+    if (may_be_missing(number) && std::any_of(changes.begin(), changes.end(), few)) {
+      forget(FilmNumber(number));
+      continue;
+    }
     for (std::size_t p = 0; p < changes.size(); ++p) {
-      if (changes[p].size() < 2)
+      if (few(changes[p]))
         throw Failure(kBadInput,
                       fmt::format("{}: {} of the runs on the full cell are usable at {:g} MPa; at "
                                   "least 2 are needed, or a bank without [full_cell].",

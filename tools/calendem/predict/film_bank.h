@@ -18,9 +18,12 @@ enum class FilmNumber {
   Cracked,       ///< share of NMC particles in pieces
   /// ln of the unloading modulus in GPa: secant of stress over strain of the thickness at the
   /// maximum, from 95 to 50 % of the largest pressure.
-  LogModulus
+  LogModulus,
+  Broken, ///< share of the bonds, after release
+  /// 1 / tortuosity factor of the macro pores through the plane, after release; 0: no path.
+  InverseTortuosity
 };
-constexpr int kFilmNumbers = 4;
+constexpr int kFilmNumbers = 6;
 
 /// Of the porosity before calendering, where a bank's films differ in it.
 inline constexpr const char *kPorosityKey = "recipe.coating.porosity_total_percent";
@@ -70,6 +73,8 @@ public:
   Film described(const Recipe &recipe) const;
   /// Its thickness without pores [um].
   double solid_column(const Film &film) const;
+  /// Its table has the number; broken bonds and tortuosity may be missing.
+  bool knows(FilmNumber number) const { return !base_[std::size_t(number)].empty(); }
   /// In what a film lies beyond the bank, in words.
   std::vector<std::string> beyond(const Film &film) const;
   bool covers(double pressure) const;
@@ -106,6 +111,7 @@ private:
   inference::Vector input(const Film &film, const Material &material) const;
   void learn(const BankTable &table);
   void learn_full_cell(const BankTable &table);
+  void forget(FilmNumber number);
   double full_cell_share(const Film &film) const;
 };
 

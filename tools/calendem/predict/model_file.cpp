@@ -3,6 +3,7 @@
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "predict/files.h"
+#include "predict/film_sheet.h"
 #include "predict/learnt.h"
 #include <algorithm>
 #include <cmath>
@@ -13,16 +14,6 @@ namespace calendem {
 
 using Json = nlohmann::ordered_json;
 namespace {
-
-constexpr const char *kNumberNames[kFilmNumbers] = {"porosity_after", "springback", "cracked",
-                                                    "log_modulus"};
-
-FilmNumber number_of(const std::string &name) {
-  for (int k = 0; k < kFilmNumbers; ++k)
-    if (name == kNumberNames[k])
-      return FilmNumber(k);
-  throw Failure(kBadInput, fmt::format("number '{}' is unknown.", name));
-}
 
 Json films_of(const FilmBank &bank, const Calibration &c) {
   Json out = Json::array();
@@ -43,7 +34,7 @@ Json data_of(const Calibration &c) {
   for (const Datum &d : c.data)
     out.push_back({{"film", d.film},
                    {"condition", d.condition},
-                   {"number", kNumberNames[int(d.number)]},
+                   {"number", name_of(d.number)},
                    {"pressure_MPa", d.pressure},
                    {"pressure_sd_relative", d.pressure_sd},
                    {"measured", d.measured},
@@ -135,7 +126,7 @@ Json learnt_of(const FilmBank &bank, const Calibration &c) {
     const Lesson &l = lessons[k];
     Json row = {{"film", c.films[std::size_t(d.film)].name},
                 {"condition", d.condition},
-                {"number", kNumberNames[int(d.number)]},
+                {"number", name_of(d.number)},
                 {"pressure_MPa", d.pressure},
                 {"measured", d.measured}};
     row.update(Json{{"without", band_json(l.without, 1.0)},
@@ -158,10 +149,10 @@ Json trade_offs_json(const FilmBank &bank, const Calibration &c) {
 /// How well packings that were left out are predicted.
 Json emulators_of(const FilmBank &bank) {
   Json out = Json::array();
-  for (int n = 0; n < kFilmNumbers; ++n) {
+  for (int n = 0; n < kFilmNumbers; ++n) { // none of a number that the bank does not have
     const auto quality = bank.quality(FilmNumber(n));
     for (std::size_t k = 0; k < quality.size(); ++k)
-      out.push_back({{"number", kNumberNames[n]},
+      out.push_back({{"number", name_of(FilmNumber(n))},
                      {"pressure_MPa", bank.spec().pressures[k]},
                      {"q2", quality[k].q2},
                      {"error", quality[k].error},
@@ -199,6 +190,22 @@ Json hypotheses_of(const FilmBank &bank, const Calibration &c) {
 }
 
 } // namespace
+
+Json to_json(const std::vector<Confirmed> &rows) {
+  Json out = Json::array();
+  for (const Confirmed &r : rows)
+    out.push_back({{"film", r.film},
+                   {"pressure_MPa", r.pressure},
+                   {"measured", r.measured},
+                   {"sd", r.sd},
+                   {"runs", r.runs},
+                   {"mean", r.mean},
+                   {"low", r.low},
+                   {"high", r.high},
+                   {"emulated", r.emulated},
+                   {"error", r.error}});
+  return out;
+}
 
 std::string table_file(const std::string &bank_file) {
   return std::filesystem::path(bank_file).replace_extension("csv").string();
@@ -289,120 +296,6 @@ std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_t
   for (const auto &[table, lines] : tables)
     out += fmt::format("\n[{}]\n{}", table, lines);
   return out;
-}
-
-namespace {
-
-Material material_of(const FilmBank &bank, const Json &row) {
-  Material out;
-  for (const inference::Parameter &p : bank.material())
-    out.parameters.push_back(row.at(p.name));
-  for (const auto &[name, amplitude] : row.at("effects").items()) {
-    const auto &all = bank.effects();
-    const auto of =
-        std::find_if(all.begin(), all.end(), [&n = name](const auto &e) { return e.name == n; });
-    if (of == all.end())
-      throw Failure(kBadInput, fmt::format("effect '{}' is none of the bank's.", name));
-    out.effects.push_back({int(of - all.begin()), amplitude});
-  }
-  return out;
-}
-
-Draw draw_of(const FilmBank &bank, const Json &row, std::size_t materials) {
-  Draw out;
-  out.missed = {row.at("missed_sd"), row.at("missed_shared")};
-  out.alike = row.at("alike");
-  for (const Json &of : row.at("materials"))
-    out.materials.push_back(material_of(bank, of));
-  if (out.materials.size() != materials)
-    throw Failure(kBadInput, fmt::format("a draw has {} materials; it must have {}.",
-                                         out.materials.size(), materials));
-  return out;
-}
-
-Calibration calibration_of(const FilmBank &bank, const Json &json) {
-  Calibration out;
-  out.materials = json.at("materials").get<std::vector<std::string>>();
-  for (const Json &row : json.at("films")) {
-    Film f;
-    f.name = row.at("name");
-    f.material = row.at("material");
-    f.loading = row.at("loading_mg_cm2");
-    f.sizes = row.at("sizes");
-    for (const BankParameter &p : bank.film())
-      f.recipe.push_back(row.at("recipe").at(p.name));
-    out.films.push_back(f);
-  }
-  for (const Json &row : json.at("data")) {
-    Datum d = {row.at("film"),
-               row.at("condition"),
-               number_of(row.at("number")),
-               row.at("pressure_MPa"),
-               row.at("pressure_sd_relative"),
-               row.at("measured"),
-               row.at("sd")};
-    if (d.film < 0 || d.film >= int(out.films.size()))
-      throw Failure(kBadInput,
-                    fmt::format("a datum's film is {}; there are {}.", d.film, out.films.size()));
-    out.data.push_back(d);
-  }
-  const Json &error = json.at("model_error");
-  out.error = {error.at("numerics"), error.at("low"), error.at("high"), error.at("cracked")};
-  for (const Json &row : json.at("hypotheses")) {
-    out.hypotheses.push_back({row.at("name"), row.at("probability").get<std::vector<double>>(),
-                              row.at("effective_samples")});
-    if (out.hypotheses.back().probability.size() != out.materials.size())
-      throw Failure(kBadInput,
-                    fmt::format("hypothesis {} has {} probabilities; it must have {}.",
-                                out.hypotheses.back().name,
-                                out.hypotheses.back().probability.size(), out.materials.size()));
-  }
-  for (const Json &row : json.at("draws"))
-    out.draws.push_back(draw_of(bank, row, out.materials.size() + 1));
-  if (out.draws.empty())
-    throw Failure(kBadInput, "it holds no draws.");
-  return out;
-}
-
-Json parsed(const std::string &file) {
-  if (!std::filesystem::is_regular_file(file))
-    throw Failure(kBadInput, fmt::format("{}: not there. Make it with calendem calibrate.", file));
-  try {
-    return Json::parse(text_of_file(file));
-  } catch (const Json::exception &) {
-    throw Failure(kBadInput, fmt::format("{}: cut or damaged; make it again with calendem "
-                                         "calibrate.",
-                                         file));
-  }
-}
-
-/// The bank that the model was made from, there and unchanged.
-FilmBank bank_of(const std::string &file, const Json &json) {
-  const std::string bank = json.at("bank").at("file");
-  const auto unchanged = [&](const std::string &of, const char *key) {
-    if (hash_of_file(of) != json.at("bank").at(key).get<std::string>())
-      throw Failure(kBadInput, fmt::format("{}: {} is not there or has changed since the model was "
-                                           "calibrated on it. Calibrate again.",
-                                           file, of));
-  };
-  unchanged(bank, "hash");
-  unchanged(table_file(bank), "table_hash");
-  return FilmBank(read_bank_table(read_bank_spec(bank), table_file(bank)));
-}
-
-} // namespace
-
-Model read_model(const std::string &file) {
-  const Json json = parsed(file);
-  try {
-    FilmBank bank = bank_of(file, json);
-    Calibration calibration = calibration_of(bank, json);
-    return {std::move(bank), std::move(calibration), json};
-  } catch (const Json::exception &e) {
-    throw Failure(kBadInput, fmt::format("{}: no model of calendem calibrate, or of another "
-                                         "version: {}. Calibrate again.",
-                                         file, e.what()));
-  }
 }
 
 } // namespace calendem

@@ -61,6 +61,24 @@ json left_out_part(const Json &model) {
           {"meyer_off", median(meyer)}};
 }
 
+json confirmed_part(const Json &model) {
+  json rows = json::array();
+  for (const Json &r : model.value("confirmed", Json::array())) {
+    const auto percent = [&](const char *key) { return kPercent * r.at(key).get<double>(); };
+    rows.push_back(
+        {{"film", r.at("film")},
+         {"pressure", shown(r.at("pressure_MPa"), "{:.0f}")},
+         {"measured", fmt::format("{:.1f} ± {:.1f}", percent("measured"), percent("sd"))},
+         {"runs", r.at("runs").get<int>()},
+         {"mean", fmt::format("{:.1f} ({:.1f} to {:.1f})", percent("mean"), percent("low"),
+                              percent("high"))},
+         {"emulated", fmt::format("{:.1f}", percent("emulated"))},
+         {"off", shown(percent("mean") - percent("emulated"), "{:+.1f}") +
+                     fmt::format(" ± {:.1f}", percent("error"))}});
+  }
+  return rows;
+}
+
 json heads_of(const Calibration &c) {
   json out = json::array();
   for (std::size_t m = 0; m < c.materials.size(); ++m)
@@ -171,6 +189,8 @@ std::string model_page(const FilmBank &bank, const Calibration &c, const Json &m
     page.charts.push_back(chart);
   }
   page.values = {{"left_out_part", left_out_part(model)},
+                 {"confirmed_rows", confirmed_part(model)},
+                 {"any_confirmed", !model.value("confirmed", Json::array()).empty()},
                  {"probabilities", heads_of(c)},
                  {"hypotheses_rows", hypotheses_part(model)},
                  {"parameters_rows", parameters_part(model)},

@@ -34,6 +34,8 @@ std::vector<Band> bands_of(const Guesses &draws, double low, double high) {
 
 Guesses under_draws(const FilmBank &bank, const Calibration &c, const Wanted &wanted,
                     double pressure_sd) {
+  if (!bank.knows(wanted.number))
+    return {};
   Wanted around = wanted;
   around.pressures.clear();
   for (const double p : wanted.pressures) {
@@ -90,6 +92,10 @@ Band band_of(const Mixture &m, double low, double high) {
   return {at(0.5), at(0.25), at(0.75), at(0.05), at(0.95)};
 }
 
+Band tortuosity_of(const Band &b) {
+  return {1.0 / b.median, 1.0 / b.high50, 1.0 / b.low50, 1.0 / b.high90, 1.0 / b.low90};
+}
+
 PredictedFilm predicted_from(const Film &film, const std::vector<double> &pressures,
                              const GuessesOf &of) {
   const Guesses after = of(FilmNumber::PorosityAfter), springback = of(FilmNumber::Springback);
@@ -105,6 +111,11 @@ PredictedFilm predicted_from(const Film &film, const std::vector<double> &pressu
     for (double Band::*part :
          {&Band::median, &Band::low50, &Band::high50, &Band::low90, &Band::high90})
       b.*part = std::exp(b.*part);
+  if (const Guesses broken = of(FilmNumber::Broken); !broken.empty())
+    out.broken = bands_of(broken, 0.0, 1.0);
+  if (const Guesses inverse = of(FilmNumber::InverseTortuosity); !inverse.empty())
+    for (const Band &b : bands_of(inverse, 1.0 / kMostTortuosity, 1.0))
+      out.tortuosity.push_back(tortuosity_of(b));
   return out;
 }
 
@@ -127,24 +138,33 @@ Band porosity_band(const FilmBank &bank, const Calibration &c, const Film &film,
 
 std::vector<Chance> chances_from(const std::vector<double> &pressures, const GuessesOf &of,
                                  const Target &target) {
-  const Guesses after = of(FilmNumber::PorosityAfter), cracked = of(FilmNumber::Cracked);
+  const Guesses after = of(FilmNumber::PorosityAfter), cracked = of(FilmNumber::Cracked),
+                inverse = of(FilmNumber::InverseTortuosity);
+  const bool any_tortuosity = target.tortuosity_below >= kMostTortuosity;
+  if (!any_tortuosity && inverse.size() != after.size())
+    throw Failure(kBadInput, "the bank has no tortuosities (tortuosity = \"yes\" in its file), so "
+                             "that none can be asked for.");
   std::vector<Chance> out;
   for (std::size_t k = 0; k < pressures.size(); ++k) {
     Chance chance;
     chance.pressure = pressures[k];
-    std::vector<double> both;
+    std::vector<double> all;
+    const auto n = double(after.size());
     for (std::size_t d = 0; d < after.size(); ++d) {
       const double porosity = share_below(after[d][k], target.porosity + target.within) -
                               share_below(after[d][k], target.porosity - target.within);
       const double whole =
           target.cracked_below >= 1.0 ? 1.0 : share_below(cracked[d][k], target.cracked_below);
-      chance.porosity += porosity / double(after.size());
-      chance.cracked += whole / double(after.size());
-      both.push_back(porosity * whole);
+      const double open =
+          any_tortuosity ? 1.0 : 1.0 - share_below(inverse[d][k], 1.0 / target.tortuosity_below);
+      chance.porosity += porosity / n;
+      chance.cracked += whole / n;
+      chance.tortuosity += open / n;
+      all.push_back(porosity * whole * open);
     }
-    chance.both = std::accumulate(both.begin(), both.end(), 0.0) / double(both.size());
-    const auto least = both.begin() + std::ptrdiff_t((1.0 - kAssured) * double(both.size()));
-    std::nth_element(both.begin(), least, both.end());
+    chance.all = std::accumulate(all.begin(), all.end(), 0.0) / n;
+    const auto least = all.begin() + std::ptrdiff_t((1.0 - kAssured) * n);
+    std::nth_element(all.begin(), least, all.end());
     chance.assured = *least;
     out.push_back(chance);
   }
@@ -169,7 +189,7 @@ std::size_t best_of(const std::vector<Chance> &chances) {
                             [&](const Chance &a, const Chance &b) { return a.*value < b.*value; });
   };
   const auto assured = largest(&Chance::assured);
-  return std::size_t((assured->assured < kLeast ? largest(&Chance::both) : assured) -
+  return std::size_t((assured->assured < kLeast ? largest(&Chance::all) : assured) -
                      chances.begin());
 }
 
@@ -277,122 +297,6 @@ std::vector<LeftOut> left_out(const FilmBank &bank, const Calibration &all,
       out.push_back(row);
     }
   }
-  return out;
-}
-
-namespace {
-
-double four_digits(double value) { return std::stod(fmt::format("{:.4g}", value)); }
-
-/// The draws all of whose runs are usable, and these: draws x pressures.
-struct OwnRuns {
-  std::vector<Draw> draws;
-  std::vector<std::vector<SimulatedRun>> runs;
-};
-
-OwnRuns usable(const std::vector<Draw> &draws, const std::vector<std::string> &folders) {
-  const std::size_t pressures = folders.size() / draws.size();
-  OwnRuns out;
-  for (std::size_t d = 0; d < draws.size(); ++d) {
-    const auto first = folders.begin() + std::ptrdiff_t(d * pressures),
-               end = first + std::ptrdiff_t(pressures);
-    if (std::find(first, end, "") != end)
-      continue;
-    out.draws.push_back(draws[d]);
-    out.runs.emplace_back();
-    for (auto folder = first; folder != end; ++folder)
-      out.runs.back().push_back(read_simulated_run(*folder));
-  }
-  return out;
-}
-
-} // namespace
-
-std::vector<Draw> some_draws(const Calibration &c, int runs) {
-  std::vector<Draw> out;
-  for (int k = 0; k < runs; ++k)
-    out.push_back(c.draws[std::size_t((k + 0.5) / runs * double(c.draws.size()))]);
-  return out;
-}
-
-Study own_runs(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
-               int material, const std::vector<double> &pressures) {
-  BankSpec spec = bank.spec();
-  spec.name = recipe.settings.text("name") + ", by runs";
-  spec.recipe_file = recipe.file;
-  spec.pressures = pressures;
-  std::vector<BankParameter> of_material;
-  for (const BankParameter &p : spec.parameters)
-    if (p.keys.front().rfind("case.", 0) == 0)
-      of_material.push_back(p);
-  spec.parameters = of_material;
-  std::vector<BankPoint> points;
-  for (const Draw &draw : draws) {
-    BankPoint p;
-    p.packing = int(points.size()) + 1;
-    const Material &of = draw.materials[std::size_t(material)];
-    for (const double value : of.parameters)
-      p.base.push_back(four_digits(value));
-    for (const Acting &a : of.effects)
-      p.also[bank.effects()[std::size_t(a.effect)].name] = four_digits(key_value(bank, a));
-    points.push_back(p);
-  }
-  return bank_study(spec, points);
-}
-
-void add_press_error(Guesses &draws, const std::vector<double> &pressures, double pressure_sd) {
-  const std::size_t last = pressures.size() - 1;
-  const auto mean_at = [&](std::size_t k) {
-    double sum = 0.0;
-    for (const std::vector<Guess> &d : draws)
-      sum += d[k].mean;
-    return sum / double(draws.size());
-  };
-  for (std::size_t k = 0; k <= last; ++k) {
-    const std::size_t low = k > 0 ? k - 1 : 0, high = std::min(k + 1, last);
-    const double slope =
-        (mean_at(high) - mean_at(low)) / std::log(pressures[high] / pressures[low]);
-    for (std::vector<Guess> &d : draws)
-      d[k].variance += std::pow(slope * pressure_sd, 2);
-  }
-}
-
-ByRuns by_runs(const FilmBank &bank, const Calibration &c, const Recipe &recipe, int material,
-               const std::vector<double> &pressures, double pressure_sd, int runs,
-               const StudyOptions &options) {
-  const std::vector<Draw> draws = some_draws(c, runs);
-  const Study study = own_runs(bank, draws, recipe, material, pressures);
-  const OwnRuns own = usable(draws, make_what_runs(study, options, "Draws"));
-  if (int(own.draws.size()) < kFewestOwnRuns)
-    throw Failure(kSimulationFailed,
-                  fmt::format("{}: {} of {} draws have all their runs, {} are needed; see {}/runs.",
-                              recipe.file, own.draws.size(), runs, kFewestOwnRuns, options.folder));
-  Film film = bank.described(recipe);
-  film.material = material;
-  std::map<FilmNumber, Guesses> all;
-  for (const FilmNumber number : {FilmNumber::PorosityAfter, FilmNumber::Springback,
-                                  FilmNumber::Cracked, FilmNumber::LogModulus})
-    for (std::size_t d = 0; d < own.draws.size(); ++d) {
-      std::vector<Guess> row =
-          missed_given_data(bank, c, own.draws[d], {film, number, pressures}, false);
-      for (std::size_t k = 0; k < pressures.size(); ++k)
-        row[k].mean += value_of(number, own.runs[d][k]);
-      if (std::all_of(row.begin(), row.end(), [](const Guess &g) { return std::isfinite(g.mean); }))
-        all[number].push_back(row); // a release may lack the rows of the modulus
-    }
-  for (const auto number : {FilmNumber::PorosityAfter, FilmNumber::LogModulus})
-    if (all[number].empty())
-      throw Failure(kSimulationFailed,
-                    fmt::format("{}: no run says what is predicted; see {}/runs.", recipe.file,
-                                options.folder));
-  if (pressure_sd > 0.0)
-    for (auto &[number, draws_of_number] : all)
-      if (!draws_of_number.empty())
-        add_press_error(draws_of_number, pressures, pressure_sd);
-  ByRuns out;
-  out.of = [all](FilmNumber number) { return all.at(number); };
-  out.predicted = predicted_from(film, pressures, out.of);
-  out.predicted.runs = int(own.draws.size());
   return out;
 }
 

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A film that was not measured: its numbers against pressure with the bands that hold half and 90 %,
-// and which pressures meet what is wanted of it; by runs of its own where the bank does not have it,
-// each with the material of one draw of the calibration on a packing of its own. And how far such
-// predictions hold: every film left out in turn, beside two rules of thumb fitted on the same data.
+// and which pressures meet what is wanted of it. And how far such predictions hold: every film left
+// out in turn, beside two rules of thumb fitted on the same data.
 #ifndef CALENDEM_PREDICT_PREDICTION_H
 #define CALENDEM_PREDICT_PREDICTION_H
 
 #include "predict/calibration.h"
-#include "simulate/study.h"
 #include <functional>
 #include <map>
 
@@ -20,6 +18,8 @@ struct Mixture {
   double quantile(double share) const;
 };
 
+constexpr double kMostTortuosity = 100.0;
+
 struct Band {
   double median = 0.0, low50 = 0.0, high50 = 0.0, low90 = 0.0, high90 = 0.0;
 };
@@ -31,12 +31,18 @@ struct PredictedFilm {
   Film film;
   std::vector<double> pressures;
   std::vector<Band> under_load, after, springback, cracked;
-  std::vector<Band> modulus;       ///< of unloading [GPa]
+  std::vector<Band> modulus; ///< of unloading [GPa]
+  /// Broken bonds; tortuosity factor of the macro pores through the plane, kMostTortuosity where
+  /// hardly a path is left. Empty: the bank does not have them.
+  std::vector<Band> broken, tortuosity;
   std::vector<std::string> beyond; ///< in what it lies outside the bank
   int runs = 0;                    ///< of its own at each pressure; 0: by the bank's emulators
 };
 
-/// By draws, then pressures.
+/// Of 1 / tortuosity.
+Band tortuosity_of(const Band &inverse);
+
+/// By draws, then pressures; none of a number that is not known.
 using Guesses = std::vector<std::vector<Guess>>;
 /// Normals of a number under each draw.
 using GuessesOf = std::function<Guesses(FilmNumber)>;
@@ -61,14 +67,15 @@ Band porosity_band(const FilmBank &bank, const Calibration &calibration, const F
 struct Target {
   double porosity = 0.0, within = 0.01; ///< total porosity after release, 0-1
   double cracked_below = 1.0;           ///< share of the particles
+  double tortuosity_below = kMostTortuosity;
 };
 
 /// Probabilities of meeting the target at a pressure.
 struct Chance {
   double pressure = 0.0;
-  double porosity = 0.0, cracked = 0.0; ///< of each, mean over the draws
-  double both = 0.0;                    ///< mean over the draws
-  double assured = 0.0;                 ///< of both, for kAssured of the draws or more
+  double porosity = 0.0, cracked = 0.0, tortuosity = 0.0; ///< of each, mean over the draws
+  double all = 0.0;                                       ///< of all together, mean over the draws
+  double assured = 0.0; ///< of all together, for kAssured of the draws or more
 };
 
 /// The data leave materials open; this share of them has the assured probability or more.
@@ -119,34 +126,6 @@ struct LeftOut {
 /// Every porosity after calendering, predicted from the other films. Empty with one film.
 std::vector<LeftOut> left_out(const FilmBank &bank, const Calibration &calibration,
                               const CalibrationSettings &settings);
-
-constexpr int kFewestOwnRuns = 4; // of a band
-
-/// `runs` draws at equal distances among the calibration's.
-std::vector<Draw> some_draws(const Calibration &calibration, int runs);
-
-/// The runs: for each draw one to each pressure. Any electrode of `material`, a place in
-/// Draw::materials; the bank's case.
-Study own_runs(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
-               int material, const std::vector<double> &pressures);
-
-/// A film by runs of its own.
-struct ByRuns {
-  PredictedFilm predicted;
-  GuessesOf of; ///< at its pressures
-};
-
-/// Adds what an error of the press's pressure adds (`pressure_sd` of its logarithm): the slope is
-/// that of the mean of all draws between the neighbours of each of two pressures or more, ascending.
-void add_press_error(Guesses &draws, const std::vector<double> &pressures, double pressure_sd);
-
-/// Makes the runs in `options.folder`; the same call goes on where it was. To what a run gives, the
-/// model error is added as the calibration left it, and that of the press; packings and parameters
-/// scatter the runs themselves. Throws Failure(3) where fewer than kFewestOwnRuns draws have all
-/// their runs.
-ByRuns by_runs(const FilmBank &bank, const Calibration &calibration, const Recipe &recipe,
-               int material, const std::vector<double> &pressures, double pressure_sd, int runs,
-               const StudyOptions &options);
 
 } // namespace calendem
 

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/films_asked.h"
+#include "base/provenance.h"
+#include "base/recipe.h"
+#include "commands/commands.h"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace calendem {
+
+std::vector<double> values_of(const std::string &option, const std::string &text,
+                              const std::string &unit) {
+  std::vector<double> out;
+  const bool range = text.find(':') != std::string::npos;
+  std::string part;
+  for (std::size_t k = 0; k <= text.size(); ++k) {
+    if (k < text.size() && text[k] != ',' && text[k] != ':') {
+      part += text[k];
+      continue;
+    }
+    std::size_t used = 0;
+    double value = NAN;
+    try {
+      value = std::stod(part, &used);
+    } catch (const std::exception &) {
+    }
+    if (used != part.size() || !(value > 0.0) || !std::isfinite(value))
+      throw Failure(kBadInput, fmt::format("{} is '{}'; give {} as 20,50,80 or as a range 20:300.",
+                                           option, text, unit));
+    out.push_back(value);
+    part.clear();
+  }
+  if (range && (out.size() != 2 || out[0] >= out[1]))
+    throw Failure(kBadInput,
+                  fmt::format("{} is '{}'; a range is LOW:HIGH in {}.", option, text, unit));
+  if (range)
+    out = spread_pressures(out[0], out[1], 25);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+namespace {
+
+std::vector<double> pressures_of(const std::string &text) {
+  return values_of("--pressure", text, "MPa");
+}
+
+void check_covered(const std::vector<double> &pressures, const FilmBank &bank) {
+  for (const double p : pressures)
+    if (!bank.covers(p))
+      throw Failure(kBadInput,
+                    fmt::format("--pressure asks for {:g} MPa; the bank has {:g} to {:g}. Predict "
+                                "it by runs of its own (--runs), or make a bank with more "
+                                "pressures_MPa.",
+                                p, bank.spec().pressures.front(), bank.spec().pressures.back()));
+}
+
+/// What a recipe may hold, and no further beyond the bank's films than these differ.
+void check_varied(const std::string &text, double value, const BankParameter &p) {
+  double low = 2.0 * p.low - p.high, high = 2.0 * p.high - p.low;
+  for (const Key &key : recipe_keys())
+    for (const std::string &name : p.keys)
+      if (name == "recipe." + key.name) {
+        low = std::max(low, key.low);
+        high = std::min(high, key.high);
+      }
+  if (!(value >= low && value <= high))
+    throw Failure(kBadInput,
+                  fmt::format("--vary is '{}'; {} may be {:g} to {:g} (the bank has {:g} "
+                              "to {:g}).",
+                              text, p.name, low, high, p.low, p.high));
+}
+
+/// Every combination of "NAME=v,v,v" for the films.
+std::vector<Film> varied(std::vector<Film> films, const std::vector<std::string> &vary,
+                         const FilmBank &bank) {
+  for (const std::string &text : vary) {
+    const std::size_t equals = text.find('=');
+    const std::string name = text.substr(0, equals);
+    std::size_t place = 0;
+    std::vector<std::string> names;
+    for (const BankParameter &p : bank.film())
+      names.push_back(p.name);
+    while (place < names.size() && names[place] != name)
+      ++place;
+    if (equals == std::string::npos || place == names.size())
+      throw Failure(kBadInput, fmt::format("--vary is '{}'; give NAME=VALUE,VALUE with a name of "
+                                           "the bank's films: {}.",
+                                           text, fmt::join(names, ", ")));
+    std::vector<Film> next;
+    for (const Film &f : films)
+      for (const std::string &value : CLI::detail::split(text.substr(equals + 1), ',')) {
+        Film changed = f;
+        double number = 0.0;
+        if (!CLI::detail::lexical_cast(value, number) || !std::isfinite(number))
+          throw Failure(kBadInput, fmt::format("--vary is '{}'; '{}' is no number.", text, value));
+        check_varied(text, number, bank.film()[place]);
+        changed.recipe[place] = number;
+        changed.name += fmt::format("{}{} {:g}", f.name.empty() ? "" : ", ", name, number);
+        next.push_back(changed);
+      }
+    films = next;
+  }
+  return films;
+}
+
+/// Which of a model's materials the films are of.
+int material_of(const FilmOptions &o, const std::vector<std::string> &names) {
+  if (o.material.empty() && names.size() == 1)
+    return 0;
+  if (o.material == kOther)
+    return int(names.size());
+  const auto at = std::find(names.begin(), names.end(), o.material);
+  if (at == names.end())
+    throw Failure(kBadInput,
+                  fmt::format("--material {}; the model has '{}'. Say which of them the films are "
+                              "of, or '{}' for one that was not measured.",
+                              o.material.empty() ? "is needed" : "is '" + o.material + "'",
+                              fmt::join(names, "', '"), kOther));
+  return int(at - names.begin());
+}
+
+} // namespace
+
+AskedFilms of_model(const FilmOptions &o) {
+  AskedFilms out = {read_model(o.model), 0, {}, pressures_of(o.pressures)};
+  out.material = material_of(o, out.model.calibration.materials);
+  return out;
+}
+
+AskedFilms asked(const FilmOptions &o) {
+  AskedFilms out = of_model(o);
+  for (const std::string &file : o.recipes) {
+    out.films.push_back(out.model.bank.film_of(read_recipe(file)));
+    out.films.back().material = out.material;
+  }
+  out.films = varied(out.films, o.vary, out.model.bank);
+  check_covered(out.pressures, out.model.bank);
+  return out;
+}
+
+nlohmann::ordered_json provenance(const FilmOptions &o) {
+  nlohmann::ordered_json out = {{"calendem", version()},
+                                {"hashes", "64-bit FNV-1a"},
+                                {"model", o.model},
+                                {"model_hash", hash_of_file(o.model)}};
+  for (const std::string &file : o.recipes)
+    out["recipes"].push_back({{"file", file}, {"hash", hash_of_file(file)}});
+  return out;
+}
+
+/// Of a recipe, by its place in the list.
+ByRuns run_film(const AskedFilms &a, const FilmOptions &o, std::size_t recipe,
+                const std::vector<double> &pressures) {
+  StudyOptions study = o.study;
+  study.folder = fmt::format("{}/runs/{}", o.folder, recipe + 1);
+  fmt::print("{}: {}: {} runs, {} draws of the material at {} pressures\n", study.verb,
+             o.recipes[recipe], o.runs * pressures.size(), o.runs, pressures.size());
+  return by_runs(a.model.bank, a.model.calibration, read_recipe(o.recipes[recipe]), a.material,
+                 pressures, 0.01 * o.press_percent, o.runs, study);
+}
+
+void MissedRuns::add(const std::string &recipe, const Failure &why) {
+  texts_.push_back(fmt::format("{}: {}", recipe, why.what()));
+  status_ = why.exit_status();
+}
+
+void MissedRuns::stop_if_any() const {
+  if (!texts_.empty())
+    throw Failure(status_, fmt::format("{}\nThe rest is written.", fmt::join(texts_, "\n")));
+}
+
+void add_film_options(CLI::App &verb, FilmOptions &o) {
+  verb.add_option("MODEL", o.model, "model.json of calendem calibrate")->required();
+  verb.add_option("RECIPE", o.recipes, "electrode recipes (TOML), uncalendered")->required();
+  verb.add_option("-o,--output", o.folder, "folder for the page and the data")->required();
+  verb.add_option("--vary", o.vary,
+                  "NAME=VALUE,VALUE: the recipes with these values of one of the bank's parameters "
+                  "of films; several: every combination");
+  verb.add_option("--material", o.material,
+                  "name of the films' material, where the model was calibrated on several; other: "
+                  "one that was not measured");
+  verb.add_option("--press-percent", o.press_percent,
+                  "standard deviation of the press's pressure [%]; default 0: as asked for")
+      ->check(finite_range(0.0, 50.0));
+}
+
+void add_run_options(CLI::App &verb, int &runs, StudyOptions &study, const char *name,
+                     const char *what) {
+  CLI::Option *asked = verb.add_option(name, runs, what)->check(CLI::Range(kFewestOwnRuns, 400));
+  study.verb = verb.get_name();
+  study.liggghts = liggghts_program();
+  verb.add_option("--jobs", study.jobs, "simulations at a time")
+      ->check(CLI::Range(1, 4096))
+      ->needs(asked);
+  verb.add_option("--ranks", study.ranks, "MPI ranks of each simulation")
+      ->check(CLI::Range(1, 4096))
+      ->needs(asked);
+  verb.add_option("--liggghts", study.liggghts, "program with the plugin, for these")->needs(asked);
+}
+
+} // namespace calendem

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What predict and design have in common on the command line: the model, the films that are asked
+// for, and runs of their own.
+#ifndef CALENDEM_COMMANDS_FILMS_ASKED_H
+#define CALENDEM_COMMANDS_FILMS_ASKED_H
+
+#include "base/messages.h"
+#include "predict/files.h"
+#include "predict/prediction.h"
+#include <CLI/CLI.hpp>
+
+namespace calendem {
+
+struct FilmOptions {
+  std::string model, folder;
+  std::vector<std::string> recipes, vary;
+  std::string pressures = "20:300", material;
+  double press_percent = 0.0;
+  int runs = 0; ///< of each film's own at each pressure; 0: the bank's emulators
+  StudyOptions study;
+};
+
+void add_film_options(CLI::App &verb, FilmOptions &options);
+/// Of runs of their own; `name`, `what`: of the option that asks for them.
+void add_run_options(CLI::App &verb, int &runs, StudyOptions &study, const char *name,
+                     const char *what);
+
+struct AskedFilms {
+  Model model;
+  int material = 0; ///< place in Draw::materials
+  std::vector<Film> films;
+  std::vector<double> pressures;
+};
+
+/// "20,50,80" or "20:300", which is 25 values at equal ratios, ascending. Throws Failure(2).
+std::vector<double> values_of(const std::string &option, const std::string &text,
+                              const std::string &unit);
+
+/// Model and pressures, no films yet.
+AskedFilms of_model(const FilmOptions &options);
+/// With the films, which the bank must have. Throws Failure(2).
+AskedFilms asked(const FilmOptions &options);
+
+nlohmann::ordered_json provenance(const FilmOptions &options);
+
+/// Of a recipe, by its place in the list.
+ByRuns run_film(const AskedFilms &asked, const FilmOptions &options, std::size_t recipe,
+                const std::vector<double> &pressures);
+
+/// What could not be run of a recipe; the others go on.
+class MissedRuns {
+public:
+  void add(const std::string &recipe, const Failure &why);
+  /// After all that there is was written.
+  void stop_if_any() const;
+
+private:
+  std::vector<std::string> texts_;
+  ExitStatus status_ = kDone;
+};
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "predict/own_runs.h"
+#include "base/messages.h"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+
+namespace calendem {
+
+namespace {
+
+double four_digits(double value) { return std::stod(fmt::format("{:.4g}", value)); }
+
+/// The draws all of whose runs are usable, and these: draws x pressures.
+struct OwnRuns {
+  std::vector<Draw> draws;
+  std::vector<std::vector<SimulatedRun>> runs;
+};
+
+OwnRuns usable(const std::vector<Draw> &draws, const std::vector<std::string> &folders) {
+  const std::size_t pressures = folders.size() / draws.size();
+  OwnRuns out;
+  for (std::size_t d = 0; d < draws.size(); ++d) {
+    const auto first = folders.begin() + std::ptrdiff_t(d * pressures),
+               end = first + std::ptrdiff_t(pressures);
+    if (std::find(first, end, "") != end)
+      continue;
+    out.draws.push_back(draws[d]);
+    out.runs.emplace_back();
+    for (auto folder = first; folder != end; ++folder)
+      out.runs.back().push_back(read_simulated_run(*folder));
+  }
+  return out;
+}
+
+} // namespace
+
+std::vector<Draw> some_draws(const Calibration &c, int runs) {
+  std::vector<Draw> out;
+  for (int k = 0; k < runs; ++k)
+    out.push_back(c.draws[std::size_t((k + 0.5) / runs * double(c.draws.size()))]);
+  return out;
+}
+
+Study own_runs(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
+               int material, const std::vector<double> &pressures) {
+  BankSpec spec = bank.spec();
+  spec.name = recipe.settings.text("name") + ", by runs";
+  spec.recipe_file = recipe.file;
+  spec.pressures = pressures;
+  spec.tortuosity = true;
+  std::vector<BankParameter> of_material;
+  for (const BankParameter &p : spec.parameters)
+    if (p.keys.front().rfind("case.", 0) == 0)
+      of_material.push_back(p);
+  spec.parameters = of_material;
+  std::vector<BankPoint> points;
+  for (const Draw &draw : draws) {
+    BankPoint p;
+    p.packing = int(points.size()) + 1;
+    const Material &of = draw.materials[std::size_t(material)];
+    for (const double value : of.parameters)
+      p.base.push_back(four_digits(value));
+    for (const Acting &a : of.effects)
+      p.also[bank.effects()[std::size_t(a.effect)].name] = four_digits(key_value(bank, a));
+    points.push_back(p);
+  }
+  return bank_study(spec, points);
+}
+
+void add_press_error(Guesses &draws, const std::vector<double> &pressures, double pressure_sd) {
+  const std::size_t last = pressures.size() - 1;
+  const auto mean_at = [&](std::size_t k) {
+    double sum = 0.0;
+    for (const std::vector<Guess> &d : draws)
+      sum += d[k].mean;
+    return sum / double(draws.size());
+  };
+  for (std::size_t k = 0; k <= last; ++k) {
+    const std::size_t low = k > 0 ? k - 1 : 0, high = std::min(k + 1, last);
+    const double slope =
+        (mean_at(high) - mean_at(low)) / std::log(pressures[high] / pressures[low]);
+    for (std::vector<Guess> &d : draws)
+      d[k].variance += std::pow(slope * pressure_sd, 2);
+  }
+}
+
+namespace {
+
+OwnRuns made(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
+             int material, const std::vector<double> &pressures, const StudyOptions &options) {
+  const Study study = own_runs(bank, draws, recipe, material, pressures);
+  const OwnRuns own = usable(draws, make_what_runs(study, options, "Draws"));
+  if (int(own.draws.size()) < kFewestOwnRuns)
+    throw Failure(kSimulationFailed,
+                  fmt::format("{}: {} of {} draws have all their runs, {} are needed; see {}/runs.",
+                              recipe.file, own.draws.size(), draws.size(), kFewestOwnRuns,
+                              options.folder));
+  return own;
+}
+
+} // namespace
+
+ByRuns by_runs(const FilmBank &bank, const Calibration &c, const Recipe &recipe, int material,
+               const std::vector<double> &pressures, double pressure_sd, int runs,
+               const StudyOptions &options) {
+  const OwnRuns own = made(bank, some_draws(c, runs), recipe, material, pressures, options);
+  Film film = bank.described(recipe);
+  film.material = material;
+  std::map<FilmNumber, Guesses> all;
+  for (int n = 0; n < kFilmNumbers; ++n) {
+    const auto number = FilmNumber(n);
+    all[number] = {};
+    for (std::size_t d = 0; d < own.draws.size(); ++d) {
+      std::vector<Guess> row =
+          missed_given_data(bank, c, own.draws[d], {film, number, pressures}, false);
+      for (std::size_t k = 0; k < pressures.size(); ++k)
+        row[k].mean += value_of(number, own.runs[d][k]);
+      if (std::all_of(row.begin(), row.end(), [](const Guess &g) { return std::isfinite(g.mean); }))
+        all[number].push_back(row); // a release may lack the rows of the modulus
+    }
+  }
+  for (const auto number : {FilmNumber::PorosityAfter, FilmNumber::LogModulus})
+    if (all[number].empty())
+      throw Failure(kSimulationFailed,
+                    fmt::format("{}: no run says what is predicted; see {}/runs.", recipe.file,
+                                options.folder));
+  if (pressure_sd > 0.0)
+    for (auto &[number, draws_of_number] : all)
+      if (!draws_of_number.empty())
+        add_press_error(draws_of_number, pressures, pressure_sd);
+  ByRuns out;
+  out.of = [all](FilmNumber number) { return all.at(number); };
+  out.predicted = predicted_from(film, pressures, out.of);
+  out.predicted.runs = int(own.draws.size());
+  return out;
+}
+
+namespace {
+
+std::vector<const Datum *> porosities_of(const Calibration &c, int film) {
+  std::vector<const Datum *> out;
+  for (const Datum &d : c.data)
+    if (d.film == film && d.number == FilmNumber::PorosityAfter)
+      out.push_back(&d);
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Datum *a, const Datum *b) { return a->pressure < b->pressure; });
+  return out;
+}
+
+Confirmed confirmed_at(const FilmBank &bank, const Film &film, const Datum &datum,
+                       const OwnRuns &own, std::size_t pressure) {
+  Confirmed out = {film.name, datum.pressure, datum.measured, datum.sd, int(own.draws.size())};
+  out.low = 1.0;
+  double squares = 0.0;
+  const auto n = double(own.draws.size());
+  for (std::size_t k = 0; k < own.draws.size(); ++k) {
+    const double run = own.runs[k][pressure].porosity_after;
+    const double emulated =
+        bank.at(bank.at_pressures(FilmNumber::PorosityAfter, film, own.draws[k].of(film)),
+                datum.pressure)
+            .mean;
+    out.mean += run / n;
+    out.emulated += emulated / n;
+    out.low = std::min(out.low, run);
+    out.high = std::max(out.high, run);
+    squares += (run - emulated) * (run - emulated);
+  }
+  const double off = out.mean - out.emulated;
+  out.error = std::sqrt(std::max(0.0, squares / n - off * off) / (n - 1.0));
+  return out;
+}
+
+} // namespace
+
+std::vector<Confirmed> confirmed_by_runs(const FilmBank &bank, const Calibration &c, int film,
+                                         const Recipe &recipe, int runs,
+                                         const StudyOptions &options) {
+  const std::vector<const Datum *> data = porosities_of(c, film);
+  std::vector<double> pressures;
+  for (const Datum *d : data)
+    if (pressures.empty() || d->pressure > pressures.back())
+      pressures.push_back(d->pressure);
+  std::vector<Confirmed> out;
+  if (data.empty())
+    return out;
+  const Film &of = c.films[std::size_t(film)];
+  const OwnRuns own = made(bank, some_draws(c, runs), recipe, of.material, pressures, options);
+  for (const Datum *d : data)
+    out.push_back(
+        confirmed_at(bank, of, *d, own,
+                     std::size_t(std::find(pressures.begin(), pressures.end(), d->pressure) -
+                                 pressures.begin())));
+  return out;
+}
+
+} // namespace calendem

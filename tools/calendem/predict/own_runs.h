@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Films by runs of their own, each with the material of one draw of the calibration on a packing of
+// its own: where the bank does not have them, and to confirm what its emulators say.
+#ifndef CALENDEM_PREDICT_OWN_RUNS_H
+#define CALENDEM_PREDICT_OWN_RUNS_H
+
+#include "predict/prediction.h"
+#include "simulate/study.h"
+
+namespace calendem {
+
+constexpr int kFewestOwnRuns = 4; // of a band
+
+/// `runs` draws at equal distances among the calibration's.
+std::vector<Draw> some_draws(const Calibration &calibration, int runs);
+
+/// The runs: for each draw one to each pressure. Any electrode of `material`, a place in
+/// Draw::materials; the bank's case.
+Study own_runs(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
+               int material, const std::vector<double> &pressures);
+
+/// A film by runs of its own.
+struct ByRuns {
+  PredictedFilm predicted;
+  GuessesOf of; ///< at its pressures
+};
+
+/// Adds what an error of the press's pressure adds (`pressure_sd` of its logarithm): the slope is
+/// that of the mean of all draws between the neighbours of each of two pressures or more, ascending.
+void add_press_error(Guesses &draws, const std::vector<double> &pressures, double pressure_sd);
+
+/// Makes the runs in `options.folder`; the same call goes on where it was. To what a run gives, the
+/// model error is added as the calibration left it, and that of the press; packings and parameters
+/// scatter the runs themselves. Throws Failure(3) where fewer than kFewestOwnRuns draws have all
+/// their runs.
+ByRuns by_runs(const FilmBank &bank, const Calibration &calibration, const Recipe &recipe,
+               int material, const std::vector<double> &pressures, double pressure_sd, int runs,
+               const StudyOptions &options);
+
+/// A measured film, run again: total porosity after release, 0-1.
+struct Confirmed {
+  std::string film;
+  double pressure = 0.0; ///< [MPa]
+  double measured = 0.0, sd = 0.0;
+  int runs = 0;
+  double mean = 0.0, low = 0.0, high = 0.0; ///< of the runs
+  double emulated = 0.0;                    ///< mean of the emulators for the same draws
+  double error = 0.0; ///< standard error of mean - emulated, from the scatter of the runs
+};
+
+/// Runs draws of the calibration on its film number `film`, to each pressure at which its porosity
+/// was measured. Throws as by_runs.
+std::vector<Confirmed> confirmed_by_runs(const FilmBank &bank, const Calibration &calibration,
+                                         int film, const Recipe &recipe, int runs,
+                                         const StudyOptions &options);
+
+} // namespace calendem
+
+#endif
