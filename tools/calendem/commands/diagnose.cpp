@@ -3,8 +3,8 @@
 #include "base/output_folder.h"
 #include "base/provenance.h"
 #include "commands/commands.h"
+#include "diagnose/next_runs.h"
 #include "diagnose/page.h"
-#include "diagnose/rerun.h"
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
@@ -18,6 +18,7 @@ struct Options {
   std::vector<std::string> without;
   double cells = 0.0; // 0: from the sample's diameter
   bool no_rerun = false, other_electrode = false;
+  int next_packings = 0; ///< that further measurements are simulated on; 0: they are not
   RerunOptions rerun;
 };
 
@@ -98,6 +99,37 @@ void run_models_again(Options &o, const Experiment &experiment, const BankTable 
   print_images(d.gap["shrink"]);
 }
 
+/// What further measurements would give under each explanation that is left.
+void simulate_measurements(const Options &o, const Experiment &experiment, const BankTable &table,
+                           Diagnosed &d) {
+  if (o.next_packings == 0)
+    return;
+  const std::vector<RerunModel> models = models_to_part(d);
+  if (models.size() < 2) {
+    fmt::print(
+        "- what to measure next: fewer than two explanations that can be simulated are left; "
+        "nothing is run\n");
+    return;
+  }
+  RerunOptions options = o.rerun;
+  options.packings = o.next_packings;
+  options.study.folder = o.folder + "/next";
+  d.gap["next"] = simulate_next(experiment, table, models, options);
+  write_gap(d.gap, diagnosis_page(d.gap), o.folder);
+  fmt::print("what to measure next, simulated on {} packings\n", o.next_packings);
+  for (const auto &m : d.gap["next"]["measurements"]) {
+    fmt::print("  {}: {}, {}\n", m["what"].get<std::string>(), m["reading"].get<std::string>(),
+               m["unit"].get<std::string>());
+    for (const auto &v : m["values"])
+      fmt::print("    {:<44} {:6.1f} ± {:.1f}\n", v["hypothesis"].get<std::string>(),
+                 v["mean"].get<double>(), v["error"].get<double>());
+    for (const auto &pair : m["parted"])
+      fmt::print("    {} and {}: {:.1f} standard deviations apart\n",
+                 pair["first"].get<std::string>(), pair["second"].get<std::string>(),
+                 pair["apart"].get<double>());
+  }
+}
+
 /// Samples that were not the recipe's before they were pressed: by more than 3 of their standard
 /// deviations and 2 %.
 std::vector<std::string> other_samples(const Experiment &e) {
@@ -158,6 +190,7 @@ void run(Options o) {
   print(d);
   fmt::print("page: {0}/gap.html\ndata: {0}/gap.json\n", o.folder);
   run_models_again(o, experiment, table, d);
+  simulate_measurements(o, experiment, table, d);
 }
 
 } // namespace
@@ -184,6 +217,10 @@ void add_diagnose_verb(CLI::App &app) {
                  "go on though the sample's recipe is not the bank's");
   verb->add_flag("--no-rerun", o->no_rerun, "where and which only: run nothing again");
   verb->add_option("--packings", o->rerun.packings, "new packings that models are run again on")
+      ->check(CLI::Range(2, 1000));
+  verb->add_option("--simulate-next", o->next_packings,
+                   "simulate further measurements under the explanations that are left, on so many "
+                   "packings: what they would read, and which of them part what")
       ->check(CLI::Range(2, 1000));
   verb->add_option("--jobs", o->rerun.study.jobs, "runs at a time")->check(CLI::Range(1, 4096));
   verb->add_option("--liggghts", o->rerun.study.liggghts, "program with the plugin");

@@ -40,6 +40,8 @@ json parameters_of(const json &gap) {
   return rows;
 }
 
+constexpr double kParts = 3.0; // standard deviations between two explanations
+
 json measurements_of(const json &which) {
   json rows = json::array();
   for (const json &m : which["measurements"])
@@ -54,6 +56,38 @@ json measurements_of(const json &which) {
                     {"expected", "not in this bank"},
                     {"per_cost", "–"}});
   return rows;
+}
+
+/// Further measurements as simulated: a row for each, a cell for each explanation.
+json simulated_next(const json &gap) {
+  if (!gap.contains("next"))
+    return nullptr;
+  const json &next = gap["next"];
+  json heads = json::array(), rows = json::array();
+  for (const json &m : next["models"])
+    heads.push_back(fmt::format("{} ({})", m["hypothesis"].get<std::string>(),
+                                m["probability"].get<std::string>()));
+  for (const json &m : next["measurements"]) {
+    json cells = json::array();
+    for (const json &v : m["values"])
+      cells.push_back(v["mean"].is_number() ? fmt::format("{:.1f} ± {}", v["mean"].get<double>(),
+                                                          shown(v["error"], "{:.1f}"))
+                                            : std::string("–"));
+    std::vector<std::string> parts;
+    for (const json &pair : m["parted"])
+      if (pair["apart"].is_number() && pair["apart"].get<double>() >= kParts)
+        parts.push_back(fmt::format("{} from {} ({:.1f})", pair["first"].get<std::string>(),
+                                    pair["second"].get<std::string>(),
+                                    pair["apart"].get<double>()));
+    rows.push_back(
+        {{"what", m["what"]},
+         {"reading", fmt::format("{}, {} (± {:g})", m["reading"].get<std::string>(),
+                                 m["unit"].get<std::string>(), m["sd"].get<double>())},
+         {"cost", shown(m["cost"], "{:.3g}")},
+         {"cells", cells},
+         {"parts", parts.empty() ? "nothing" : fmt::format("{}", fmt::join(parts, "; "))}});
+  }
+  return {{"heads", heads}, {"rows", rows}, {"packings", next["packings"]}};
 }
 
 constexpr double kSaysMuch = 0.5; // Q2 below which an emulator explains little
@@ -116,6 +150,7 @@ std::string diagnosis_page(const nlohmann::ordered_json &ordered) {
                  {"confounding", confounding_part(gap)},
                  {"shrink", shrink_part(gap)},
                  {"measurements", measurements_of(gap["which"])},
+                 {"simulated_next", simulated_next(gap)},
                  {"parameters", parameters_of(gap)},
                  {"emulators", emulators_of(gap)},
                  {"evidence", evidence_of(gap["which"])},

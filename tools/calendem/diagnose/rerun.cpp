@@ -14,8 +14,7 @@ namespace {
 
 std::string text_of(double value) { return fmt::format("{:.4g}", value); }
 
-/// The models as runs: for each, the packings; for each packing, the pressures. `film`: thickness
-/// of the bank's film over the sample's; an instrument's micrometres do not grow with a film.
+/// The models as runs: for each, the packings; for each packing, the pressures.
 Study study_of(const BankTable &table, const std::vector<RerunModel> &models,
                const std::vector<double> &pressures, int packings, double film) {
   const BankSpec &spec = table.spec;
@@ -24,30 +23,14 @@ Study study_of(const BankTable &table, const std::vector<RerunModel> &models,
   study.name = "how far";
   study.recipe_file = spec.recipe_file;
   study.case_file = spec.case_file;
-  study.columns = {"recipe.seed"};
-  for (const BankParameter &p : spec.parameters)
-    study.columns.insert(study.columns.end(), p.keys.begin(), p.keys.end());
-  for (const std::string &name : spec.effects)
-    for (const std::string &key : find_effect(name).parameter.keys)
-      study.columns.push_back(find_effect(name).column(key));
+  study.columns = model_columns(spec);
   study.columns.push_back("case.platen.max_pressure_MPa");
   std::vector<std::vector<std::string>> rows;
   for (const RerunModel &m : models)
     for (int k = 1; k <= packings; ++k)
       for (const double pressure : pressures) {
-        // seeds that no bank has
-        std::vector<std::string> row = {fmt::format("{}", 100000 + k)};
-        for (std::size_t p = 0; p < spec.parameters.size(); ++p)
-          row.insert(row.end(), spec.parameters[p].keys.size(), text_of(m.base[p]));
-        for (const std::string &name : spec.effects) {
-          const EffectParameter &p = find_effect(name).parameter;
-          const double on_film = find_effect(name).instrument ? film : 1.0;
-          const auto on = m.effect.find(name);
-          row.insert(row.end(), p.keys.size(),
-                     on == m.effect.end() ? p.off : text_of(on_film * on->second));
-        }
-        row.push_back(text_of(pressure));
-        rows.push_back(row);
+        rows.push_back(model_values(spec, m, k, film));
+        rows.back().push_back(text_of(pressure));
       }
   Mistakes mistakes(spec.file, 20);
   add_runs(study, rows, mistakes);
@@ -180,6 +163,31 @@ nlohmann::ordered_json curves(const Experiment &e, const BankTable &runs,
 
 } // namespace
 
+std::vector<std::string> model_columns(const BankSpec &spec) {
+  std::vector<std::string> out = {"recipe.seed"};
+  for (const BankParameter &p : spec.parameters)
+    out.insert(out.end(), p.keys.begin(), p.keys.end());
+  for (const std::string &name : spec.effects)
+    for (const std::string &key : find_effect(name).parameter.keys)
+      out.push_back(find_effect(name).column(key));
+  return out;
+}
+
+std::vector<std::string> model_values(const BankSpec &spec, const RerunModel &m, int packing,
+                                      double film) {
+  std::vector<std::string> out = {fmt::format("{}", 100000 + packing)};
+  for (std::size_t p = 0; p < spec.parameters.size(); ++p)
+    out.insert(out.end(), spec.parameters[p].keys.size(), text_of(m.base[p]));
+  for (const std::string &name : spec.effects) {
+    const EffectParameter &p = find_effect(name).parameter;
+    const double on_film = find_effect(name).instrument ? film : 1.0;
+    const auto on = m.effect.find(name);
+    out.insert(out.end(), p.keys.size(),
+               on == m.effect.end() ? p.off : text_of(on_film * on->second));
+  }
+  return out;
+}
+
 HeldOut held_out_of(const ExperimentData &data) {
   return {inference::blocks_of(data.experiment.of), data.experiment.values,
           data.experiment.covariance.diagonal().cwiseSqrt()};
@@ -242,22 +250,10 @@ Part part_of(const Experiment &e, const BankTable &table, const std::vector<std:
   return part;
 }
 
-std::vector<inference::Applied> applied(const inference::Problem &problem, const Hypothesis &h,
-                                        const Vector &scores) {
-  std::vector<inference::Applied> on;
-  int at = problem.base_parameters;
-  for (const int e : h.on) {
-    const int n = int(problem.effects[std::size_t(e)].parameters.size());
-    on.push_back({e, scores.segment(at, n)});
-    at += n;
-  }
-  return on;
-}
-
 /// Held-out observables as the emulators predict them.
 Vector predicted(const Part &part, const Hypothesis &h, const Vector &scores) {
-  const inference::Prediction p = part.problem.predict(scores.head(part.problem.base_parameters),
-                                                       applied(part.problem, h, scores));
+  const inference::Prediction p = part.problem.predict(
+      scores.head(part.problem.base_parameters), inference::applied_at(part.problem, h, scores));
   return part.model->map().observables_of(p.mean.head(part.model->map().emulated()));
 }
 
@@ -266,17 +262,7 @@ RerunModel calibrated(const std::string &role, const Hypothesis &h, const Part &
                       const Part &test) {
   const inference::Likelihood likelihood(train.problem, h, train.problem.discrepancy);
   const inference::Evidence e = inference::evidence(likelihood, {});
-  RerunModel out;
-  out.role = role;
-  out.hypothesis = h.name;
-  for (int k = 0; k < train.problem.base_parameters; ++k)
-    out.base.push_back(train.data.bank.base[std::size_t(k)].prior.value(e.mode[k]));
-  for (const inference::Applied &a : applied(train.problem, h, e.mode)) {
-    const inference::ModelledEffect &effect = train.problem.effects[std::size_t(a.effect)];
-    out.effect[effect.name] =
-        find_effect(effect.name)
-            .parameter.value(effect.parameters.front().prior.value(a.scores[0]));
-  }
+  RerunModel out = model_at(role, h, e.mode, train.problem, train.data);
   HeldOut held_out = held_out_of(test.data);
   held_out.sd = test.model->sd();
   const Vector none = Vector::Zero(held_out.sd.size());
@@ -318,6 +304,22 @@ std::vector<std::pair<std::string, Hypothesis>> chosen(const inference::Which &w
 }
 
 } // namespace
+
+RerunModel model_at(const std::string &role, const Hypothesis &h, const Vector &scores,
+                    const inference::Problem &problem, const ExperimentData &data) {
+  RerunModel out;
+  out.role = role;
+  out.hypothesis = h.name;
+  for (int k = 0; k < problem.base_parameters; ++k)
+    out.base.push_back(data.bank.base[std::size_t(k)].prior.value(scores[k]));
+  for (const inference::Applied &a : inference::applied_at(problem, h, scores)) {
+    const inference::ModelledEffect &effect = problem.effects[std::size_t(a.effect)];
+    out.effect[effect.name] =
+        find_effect(effect.name)
+            .parameter.value(effect.parameters.front().prior.value(a.scores[0]));
+  }
+  return out;
+}
 
 std::vector<RerunModel> models_to_rerun(const Experiment &experiment, const BankTable &table,
                                         const Diagnosed &diagnosed, double cells) {

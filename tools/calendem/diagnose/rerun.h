@@ -61,6 +61,18 @@ struct RerunModel {
   Estimate predicted;                   ///< gap on the held-out conditions by the emulators
 };
 
+/// The model of a hypothesis at these scores of base parameters and effects.
+RerunModel model_at(const std::string &role, const inference::Hypothesis &hypothesis,
+                    const inference::Vector &scores, const inference::Problem &problem,
+                    const ExperimentData &data);
+
+/// Columns of a study of models, and a model's values for them: seed, base parameters, effects.
+/// `film`: thickness of the bank's film over the sample's; an instrument's micrometres do not grow
+/// with a film. Packings have seeds that no bank has.
+std::vector<std::string> model_columns(const BankSpec &spec);
+std::vector<std::string> model_values(const BankSpec &spec, const RerunModel &model, int packing,
+                                      double film);
+
 /// Models worth running: always the base model; the leading effect unless the claim is none; with a
 /// claimed effect its runner-up and, as placebo, the effect that the data speak against most.
 /// `cells` as in diagnosed(). Empty if the experiment has no split or nothing held out can be

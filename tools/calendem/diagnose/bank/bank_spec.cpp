@@ -246,6 +246,7 @@ const std::vector<MeasurementPrice> &usual_prices() {
       {"second_speed", "the same pressures at a tenth of the speed", 3.0, 0.0, ""},
       {"thickness_series", "coatings of several loadings at one pressure", 6.0, 0.0, ""},
       {"temperature_series", "the same pressures at 25 and 60 degrees C", 8.0, 0.0, ""},
+      {"higher_pressure", "the same coating at twice the largest pressure", 2.0, 0.0, ""},
       {"tomogram", "X-ray tomogram before and after", 40.0, 0.0, ""}};
   return prices;
 }
