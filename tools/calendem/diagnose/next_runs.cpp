@@ -178,12 +178,25 @@ Study next_study(const BankSpec &spec, const std::vector<RerunModel> &models,
 
 std::vector<RerunModel> models_to_part(const Diagnosed &d) {
   const inference::Problem problem = d.model->problem(d.data.experiment.values);
+  const std::vector<inference::Judged> &judged = d.diagnosis.which.judged;
   std::vector<RerunModel> out;
-  for (const inference::Judged &j : d.diagnosis.which.judged)
+  const auto add = [&](const inference::Judged &j, const std::string &role) {
+    const bool there = std::any_of(out.begin(), out.end(), [&](const RerunModel &m) {
+      return m.hypothesis == j.hypothesis.name;
+    });
+    if (!there)
+      out.push_back(model_at(role, j.hypothesis, j.evidence.mode, problem, d.data));
+  };
+  for (const inference::Judged &j : judged)
     if ((j.hypothesis.kind == Hypothesis::none || j.hypothesis.kind == Hypothesis::effects) &&
         j.probability >= kWorthTelling && out.size() < kMostModels)
-      out.push_back(model_at(fmt::format("{:.0f} %", 100.0 * j.probability), j.hypothesis,
-                             j.evidence.mode, problem, d.data));
+      add(j, fmt::format("{:.0f} %", 100.0 * j.probability));
+  for (const inference::Judged &j : judged)
+    if (!out.empty() && j.hypothesis.name == out.front().hypothesis)
+      for (const inference::ShortRuns &rival : j.short_runs)
+        for (const inference::Judged &other : judged)
+          if (other.hypothesis.name == rival.rival)
+            add(other, "as far as the bank has run it");
   return out;
 }
 

@@ -24,7 +24,8 @@ struct NextRun {
 std::vector<NextRun> next_runs(const BankSpec &bank, double pressure_MPa);
 
 /// Explanations worth telling apart: none and effects with a probability of 5 % or more, four at
-/// most, each where it fits all data best. Fewer than two: there is nothing to tell apart.
+/// most, and those that look like the leading one but were not run as far, each where it fits all
+/// data best. Fewer than two: there is nothing to tell apart.
 std::vector<RerunModel> models_to_part(const Diagnosed &diagnosed);
 
 /// A reading under a model: mean over packings and its standard error.
