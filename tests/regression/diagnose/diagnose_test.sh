@@ -83,6 +83,18 @@ sed 's|^electrode = .*|electrode = "other_electrode.toml"|' experiment.toml >oth
 refuses "not the bank's electrode; composition.am_weight_percent: 90 instead of 96" other.toml --bank bank.toml
 diagnose other.toml -o other --bank bank.toml --other-electrode --no-rerun >other.log || fail "exit status $?"
 grep -q "^note: the sample is not the bank's electrode" other.log || fail "another electrode is not reported"
+
+# A bank stands for another electrode after few runs of that (four).
+refuse_from() { "$bin/calendem" bank "$1" -o bad_bank --from bank.csv >from.log 2>&1 && fail "bank --from took $1"; grep -qF -- "$2" from.log || { cat from.log; fail "'$2' is not said"; }; }
+refuse_from bank.toml 'with other_electrode = "yes"'
+{ cat bank.toml; printf '[full_cell]\nrecipe = "other_electrode.toml"\ncase = "case.toml"\npoints = 2\nother_electrode = "yes"\n'; } >moved.toml
+if [ -n "${CALENDEM_HEAVY:-}" ]; then
+  "$bin/calendem" bank moved.toml -o moved --from bank.csv --jobs 2 >moved.log || { cat moved.log; fail "bank --from"; }
+  [ "$(wc -l <moved/bank.csv)" = "$(($(wc -l <bank.csv) + 4))" ] || fail "the table has not four rows more"
+  diagnose other.toml -o moved_gap --bank moved.toml --table moved/bank.csv --no-rerun >moved.log || { cat moved.log; fail "diagnose with it"; }
+  grep -q "of another electrode: shifted by what 2 runs of this one" moved.log || fail "the shift is not reported"
+  refuses "not the bank's electrode" experiment.toml --bank moved.toml --table moved/bank.csv
+fi
 sed 's/^id = "p50"/&\nporosity_before_percent = { value = 45.5, sd = 0.5 }/' experiment.toml >denser.toml
 diagnose denser.toml -o denser --bank bank.toml --no-rerun >denser.log || fail "exit status $?"
 grep -q "^note: p50: its porosity before calendering is 45.5 ± 0.5 %" denser.log || fail "another coating is not reported"

@@ -22,7 +22,7 @@ struct Films {
       return (folder / name).string();
     };
     bank.spec.recipe_file = recipe("thin.toml", 6.0);
-    bank.spec.full_cell = {recipe("full.toml", 18.0), "", 2};
+    bank.spec.full_cell = {recipe("full.toml", 18.0), "", 2, false};
     bank.spec.pressures = {150.0};
     experiment.recipe = read_recipe(recipe("sample.toml", loading));
     for (const auto &[point, effect, porosity] :
@@ -60,6 +60,19 @@ TEST(FullCell, TheShiftGoesWithOneOverLoading) {
       full_cell_change(between.experiment, between.bank, between.covered, reported);
   EXPECT_NEAR(t.change[0], -0.025, 1e-15);
   EXPECT_NEAR(t.covariance(0, 0), 0.25 * 3e-4, 1e-15);
+}
+
+// Whatever its loading: it is not the film's faces that differ.
+TEST(FullCell, AnotherElectrodeIsShiftedByAllOfTheDifference) {
+  std::vector<std::string> reported;
+  Films f(9.0);
+  f.bank.spec.full_cell.other_electrode = true;
+  EXPECT_NEAR(full_cell_change(f.experiment, f.bank, f.covered, reported).change[0], -0.05, 1e-15);
+  f.bank.spec.full_cell.recipe_file = f.bank.spec.recipe_file; // as thick as the bank's
+  const FullCellChange t = full_cell_change(f.experiment, f.bank, f.covered, reported);
+  EXPECT_NEAR(t.change[0], -0.05, 1e-15);
+  EXPECT_NEAR(t.covariance(0, 0), 3e-4, 1e-15);
+  EXPECT_NE(reported.at(0).find("of another electrode"), std::string::npos);
 }
 
 TEST(FullCell, OnePointIsTooFew) {

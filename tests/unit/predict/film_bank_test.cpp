@@ -40,7 +40,7 @@ TEST(FilmBank, BeyondTheBankItWidensAndSaysSo) {
   EXPECT_TRUE(bank.beyond(inside).empty());
   ASSERT_EQ(bank.beyond(outside).size(), 1u);
   EXPECT_EQ(bank.beyond(outside)[0],
-            "porosity_before_percent is 60, the bank has 41 to 52: extrapolated");
+            "porosity before 60 %; the bank has 41 to 52 %: extrapolated");
   const auto width = [&](const Film &f) {
     return bank.at_pressures(FilmNumber::PorosityAfter, f, kMiddle)[2].variance;
   };

@@ -41,6 +41,14 @@ TEST(Shown, ADifferenceHasItsUnit) {
   EXPECT_EQ(shown_difference(0.138, "fraction"), "0.138");
 }
 
+TEST(Shown, ANameSaysItsUnitAtItsEnd) {
+  EXPECT_EQ(in_words("porosity_before_percent").name, "porosity before");
+  EXPECT_EQ(in_words("porosity_before_percent").unit, " %");
+  EXPECT_EQ(in_words("loading_mg_cm2").unit, " mg/cm²");
+  EXPECT_EQ(in_words("seed").name, "seed");
+  EXPECT_EQ(in_words("_um").unit, ""); // a unit alone is no name
+}
+
 TEST(InWords, HasUnitsAndSignsForPeople) {
   Place p;
   p.condition = "p150";

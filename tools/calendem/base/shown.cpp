@@ -55,6 +55,20 @@ std::vector<std::string> shown_alike(const std::vector<double> &numbers) {
   return out;
 }
 
+NameAndUnit in_words(const std::string &name) {
+  NameAndUnit out = {name, ""};
+  for (const auto &[ending, unit] : {std::pair("_percent", " %"),
+                                     {"_MPa", " MPa"},
+                                     {"_GPa", " GPa"},
+                                     {"_um", " µm"},
+                                     {"_mg_cm2", " mg/cm²"}})
+    if (const std::string end = ending;
+        name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0)
+      out = {name.substr(0, name.size() - end.size()), unit};
+  std::replace(out.name.begin(), out.name.end(), '_', ' ');
+  return out;
+}
+
 std::string shown_unit(const std::string &unit) { return unit == "um" ? "µm" : unit; }
 
 std::string unit_of_difference(const std::string &unit) {

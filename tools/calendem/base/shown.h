@@ -17,6 +17,12 @@ std::string shown(const nlohmann::json &number, const char *format);
 /// "32.2". If less than two digits of another were left, each has three of its own.
 std::vector<std::string> shown_alike(const std::vector<double> &numbers);
 
+/// A name that ends in a unit, in words: "porosity before" and " %" for "porosity_before_percent".
+struct NameAndUnit {
+  std::string name, unit; ///< the unit with the blank before it; empty: none is known
+};
+NameAndUnit in_words(const std::string &name);
+
 /// A unit of our files: "µm" for "um".
 std::string shown_unit(const std::string &unit);
 

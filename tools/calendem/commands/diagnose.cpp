@@ -148,8 +148,9 @@ std::vector<std::string> other_samples(const Experiment &e) {
 
 /// A bank says nothing of another electrode.
 std::string of_another_electrode(const Options &o, const Experiment &e, const BankSpec &bank) {
-  const auto differs =
-      other_electrode(read_recipe(bank.recipe_file).settings.all(), e.recipe.settings.all());
+  const std::string &recipe =
+      bank.full_cell.other_electrode ? bank.full_cell.recipe_file : bank.recipe_file;
+  const auto differs = other_electrode(read_recipe(recipe).settings.all(), e.recipe.settings.all());
   if (differs.empty())
     return "";
   const std::string text =

@@ -2,6 +2,7 @@
 #include "commands/films_asked.h"
 #include "base/provenance.h"
 #include "base/recipe.h"
+#include "base/shown.h"
 #include "commands/commands.h"
 #include <algorithm>
 #include <cmath>
@@ -98,7 +99,8 @@ std::vector<Film> varied(std::vector<Film> films, const std::vector<std::string>
           throw Failure(kBadInput, fmt::format("--vary is '{}'; '{}' is no number.", text, value));
         check_varied(text, number, bank.film()[place]);
         changed.recipe[place] = number;
-        changed.name += fmt::format("{}{} {:g}", f.name.empty() ? "" : ", ", name, number);
+        changed.name += fmt::format("{}{} {:g}{}", f.name.empty() ? "" : ", ", in_words(name).name,
+                                    number, in_words(name).unit);
         next.push_back(changed);
       }
     films = next;

@@ -8,6 +8,7 @@
 #include "report/study_page.h"
 #include "simulate/sample.h"
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fmt/format.h>
 #include <map>
 #include <optional>
@@ -19,6 +20,7 @@ namespace {
 struct Options {
   StudyOptions study;
   bool full_cell = false;
+  std::string from; ///< a table whose rows are taken for all but the full cell
 };
 
 /// A study of points and where it goes.
@@ -40,9 +42,10 @@ std::vector<Part> parts_of(const BankSpec &spec, const StudyOptions &o) {
   return out;
 }
 
-/// The table of all points whose runs are there; reports how many are not.
-void write_table(const BankSpec &spec, const std::vector<Part> &parts, const std::string &folder) {
-  BankTable table = {spec, {}};
+/// The table of all points whose runs are there, after `rows`; reports how many are not.
+void write_table(const BankSpec &spec, const std::vector<Part> &parts, const std::string &folder,
+                 std::vector<BankRow> rows = {}) {
+  BankTable table = {spec, std::move(rows)};
   std::size_t missing = 0;
   for (const Part &part : parts) {
     const std::vector<std::string> folders = finished_runs(part.study, part.options);
@@ -62,9 +65,26 @@ void write_table(const BankSpec &spec, const std::vector<Part> &parts, const std
              table.rows.size(), folder, spec.file);
 }
 
+/// Only the runs of the other electrode are made, the rest is that of another bank's table.
+void transfer_bank(const Options &o, const BankSpec &spec, const std::vector<Part> &parts) {
+  if (!spec.full_cell.other_electrode)
+    throw Failure(kBadInput, fmt::format("{}: --from is for a bank that stands for another "
+                                         "electrode: give it [full_cell] with other_electrode = "
+                                         "\"yes\".",
+                                         spec.file));
+  std::vector<BankRow> rows = read_bank_table(spec, o.from).rows;
+  rows.erase(std::remove_if(rows.begin(), rows.end(),
+                            [](const BankRow &row) { return row.point.effect == kFullCell; }),
+             rows.end());
+  make_study(parts[1].study, parts[1].options);
+  write_table(spec, {parts[1]}, o.study.folder, std::move(rows));
+}
+
 void make_bank(const Options &o) {
   const BankSpec spec = read_bank_spec(o.study.file);
   std::vector<Part> parts = parts_of(spec, o.study);
+  if (!o.from.empty())
+    return transfer_bank(o, spec, parts);
   if (o.full_cell) {
     if (parts.size() < 2)
       throw Failure(kBadInput, spec.file + " has no table [full_cell].");
@@ -101,6 +121,9 @@ void add_bank_verb(CLI::App &app) {
   verb->add_option("BANK", o->study.file, "bank (TOML)")->required();
   add_study_options(*verb, o->study);
   verb->add_flag("--full-cell", o->full_cell, "only the runs on the full cell, in that folder");
+  verb->add_option("--from", o->from,
+                   "bank.csv whose runs stand for another electrode, which alone is run "
+                   "([full_cell] with other_electrode)");
   verb->callback([o] { make_bank(*o); });
 }
 

@@ -254,16 +254,23 @@ FullCellChange full_cell_change(const Experiment &e, const BankTable &bank,
     return {};
   const double small = read_recipe(bank.spec.recipe_file).loading,
                full = read_recipe(bank.spec.full_cell.recipe_file).loading;
-  if (small == full)
+  const bool other = bank.spec.full_cell.other_electrode;
+  if (small == full && !other)
     return {};
-  const double share = (1.0 / small - 1.0 / e.recipe.loading) / (1.0 / small - 1.0 / full);
+  const double share =
+      other ? 1.0 : (1.0 / small - 1.0 / e.recipe.loading) / (1.0 / small - 1.0 / full);
   const double n = double(changes.size());
   Matrix d(changes[0].size(), Eigen::Index(changes.size()));
   for (std::size_t k = 0; k < changes.size(); ++k)
     d.col(Eigen::Index(k)) = changes[k];
   const Vector mean = d.rowwise().mean();
   d.colwise() -= mean;
-  if (share != 0.0)
+  if (other)
+    not_said.push_back(fmt::format(
+        "The bank's runs are of another electrode: shifted by what {} runs of this one differ by; "
+        "how well that is known counts as uncertainty. Effects are taken to do the same on both.",
+        changes.size()));
+  else if (share != 0.0)
     not_said.push_back(fmt::format(
         "The bank's cell carries {:g} mg/cm2, the sample {:g}: its runs are shifted by {:.0f} % of "
         "what {} runs of {:g} mg/cm2 differ by; how well that is known counts as uncertainty.",

@@ -240,6 +240,10 @@ void FilmBank::learn_full_cell(const BankTable &table) {
       rows.push_back(&row);
   if (rows.empty())
     return;
+  if (spec_.full_cell.other_electrode)
+    throw Failure(kBadInput, fmt::format("{}: a bank that stands for another electrode is for "
+                                         "diagnose. To predict, make one of that electrode.",
+                                         spec_.file));
   const Recipe recipe = read_recipe(spec_.full_cell.recipe_file);
   const Film film = film_of(recipe);
   for (int number = 0; number < kFilmNumbers; ++number) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Which films a bank has, and what its parameters are for them.
 #include "base/messages.h"
+#include "base/shown.h"
 #include "predict/film_bank.h"
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
@@ -129,8 +130,9 @@ std::vector<std::string> FilmBank::beyond(const Film &film) const {
   std::vector<std::string> out;
   for (std::size_t k = 0; k < film_.size(); ++k)
     if (film.recipe[k] < film_[k].low || film.recipe[k] > film_[k].high)
-      out.push_back(fmt::format("{} is {:.4g}, the bank has {:g} to {:g}: extrapolated",
-                                film_[k].name, film.recipe[k], film_[k].low, film_[k].high));
+      out.push_back(fmt::format("{0} {2:.4g}{1}; the bank has {3:g} to {4:g}{1}: extrapolated",
+                                in_words(film_[k].name).name, in_words(film_[k].name).unit,
+                                film.recipe[k], film_[k].low, film_[k].high));
   if (const double error = kPorosityBySize * std::fabs(film.sizes); error > kSizesSaid)
     out.push_back(fmt::format("half of the particles' volume lies below a diameter that is {:.2f} "
                               "times the bank's: counted as an error of {:.1f} points of porosity",

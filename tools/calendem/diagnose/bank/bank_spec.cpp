@@ -88,12 +88,14 @@ public:
   }
 
   void read_full_cell(const toml::table &t, BankSpec &out) {
-    report_unknown(t, {"recipe", "case", "points"});
+    report_unknown(t, {"recipe", "case", "points", "other_electrode"});
     out.full_cell.recipe_file =
         path(t, {"recipe", "", "", 0, 0, "", "recipe of the cell", "", true});
     out.full_cell.case_file = path(t, {"case", "", "", 0, 0, "", "its case", "", true});
     out.full_cell.points =
         int(number(t, {"points", "", "", 2, 1000, "", "base points run on it", "", false, true}));
+    out.full_cell.other_electrode =
+        text(t, {"other_electrode", "", "no", 0, 0, "", "not a larger cell", "yes|no"}) == "yes";
     if (out.full_cell.points > out.base_points)
       mistakes_.add(line_of(*t.get("points")),
                     fmt::format("points is {}; there are {} base points.", out.full_cell.points,

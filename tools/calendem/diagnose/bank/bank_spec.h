@@ -27,6 +27,8 @@
 //   recipe = "../demo/electrode.toml"
 //   case = "case.toml"
 //   points = 3                       # base points that are run on that cell too
+//   other_electrode = "yes"          # not a larger cell but another electrode, for which the bank
+//                                    # then stands; default: no
 //   [[measurement]]                  # optional: what a further measurement costs
 //   name = "cracked_bodies"          # of usual_prices()
 //   hours = 8                        # of work for one sample
@@ -67,10 +69,11 @@ struct BankParameter {
   Spread spread = Spread::Uniform;
 };
 
-/// The cell that the bank's stands for.
+/// The cell, or the electrode, that the bank's stands for.
 struct FullCell {
   std::string recipe_file, case_file;
-  int points = 0; ///< 0: none
+  int points = 0;               ///< 0: none
+  bool other_electrode = false; ///< its change counts for any loading
 };
 
 /// An error that all of the bank's runs share: too fast, too small a cell, too coarse.
