@@ -130,6 +130,37 @@ TEST(Scores, BaselinesMustBeBeaten) {
       Metric::missed);
 }
 
+// What changed between two experiments is another question: its answers are in a block of their own.
+TEST(Scores, InterventionsAreScoredByThemselves) {
+  std::vector<ScoredCase> cases = round_by_hand();
+  const auto before = metrics_of(cases);
+  const auto add = [&](const char *truth, const char *claim, const char *first) {
+    cases.push_back(scored("intervention", int(cases.size()), truth, claim, {{first, 0.9}}));
+    cases.back().set95 = {first};
+  };
+  add("friction", "friction", "friction");
+  cases.back().covered_amplitude = {true};
+  add("friction", "undecided", "friction");
+  cases.back().covered_amplitude = {false};
+  add("friction", "pre_cracks", "pre_cracks");
+  add("unknown", "unknown", "unknown");
+  add("none", "none", "none");
+  add("none", "friction", "friction");
+  const auto after = metrics_of(cases);
+  ASSERT_GT(after.size(), before.size());
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    EXPECT_EQ(after[k].name, before[k].name);
+    EXPECT_EQ(after[k].cases, before[k].cases) << before[k].name;
+  }
+  EXPECT_DOUBLE_EQ(named(after, "intervention: the most probable").value, 4.0 / 6.0);
+  EXPECT_DOUBLE_EQ(named(after, "intervention: claimed right").value, 2.0 / 4.0);
+  EXPECT_DOUBLE_EQ(named(after, "intervention: the 95 %").value, 4.0 / 6.0);
+  EXPECT_DOUBLE_EQ(named(after, "intervention: wrong share").value, 1.0 / 3.0);
+  EXPECT_DOUBLE_EQ(named(after, "intervention: a change claimed").value, 1.0 / 2.0);
+  EXPECT_DOUBLE_EQ(named(after, "intervention: 90 % intervals").value, 1.0 / 2.0);
+  EXPECT_EQ(confusion_of(cases)["friction (intervention)"]["pre_cracks"], 1);
+}
+
 // Two of three answers right is the gate of 0.6; chance gives as much from a half.
 TEST(Scores, AGateIsMetByItsBoundNotByItsValue) {
   std::vector<ScoredCase> cases;

@@ -56,12 +56,16 @@ std::vector<std::vector<PressedSamples>> shown_runs(const std::vector<std::strin
   return out;
 }
 
+bool usable(const PressedTruth &t) {
+  return !t.shown.empty() && (t.truth.block != kIntervention || !t.without_cause.empty());
+}
+
 /// In an order that reveals nothing (Fisher and Yates).
 std::vector<Case> shuffled_cases(const std::vector<PressedTruth> &truths,
                                  const std::string &secret) {
   std::vector<Case> cases;
   for (std::size_t t = 0; t < truths.size(); ++t)
-    for (int d = 0; d < truths[t].truth.draws && !truths[t].shown.empty(); ++d)
+    for (int d = 0; d < truths[t].truth.draws && usable(truths[t]); ++d)
       cases.push_back({int(t), d});
   Random random(derived_seed(secret, "order"), 0);
   for (std::size_t k = cases.size(); k > 1; --k)
@@ -80,6 +84,15 @@ void seal_samples(const std::string &folder, const std::string &id, const Round 
       hand_out(fmt::format("{}/{}{}", folder, k, with ? "" : "_without"), id, round,
                with ? pressed.truth : without_cause(pressed.truth), one, noise);
     }
+}
+
+/// Two experiments with errors of their own; the press, with its error of pressure, is one.
+void hand_out_intervention(const std::string &folder, const std::string &id, const Round &round,
+                           const PressedTruth &pressed, const std::string &secret) {
+  hand_out(folder + "/before", id + ", before", round, without_cause(pressed.truth),
+           pressed.without_cause, derived_seed(secret, "noise before " + id));
+  hand_out(folder + "/after", id + ", after", round, pressed.truth, pressed.shown,
+           derived_seed(secret, "noise of " + id));
 }
 
 } // namespace
@@ -101,9 +114,13 @@ void seal_round(const std::string &folder, const Round &round,
     const PressedTruth &pressed = truths[std::size_t(cases[k].truth)];
     const std::string id = fmt::format("{:03}", k + 1), here = folder + "/handed_out/" + id;
     const std::uint64_t noise = derived_seed(secret, "noise of " + id);
-    hand_out(here, id, round, pressed.truth, pressed.shown, noise);
+    const bool intervention = pressed.truth.block == kIntervention;
+    if (intervention)
+      hand_out_intervention(here, id, round, pressed, secret);
+    else
+      hand_out(here, id, round, pressed.truth, pressed.shown, noise);
     nlohmann::json t = to_json(pressed.truth, round.bank);
-    if (!pressed.without_cause.empty()) {
+    if (!intervention && !pressed.without_cause.empty()) {
       hand_out(without + id, id, round, without_cause(pressed.truth), pressed.without_cause, noise);
       t["without_cause_sha256"] = sha256_of_files(without + id);
       if (round.samples > 1) {
@@ -114,7 +131,7 @@ void seal_round(const std::string &folder, const Round &round,
     t["id"] = id;
     t["point"] = cases[k].truth;
     t["noise_draw"] = cases[k].draw;
-    t["handed_out_sha256"] = sha256_of_files(here);
+    t["handed_out_sha256"] = sha256_of_case(here);
     const std::string salt = derived(secret, "salt of " + id);
     sealed["cases"].push_back({{"salt", salt}, {"truth", t}});
     open["cases"][id] = commitment(salt, t);
@@ -124,8 +141,7 @@ void seal_round(const std::string &folder, const Round &round,
   fmt::print("withheld: {0} cases of {1} truths, {2}/handed_out\nNext: copy handed_out away from "
              "sealed, then calendem withheld answer COPY -o ANSWERS\n",
              cases.size(),
-             std::count_if(truths.begin(), truths.end(),
-                           [](const PressedTruth &t) { return !t.shown.empty(); }),
+             std::count_if(truths.begin(), truths.end(), usable),
              folder);
 }
 
@@ -154,7 +170,7 @@ void make_round(const MakeOptions &given) {
   auto pair = shown.begin() + std::ptrdiff_t(truths.size());
   for (std::size_t k = 0; k < truths.size(); ++k) {
     pressed.push_back({truths[k], shown[k], {}});
-    if (round.paired_runs && has_cause(truths[k]))
+    if (companion(round, truths[k]))
       pressed.back().without_cause = *pair++;
   }
   seal_round(o.folder, round, pressed, secret);

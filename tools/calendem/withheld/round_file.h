@@ -14,6 +14,8 @@
 //   pairs = ["friction + pre_cracks"]
 //   faults = ["thickness_zero", "noise"]          # noise: the errors stated are too small
 //   other_numerics = ["half_time_step + friction"] # truths from another resolution
+//   interventions = ["friction", "nothing"]       # experiments in pairs, before and after a change
+//   interventions_on = "other specimens"          # or "the same specimens"
 //   [noise]                          # standard deviations of what is handed out
 //   pressure_percent = 1             # of the press's calibration, one for all pressures
 //   displacement_um = 0.02
@@ -45,8 +47,13 @@ struct Round {
   bool paired_runs = false; ///< truths are run without their effects too: their gap is known then
   /// Each a list of names: effects of the bank, hidden changes, "noise".
   std::vector<std::vector<std::string>> open, pairs, faults, other_numerics;
+  std::vector<std::vector<std::string>> interventions; ///< "nothing" instead of "noise"
+  bool same_specimens_after = false; ///< of an intervention: those that were pressed before it
   MeasurementNoise noise;
 };
+
+/// The block of experiments in pairs, and what an intervention without any change is called.
+inline constexpr char kIntervention[] = "intervention", kNothing[] = "nothing";
 
 /// Throws Failure(2) with every mistake of the file, or of the bank that it names.
 Round read_round(const std::string &file);

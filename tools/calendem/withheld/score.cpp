@@ -124,7 +124,7 @@ std::vector<ScoredCase> open_round(const std::string &folder, const std::string 
     const Json &truth = one.at("truth");
     const std::string id = truth.at("id");
     must_be(commitment(one.at("salt"), truth), committed.value(id, ""), "the truth of case " + id);
-    must_be(sha256_of_files(folder + "/handed_out/" + id), truth.at("handed_out_sha256"),
+    must_be(sha256_of_case(folder + "/handed_out/" + id), truth.at("handed_out_sha256"),
             "what was handed out of case " + id);
     if (const std::string sealed_too = truth.value("without_cause_sha256", ""); !sealed_too.empty())
       must_be(sha256_of_files(folder + "/sealed/without_cause/" + id), sealed_too,

@@ -22,10 +22,7 @@ public:
               double high = 1.0) {
     Truth t;
     t.block = block;
-    const std::size_t packings = std::size_t(round_.samples) *
-                                 (round_.disc_for_each_pressure ? round_.bank.pressures.size() : 1);
-    for (std::size_t k = 0; k < packings; ++k) // far from the bank's own seeds, which count from 1
-      t.packings.push_back(static_cast<unsigned long>(1e6 + 4e9 * 0.99 * random_.uniform()));
+    t.packings = packings();
     for (const BankParameter &p : round_.bank.parameters)
       t.base.push_back(prior_value(p.low, p.high, p.spread, random_.uniform()));
     for (const std::string &name : names)
@@ -33,12 +30,23 @@ public:
         t.understated =
             round_.noise.least_understated +
             random_.uniform() * (round_.noise.most_understated - round_.noise.least_understated);
+      else if (name == kNothing)
+        continue;
       else if (find_hidden(name))
         t.hidden.push_back(name);
       else
         t.effects.emplace_back(name, value(effect_of(round_.bank, name).parameter, low, high));
     t.pressure_error = 0.01 * round_.noise.pressure_percent * t.understated * random_.normal();
     return t;
+  }
+
+  std::vector<unsigned long> packings() {
+    const std::size_t n = std::size_t(round_.samples) *
+                          (round_.disc_for_each_pressure ? round_.bank.pressures.size() : 1);
+    std::vector<unsigned long> out;
+    for (std::size_t k = 0; k < n; ++k) // far from the bank's own seeds, which count from 1
+      out.push_back(static_cast<unsigned long>(1e6 + 4e9 * 0.99 * random_.uniform()));
+    return out;
   }
 
 private:
@@ -106,11 +114,22 @@ Truth without_cause(Truth t) {
   return t;
 }
 
+std::optional<Truth> companion(const Round &round, const Truth &truth) {
+  std::optional<Truth> out;
+  if (truth.block == kIntervention) {
+    out = without_cause(truth);
+    out->packings = truth.packings_before;
+  } else if (round.paired_runs && has_cause(truth)) {
+    out = without_cause(truth);
+  }
+  return out;
+}
+
 std::vector<Truth> with_pairs(const Round &round, std::vector<Truth> truths) {
   const std::size_t drawn = truths.size();
-  for (std::size_t k = 0; k < drawn && round.paired_runs; ++k)
-    if (has_cause(truths[k]))
-      truths.push_back(without_cause(truths[k]));
+  for (std::size_t k = 0; k < drawn; ++k)
+    if (const auto other = companion(round, truths[k]))
+      truths.push_back(*other);
   return truths;
 }
 
@@ -148,6 +167,11 @@ std::vector<Truth> draw_truths(const Round &round, const std::string &secret) {
   add("pair", round.pairs);
   add("fault", round.faults);
   add("other", round.other_numerics);
+  for (const auto &names : round.interventions) {
+    out.push_back(drawing.truth(kIntervention, names));
+    out.back().packings_before =
+        round.same_specimens_after ? out.back().packings : drawing.packings();
+  }
   return out;
 }
 
@@ -198,6 +222,7 @@ nlohmann::json to_json(const Truth &t, const BankSpec &bank) {
           {"parameters", base},
           {"understated", t.understated},
           {"packing_seeds", t.packings},
+          {"packing_seeds_before", t.packings_before},
           {"pressure_error", t.pressure_error}};
 }
 
