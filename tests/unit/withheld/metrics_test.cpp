@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Scores of answers made by hand, whose values can be counted.
 #include "withheld/score.h"
+#include "base/provenance.h"
+#include "support/test_folder.h"
 #include <cmath>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 namespace {
@@ -130,6 +131,22 @@ TEST(Scores, BaselinesMustBeBeaten) {
       Metric::missed);
 }
 
+// As print does it; what is worse than the round's own frequencies has a negative skill.
+TEST(Scores, PagesHaveSignsNotTheirSpellings) {
+  std::vector<ScoredCase> cases = round_by_hand();
+  for (ScoredCase &c : cases)
+    c.probability = {{c.truth == "none" ? "friction" : "none", 1.0}};
+  const std::string folder = calendem_test::test_folder().string();
+  write_scores(cases, "by hand", folder);
+  for (const char *file : {"/scores.md", "/scores.html"}) {
+    const std::string text = text_of_file(folder + file);
+    for (const char *sign : {"≥ 0.85", "≤ 0.05", "0.85–0.95", "−", "0.000–"})
+      EXPECT_NE(text.find(sign), std::string::npos) << sign << file;
+    for (const char *spelt : {">= ", "&gt;= ", "<= ", "&lt;= ", "0.85-0.95", "-0.", "-1."})
+      EXPECT_EQ(text.find(spelt), std::string::npos) << spelt << file;
+  }
+}
+
 // What changed between two experiments is another question: its answers are in a block of their own.
 TEST(Scores, InterventionsAreScoredByThemselves) {
   std::vector<ScoredCase> cases = round_by_hand();
@@ -187,8 +204,8 @@ TEST(Scores, WhatNoTableHasMayNotBeCalledNothingNorAnEffect) {
   cases.back().paired = true;
   cases.back().signal_to_noise = 2.0; // too weak to count
   const std::vector<Metric> m = metrics_of(cases);
-  EXPECT_DOUBLE_EQ(named(m, "no effect of the table, signal-to-noise >= 3: unknown").value, 0.5);
-  EXPECT_DOUBLE_EQ(named(m, "no effect of the table, signal-to-noise >= 3: nothing").value, 0.25);
+  EXPECT_DOUBLE_EQ(named(m, "no effect of the table, signal-to-noise ≥ 3: unknown").value, 0.5);
+  EXPECT_DOUBLE_EQ(named(m, "no effect of the table, signal-to-noise ≥ 3: nothing").value, 0.25);
 }
 
 // 20 draws of one packing say no more about packings than one does.

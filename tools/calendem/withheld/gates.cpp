@@ -74,38 +74,38 @@ void add_gates_of_answers(const All &cases, std::vector<Metric> &out) {
   const auto share = [&](const char *name, const CaseTest &chosen, const CaseTest &hit) {
     return share_of(name, cases, chosen, hit);
   };
-  add(statistic_of("where: F1 of the places reported, effects of signal-to-noise >= 6",
+  add(statistic_of("where: F1 of the places reported, effects of signal-to-noise ≥ 6",
                    chosen_of(cases, [](const auto &c) { return strong_single(c) && c.paired; }),
                    localisation_f1_of),
-      ">= 0.80", 0.80);
-  add(share("which, top-1, effects of signal-to-noise >= 6", strong_single, right), ">= 0.85",
+      "≥ 0.80", 0.80);
+  add(share("which, top-1, effects of signal-to-noise ≥ 6", strong_single, right), "≥ 0.85",
       0.85);
-  add(share("which, top-2, effects of signal-to-noise >= 6", strong_single,
+  add(share("which, top-2, effects of signal-to-noise ≥ 6", strong_single,
             [](const auto &c) { return right(c) || c.ranked(1) == c.truth; }),
-      ">= 0.95", 0.95);
+      "≥ 0.95", 0.95);
   add(share(
-          "claimed right or in the 95 % set, effects of signal-to-noise 3 to 6",
+          "claimed right or in the 95 % set, effects of signal-to-noise 3–6",
           [](const auto &c) { return single(c, kVisible, kStrongEnough); },
           [](const auto &c) { return c.claim == c.truth || holds(c); }),
-      ">= 0.80", 0.80);
+      "≥ 0.80", 0.80);
   add(share("wrong share among claims of an effect, noise or unknown", judged_claim, wrong),
-      "<= 0.05", -INFINITY, 0.05);
-  add(share("false claims on nulls", in_block({"null"}), names_something), "<= 0.03", -INFINITY,
+      "≤ 0.05", -INFINITY, 0.05);
+  add(share("false claims on nulls", in_block({"null"}), names_something), "≤ 0.03", -INFINITY,
       0.03);
-  add(share("no effect of the table, signal-to-noise >= 3: unknown or undecided", visible_open,
+  add(share("no effect of the table, signal-to-noise ≥ 3: unknown or undecided", visible_open,
             [](const auto &c) { return c.claim == "unknown" || c.claim == "undecided"; }),
-      ">= 0.90", 0.90);
-  add(share("no effect of the table, signal-to-noise >= 3: nothing to see", visible_open,
+      "≥ 0.90", 0.90);
+  add(share("no effect of the table, signal-to-noise ≥ 3: nothing to see", visible_open,
             [](const auto &c) { return c.claim == "none"; }),
-      "<= 0.10", -INFINITY, 0.10);
-  add(statistic_of("unknown against known, signal-to-noise >= 3: area under the ROC curve",
+      "≤ 0.10", -INFINITY, 0.10);
+  add(statistic_of("unknown against known, signal-to-noise ≥ 3: area under the ROC curve",
                    chosen_of(cases,
                              [](const auto &c) {
                                return c.signal_to_noise >= kVisible &&
                                       in_block({"single", "fault", "open", "left_out"})(c);
                              }),
                    auroc_of_unknown),
-      ">= 0.90", 0.90);
+      "≥ 0.90", 0.90);
 }
 
 void add_gates_of_numbers(const All &cases, std::vector<Metric> &out) {
@@ -122,25 +122,25 @@ void add_gates_of_numbers(const All &cases, std::vector<Metric> &out) {
             chosen_of(cases,
                       [&](const auto &c) { return c.headline == headline && !c.covered.empty(); }),
             [](const Cases &d) { return share_covered(d, &ScoredCase::covered); }),
-        "0.85-0.95", 0.85, 0.95);
+        "0.85–0.95", 0.85, 0.95);
   add(share("shrinkage: predicted within the rerun's 90 % interval", run_again,
             [](const auto &c) {
               return c.predicted_shrinkage >= c.least_shrinkage &&
                      c.predicted_shrinkage <= c.most_shrinkage;
             }),
-      ">= 0.85", 0.85);
+      "≥ 0.85", 0.85);
   add(share("shrinkage within 10 points of the rerun", run_again,
             [](const auto &c) { return std::fabs(c.predicted_shrinkage - c.shrinkage) <= 0.1; }),
-      ">= 0.80", 0.80);
+      "≥ 0.80", 0.80);
   add(share(
           "shrinkage: the placebo shrinks the gap less than the effect",
           [](const auto &c) { return run_again(c) && std::isfinite(c.placebo_shrinkage); },
           [](const auto &c) { return c.placebo_shrinkage < c.shrinkage; }),
-      ">= 0.90", 0.90);
+      "≥ 0.90", 0.90);
   add(statistic_of("expected calibration error of the most probable hypothesis",
                    chosen_of(cases, [](const auto &c) { return c.block != "left_out"; }),
                    calibration_error_of),
-      "<= 0.05", -INFINITY, 0.05);
+      "≤ 0.05", -INFINITY, 0.05);
 }
 
 void add_reported(const All &cases, std::vector<Metric> &out) {

@@ -5,6 +5,7 @@
 #include "base/output_folder.h"
 #include "base/provenance.h"
 #include "base/registry.h"
+#include "base/shown.h"
 #include "report/page.h"
 #include "withheld/sealing.h"
 #include <algorithm>
@@ -176,15 +177,16 @@ std::string verdict_of(const Metric &m) {
 }
 
 OrderedJson number_or_null(double v) { return std::isfinite(v) ? OrderedJson(v) : OrderedJson(); }
-std::string shown(double v) { return std::isfinite(v) ? fmt::format("{:.3f}", v) : "–"; }
+std::string in_thousandths(double v) { return shown(number_or_null(v), "{:.3f}"); }
 
 /// Everything as one object: scores.json, and what the page is made of.
 OrderedJson scores_of(const std::vector<ScoredCase> &cases, const std::string &round) {
   OrderedJson out = {
       {"round", round}, {"metrics", OrderedJson::array()}, {"cases", OrderedJson::array()}};
   for (const Metric &m : metrics_of(cases)) {
+    const char *const to = m.low < 0.0 ? " to " : "–"; // no dash behind a minus sign
     const std::string interval =
-        std::isfinite(m.low) ? shown(m.low) + " to " + shown(m.high) : shown(m.low);
+        in_thousandths(m.low) + (std::isfinite(m.low) ? to + in_thousandths(m.high) : "");
     out["metrics"].push_back({{"name", m.name},
                               {"value", number_or_null(m.value)},
                               {"interval90", {number_or_null(m.low), number_or_null(m.high)}},
@@ -192,7 +194,7 @@ OrderedJson scores_of(const std::vector<ScoredCase> &cases, const std::string &r
                               {"truths", m.clusters},
                               {"gate", m.gate},
                               {"verdict", verdict_of(m)},
-                              {"shown", shown(m.value)},
+                              {"shown", in_thousandths(m.value)},
                               {"interval", interval}});
   }
   for (const auto &[truth, claims] : confusion_of(cases))

@@ -83,7 +83,7 @@ struct Metric {
   double value = 0.0, low = 0.0, high = 0.0; ///< NaN: no case for it
   double least = 0.0, most = 0.0;            ///< one-sided 90 % bounds
   int cases = 0, clusters = 0;
-  std::string gate; ///< ">= 0.85"; empty: reported only
+  std::string gate; ///< "≥ 0.85"; empty: reported only
   /// Met: by the one-sided 90 % bound too; not_shown: by the value alone.
   enum Verdict { none, met, not_shown, missed, not_measured } verdict = none;
 };
