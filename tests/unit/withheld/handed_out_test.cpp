@@ -96,6 +96,28 @@ TEST(Truths, RunsHaveTheTruthsSettings) {
   }
 }
 
+TEST(Truths, NumbersOfSamplesComeInTurn) {
+  std::string text = kRound;
+  text.replace(text.find("samples = 3"), 11, "samples = [2, 10]");
+  const Round round = round_of(text);
+  const std::vector<Truth> truths = draw_truths(round, "secret");
+  std::vector<int> samples;
+  std::size_t runs = 0;
+  for (const Truth &t : truths) {
+    samples.push_back(t.samples);
+    EXPECT_EQ(t.packings.size(), std::size_t(t.samples));
+    EXPECT_EQ(to_json(t, round.bank)["samples"], t.samples);
+    runs += 2 * t.packings.size();
+  }
+  // two nulls, three amplitudes of each effect, then a block in each line of the file
+  EXPECT_EQ(samples, (std::vector<int>{2, 10, 2, 10, 2, 10, 2, 10, 2, 2, 2, 2, 10}));
+  const Study study = truth_study(round, truths);
+  ASSERT_EQ(study.runs.size(), runs);
+  EXPECT_EQ(study.runs.back().recipe.seed, truths.back().packings.back());
+  text.replace(text.find("[2, 10]"), 7, "[]");
+  EXPECT_THROW(round_of(text), Failure);
+}
+
 // A press has a new disc for each pressure.
 TEST(Truths, APressureCanHaveDiscsOfItsOwn) {
   std::string text = kRound;
@@ -183,13 +205,14 @@ TEST(Truths, BaseParametersAreDrawnFromTheirPriors) {
 TEST(Truths, MistakesOfARoundAreReported) {
   try {
     round_of("[round]\nbank = \"bank.toml\"\nnull_packings = 9\nnull_draws = 3\nopen = "
-             "[\"cohesin\"]\ninterventions = [\"noise\"]\n[noise]\nthickness_um = -1\nunderstated_by = [4, 3]\n");
+             "[\"cohesin\"]\ninterventions = [\"noise\"]\n[noise]\nthickness_um = "
+             "-1\nunderstated_by = [4, 3]\n");
     FAIL();
   } catch (const Failure &e) {
     const std::string message = e.what();
-    for (const char *part : {"null_draws is 3, null_packings 9", "Did you mean 'cohesion'",
-                             "interventions: 'noise' is no effect of the bank",
-                             "thickness_um is -1", "[least, most]"})
+    for (const char *part :
+         {"null_draws is 3, null_packings 9", "Did you mean 'cohesion'",
+          "interventions: 'noise' is no effect of the bank", "thickness_um is -1", "[least, most]"})
       EXPECT_NE(message.find(part), std::string::npos) << part << "\nis not in\n" << message;
   }
 }

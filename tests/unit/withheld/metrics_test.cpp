@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Scores of answers made by hand, whose values can be counted.
-#include "withheld/score.h"
 #include "base/provenance.h"
 #include "support/test_folder.h"
+#include "withheld/score.h"
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -129,6 +129,22 @@ TEST(Scores, BaselinesMustBeBeaten) {
       named(metrics_of(worse), "identified correctly, mean of nulls and effects: the diagnosis")
           .verdict,
       Metric::missed);
+}
+
+TEST(Scores, RightAnswersAreListedBySampleSize) {
+  std::vector<ScoredCase> cases = round_by_hand();
+  for (ScoredCase &c : cases)
+    c.samples = 2;
+  const std::size_t of_one_size = metrics_of(cases).size();
+  cases[4].samples = cases[6].samples = 10; // one of two claimed; with two cells also one of two
+  const std::vector<Metric> m = metrics_of(cases);
+  EXPECT_EQ(m.size(), of_one_size + 2 * 5);
+  for (const char *cells : {"2", "10"}) {
+    const Metric one = named(m, std::string("single: claimed right, samples of ") + cells);
+    EXPECT_EQ(one.cases, 2);
+    EXPECT_DOUBLE_EQ(one.value, 0.5);
+  }
+  EXPECT_EQ(named(m, "null: claimed right, samples of 2").cases, 4);
 }
 
 // As print does it; what is worse than the round's own frequencies has a negative skill.

@@ -78,8 +78,7 @@ void add_gates_of_answers(const All &cases, std::vector<Metric> &out) {
                    chosen_of(cases, [](const auto &c) { return strong_single(c) && c.paired; }),
                    localisation_f1_of),
       "≥ 0.80", 0.80);
-  add(share("which, top-1, effects of signal-to-noise ≥ 6", strong_single, right), "≥ 0.85",
-      0.85);
+  add(share("which, top-1, effects of signal-to-noise ≥ 6", strong_single, right), "≥ 0.85", 0.85);
   add(share("which, top-2, effects of signal-to-noise ≥ 6", strong_single,
             [](const auto &c) { return right(c) || c.ranked(1) == c.truth; }),
       "≥ 0.95", 0.95);
@@ -203,7 +202,8 @@ void add_interventions(const All &cases, std::vector<Metric> &out) {
   add("intervention: claimed right where something changed", change,
       [](const auto &c) { return c.claim == c.truth; });
   add("intervention: the 95 % set holds the truth", any, holds);
-  add("intervention: wrong share among claims where something changed",
+  add(
+      "intervention: wrong share among claims where something changed",
       [&](const auto &c) { return change(c) && judged_claim(c); }, wrong);
   add("intervention: a change claimed where nothing changed", nothing, names_something);
   out.push_back(statistic_of(
@@ -235,6 +235,21 @@ void add_baselines(const All &cases, std::vector<Metric> &out) {
                                                                 : Metric::not_shown;
 }
 
+/// Where a round has samples of several sizes.
+void add_by_size(const All &cases, std::vector<Metric> &out) {
+  std::set<int> sizes;
+  for (const ScoredCase &c : cases)
+    sizes.insert(c.samples);
+  if (sizes.size() < 2)
+    return;
+  for (const char *block : {"null", "single", "open", "fault", kIntervention})
+    for (const int size : sizes)
+      out.push_back(share_of(
+          fmt::format("{}: claimed right, samples of {} cells", block, size), cases,
+          [&](const auto &c) { return c.block == block && c.samples == size; },
+          [](const auto &c) { return c.claim == c.truth; }));
+}
+
 } // namespace
 
 std::vector<Metric> metrics_of(const All &cases) {
@@ -248,6 +263,7 @@ std::vector<Metric> metrics_of(const All &cases) {
   add_baselines(alone, out);
   if (!changes.empty())
     add_interventions(changes, out);
+  add_by_size(cases, out);
   return out;
 }
 

@@ -42,12 +42,15 @@ std::string secret_of(const MakeOptions &o) {
 
 /// What the press shows of each truth; empty where a run is not usable.
 std::vector<std::vector<PressedSamples>> shown_runs(const std::vector<std::string> &folders,
-                                                    std::size_t samples, std::size_t pressures) {
-  const std::size_t runs = samples * pressures; // of a truth
-  std::vector<std::vector<PressedSamples>> out(folders.size() / runs);
+                                                    const std::vector<Truth> &truths,
+                                                    std::size_t pressures) {
+  std::vector<std::vector<PressedSamples>> out(truths.size());
+  auto first = folders.begin(), end = first;
   for (std::size_t t = 0; t < out.size(); ++t) {
-    const auto first = folders.begin() + std::ptrdiff_t(t * runs);
-    if (std::find(first, first + std::ptrdiff_t(runs), "") != first + std::ptrdiff_t(runs))
+    const std::size_t runs = std::size_t(truths[t].samples) * pressures;
+    first = end;
+    end += std::ptrdiff_t(runs);
+    if (std::find(first, end, "") != end)
       continue;
     out[t].resize(pressures);
     for (std::size_t k = 0; k < runs; ++k)
@@ -76,7 +79,7 @@ std::vector<Case> shuffled_cases(const std::vector<PressedTruth> &truths,
 /// The samples' own experiments with the cause and without it, as if they were the whole case.
 void seal_samples(const std::string &folder, const std::string &id, const Round &round,
                   const PressedTruth &pressed, std::uint64_t noise) {
-  for (std::size_t k = 0; k < std::size_t(round.samples); ++k)
+  for (std::size_t k = 0; k < std::size_t(pressed.truth.samples); ++k)
     for (const bool with : {true, false}) {
       std::vector<PressedSamples> one;
       for (const PressedSamples &all : with ? pressed.shown : pressed.without_cause)
@@ -123,7 +126,7 @@ void seal_round(const std::string &folder, const Round &round,
     if (!intervention && !pressed.without_cause.empty()) {
       hand_out(without + id, id, round, without_cause(pressed.truth), pressed.without_cause, noise);
       t["without_cause_sha256"] = sha256_of_files(without + id);
-      if (round.samples > 1) {
+      if (pressed.truth.samples > 1) {
         seal_samples(samples + id, id, round, pressed, noise);
         t["samples_sha256"] = sha256_of_samples(samples + id);
       }
@@ -140,9 +143,7 @@ void seal_round(const std::string &folder, const Round &round,
   write_file(folder + "/handed_out/commitment.json", open.dump(1) + "\n");
   fmt::print("withheld: {0} cases of {1} truths, {2}/handed_out\nNext: copy handed_out away from "
              "sealed, then calendem withheld answer COPY -o ANSWERS\n",
-             cases.size(),
-             std::count_if(truths.begin(), truths.end(), usable),
-             folder);
+             cases.size(), std::count_if(truths.begin(), truths.end(), usable), folder);
 }
 
 void make_round(const MakeOptions &given) {
@@ -159,13 +160,18 @@ void make_round(const MakeOptions &given) {
   fs::permissions(o.folder + "/sealed", fs::perms::owner_all);
   const std::string secret = secret_of(o);
   const std::vector<Truth> truths = draw_truths(round, secret);
-  const Study study = truth_study(round, with_pairs(round, truths));
+  const std::vector<Truth> all = with_pairs(round, truths);
+  const Study study = truth_study(round, all);
+  fmt::print(
+      "withheld: {} truths, with what is run beside them {}; {} runs, {} for each pressure\n",
+      truths.size(), all.size(), study.runs.size(),
+      study.runs.size() / round.bank.pressures.size());
   StudyOptions options;
   options.folder = o.folder + "/sealed/study";
   options.liggghts = o.liggghts;
   options.jobs = o.jobs;
-  const auto shown = shown_runs(make_what_runs(study, options, "Truths"),
-                                std::size_t(round.samples), round.bank.pressures.size());
+  const auto shown =
+      shown_runs(make_what_runs(study, options, "Truths"), all, round.bank.pressures.size());
   std::vector<PressedTruth> pressed;
   auto pair = shown.begin() + std::ptrdiff_t(truths.size());
   for (std::size_t k = 0; k < truths.size(); ++k) {
@@ -283,14 +289,14 @@ void hand_out(const std::string &folder, const std::string &id, const Round &rou
               const Truth &truth, const std::vector<PressedSamples> &shown, std::uint64_t seed) {
   std::filesystem::create_directories(folder);
   Press press(round, truth, seed);
-  const double area = round.samples * area_of(round, truth); // um2
+  const double area = truth.samples * area_of(round, truth); // um2
   const double diameter = 2.0 * std::sqrt(area / kPi);
   std::string text =
       fmt::format("# means of {} samples, each as large as a simulated cell; the "
                   "diameter is that of all together\n[experiment]\nname = \"case "
                   "{}\"\nelectrode = \"electrode.toml\"\nmeasured_on = \"simulation\"\n"
                   "sample_diameter_mm = {:.6g}\n",
-                  round.samples, id, 1e-3 * diameter);
+                  truth.samples, id, 1e-3 * diameter);
   if (const auto &p = round.bank.pressures; p.size() > 1)
     text += fmt::format("split = {{ train = [\"p{:g}\"], test = [\"p{:g}\"] }}\n",
                         fmt::join(p.begin(), p.end() - 1, "\", \"p"), p.back());

@@ -31,7 +31,7 @@ public:
     out.null_packings = whole("null_packings", "12", 1000);
     out.null_draws = whole("null_draws", "100", 100000);
     out.amplitudes = whole("amplitudes", "3", 100);
-    out.samples = int(number(t, {"samples", "", "1", 1, 1000, "", "number of", "", false, true}));
+    read_samples(t, out.samples);
     out.disc_for_each_pressure = text(t, {"specimens", "", kOne, 0, 0, "", "that are pressed",
                                           std::string(kOne) + "|" + kEach}) == kEach;
     out.paired_runs = text(t, {"paired_runs", "", "no", 0, 0, "",
@@ -45,9 +45,9 @@ public:
     out.faults = lists(t, "faults", out.bank, "noise");
     out.other_numerics = lists(t, "other_numerics", out.bank, "noise");
     out.interventions = lists(t, "interventions", out.bank, kNothing);
-    out.same_specimens_after = text(t, {"interventions_on", "", kOther, 0, 0, "",
-                                        "that are pressed after the change",
-                                        std::string(kOther) + "|" + kSame}) == kSame;
+    out.same_specimens_after =
+        text(t, {"interventions_on", "", kOther, 0, 0, "", "that are pressed after the change",
+                 std::string(kOther) + "|" + kSame}) == kSame;
   }
 
   void read_noise(const toml::table &t, MeasurementNoise &out) {
@@ -70,6 +70,20 @@ public:
   }
 
 private:
+  void read_samples(const toml::table &t, std::vector<int> &out) {
+    const Key key = {"samples", "", "1", 1, 1000, "", "number of", "", false, true};
+    if (!t.contains("samples") || !t.get("samples")->is_array()) {
+      out = {int(number(t, key))};
+      return;
+    }
+    out.clear();
+    for (const double n : numbers(t, key))
+      out.push_back(int(n));
+    if (out.empty())
+      mistakes_.add(line_of(*t.get("samples")),
+                    "samples is an empty list; give a number or [2, 10].");
+  }
+
   std::vector<std::vector<std::string>> lists(const toml::table &t, const char *key,
                                               const BankSpec &bank, const char *special) {
     std::vector<std::string> known = bank.effects;

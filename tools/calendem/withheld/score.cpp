@@ -66,6 +66,7 @@ ScoredCase case_of(const Json &truth, const Json &gap) {
   c.id = truth.at("id");
   c.block = truth.at("block");
   c.cluster = truth.at("point");
+  c.samples = truth.value("samples", 0);
   c.truth = truth.at("answer");
   const Json &which = gap.at("which");
   c.claim = which.at("claim");
@@ -204,6 +205,7 @@ OrderedJson scores_of(const std::vector<ScoredCase> &cases, const std::string &r
     out["cases"].push_back(
         {{"id", c.id},
          {"block", c.block},
+         {"samples", c.samples},
          {"truth", c.truth},
          {"claim", c.claim},
          {"most_probable", c.ranked(0)},

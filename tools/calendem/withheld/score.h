@@ -47,6 +47,7 @@ TrueGap true_gap(const PairedExperiments &all, const std::vector<PairedExperimen
 struct ScoredCase {
   std::string id, block;       ///< of the truth; left_out: the answer without the case's own effect
   int cluster = 0;             ///< number of the truth: cases of one packing share it
+  int samples = 0;             ///< of the truth, each as large as a cell; 0: not written down
   std::string truth;           ///< what should be said
   std::string claim, headline; ///< headline: gap.json's "answer"
   std::map<std::string, double> probability; ///< of hypotheses

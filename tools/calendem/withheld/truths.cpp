@@ -18,11 +18,13 @@ public:
   Drawing(const Round &round, const std::string &secret)
       : round_(round), random_(derived_seed(secret, "truths"), 0) {}
 
-  Truth truth(const std::string &block, const std::vector<std::string> &names, double low = 0.0,
-              double high = 1.0) {
+  /// `turn`: whose turn it is to be given its number of samples.
+  Truth truth(const std::string &block, const std::vector<std::string> &names, std::size_t turn,
+              double low = 0.0, double high = 1.0) {
     Truth t;
     t.block = block;
-    t.packings = packings();
+    t.samples = round_.samples[turn % round_.samples.size()];
+    t.packings = packings(t.samples);
     for (const BankParameter &p : round_.bank.parameters)
       t.base.push_back(prior_value(p.low, p.high, p.spread, random_.uniform()));
     for (const std::string &name : names)
@@ -40,9 +42,9 @@ public:
     return t;
   }
 
-  std::vector<unsigned long> packings() {
-    const std::size_t n = std::size_t(round_.samples) *
-                          (round_.disc_for_each_pressure ? round_.bank.pressures.size() : 1);
+  std::vector<unsigned long> packings(int samples) {
+    const std::size_t n =
+        std::size_t(samples) * (round_.disc_for_each_pressure ? round_.bank.pressures.size() : 1);
     std::vector<unsigned long> out;
     for (std::size_t k = 0; k < n; ++k) // far from the bank's own seeds, which count from 1
       out.push_back(static_cast<unsigned long>(1e6 + 4e9 * 0.99 * random_.uniform()));
@@ -151,27 +153,26 @@ std::vector<Truth> draw_truths(const Round &round, const std::string &secret) {
   Drawing drawing(round, secret);
   std::vector<Truth> out;
   for (int k = 0; k < round.null_packings; ++k) {
-    out.push_back(drawing.truth("null", {}));
+    out.push_back(drawing.truth("null", {}, std::size_t(k)));
     out.back().draws = round.null_draws / round.null_packings +
                        (k < round.null_draws % round.null_packings ? 1 : 0);
   }
-  for (const std::string &name : round.bank.effects)
+  for (std::size_t e = 0; e < round.bank.effects.size(); ++e)
     for (int k = 0; k < round.amplitudes; ++k)
-      out.push_back(drawing.truth("single", {name}, double(k) / round.amplitudes,
-                                  double(k + 1) / round.amplitudes));
+      out.push_back(drawing.truth("single", {round.bank.effects[e]}, e + std::size_t(k),
+                                  double(k) / round.amplitudes, double(k + 1) / round.amplitudes));
   const auto add = [&](const char *block, const std::vector<std::vector<std::string>> &list) {
-    for (const auto &names : list)
-      out.push_back(drawing.truth(block, names));
+    for (std::size_t k = 0; k < list.size(); ++k)
+      out.push_back(drawing.truth(block, list[k], k));
   };
   add("open", round.open);
   add("pair", round.pairs);
   add("fault", round.faults);
   add("other", round.other_numerics);
-  for (const auto &names : round.interventions) {
-    out.push_back(drawing.truth(kIntervention, names));
-    out.back().packings_before =
-        round.same_specimens_after ? out.back().packings : drawing.packings();
-  }
+  add(kIntervention, round.interventions);
+  for (Truth &t : out)
+    if (t.block == kIntervention)
+      t.packings_before = round.same_specimens_after ? t.packings : drawing.packings(t.samples);
   return out;
 }
 
@@ -195,7 +196,7 @@ Study truth_study(const Round &round, const std::vector<Truth> &truths) {
     double offset = 0.0; // that the press shows too much
     for (const std::string &name : t.hidden)
       offset += find_hidden(name)->pressure_offset_MPa;
-    for (std::size_t k = 0; k < std::size_t(round.samples) * pressures.size(); ++k) {
+    for (std::size_t k = 0; k < std::size_t(t.samples) * pressures.size(); ++k) {
       rows.push_back(changed);
       rows.back().push_back(
           fmt::format("{}", t.packings[round.disc_for_each_pressure ? k : k / pressures.size()]));
@@ -219,6 +220,7 @@ nlohmann::json to_json(const Truth &t, const BankSpec &bank) {
           {"answer", right_answer(t, bank)},
           {"effects", effects},
           {"hidden", t.hidden},
+          {"samples", t.samples},
           {"parameters", base},
           {"understated", t.understated},
           {"packing_seeds", t.packings},

@@ -12,14 +12,16 @@ namespace calendem {
 
 /// One set of parameters, run to every pressure of the bank on a packing for each sample.
 struct Truth {
-  std::string block;                                   ///< null, single, open, pair, fault, other, intervention
+  std::string block; ///< null, single, open, pair, fault, other, intervention
   std::vector<std::pair<std::string, double>> effects; ///< value of the effect's key
   std::vector<std::string> hidden;
+  int samples = 1;          ///< whose mean is handed out
   double understated = 1.0; ///< true over stated standard deviations
   /// Seeds of the recipe: one for each sample, or, where every pressure has discs of its own, for
   /// each sample and pressure, the pressures of a sample together.
   std::vector<unsigned long> packings;
-  std::vector<unsigned long> packings_before; ///< the same of what was pressed before an intervention
+  std::vector<unsigned long>
+      packings_before;         ///< the same of what was pressed before an intervention
   std::vector<double> base;    ///< of the bank's parameters
   double pressure_error = 0.0; ///< true over stated pressure, less 1
   int draws = 1;               ///< of noise
@@ -39,7 +41,8 @@ std::string right_answer(const Truth &truth, const BankSpec &bank);
 
 /// All truths of the round, the same for the same secret. Base parameters are drawn from their
 /// priors, or intervals could not be judged; the k-th of n amplitudes from the k-th n-th of its
-/// prior.
+/// prior. Numbers of samples come in turn in every block; among single effects each effect starts
+/// with another, or an amplitude would always have the same.
 std::vector<Truth> draw_truths(const Round &round, const std::string &secret);
 
 /// The runs of all truths: for each sample, one per pressure of the bank. Throws Failure(2) where
