@@ -70,7 +70,7 @@ score() { withheld score "$work/round" "$work/answers" -o "$work/scores" --bank 
 score
 grep -q '"paired": true' "$work/scores/scores.json" || fail "the keeper's paired runs were not used"
 for file in scores.json scores.md scores.html; do [ -s "$work/scores/$file" ] || fail "no $file"; done
-grep -q "false claims on nulls | .* | 2 | 1 | <= 0.03" "$work/scores/scores.md" || fail "two draws of one null packing are not counted as one truth"
+grep -q "false claims on nulls | .* | 2 | 1 | ≤ 0.03" "$work/scores/scores.md" || fail "two draws of one null packing are not counted as one truth"
 
 pair=$(find "$work/round/sealed/without_cause" -name experiment.toml | head -n 1)
 cp "$pair" "$work/pair"

@@ -56,6 +56,9 @@ protected:
               answers_ = (at_ / "answers").string();
 
   virtual int samples() const { return 1; }
+  virtual std::string kinds() const {
+    return "faults = [\"friction\", \"thickness_zero\"]\nopen = [\"displacement_scale\"]\n";
+  }
 
   void SetUp() override {
     std::ofstream(at_ / "electrode.toml")
@@ -64,8 +67,7 @@ protected:
     std::ofstream(at_ / "bank.toml") << kBank;
     std::ofstream(at_ / "round.toml")
         << "[round]\nbank = \"bank.toml\"\nnull_packings = 1\nnull_draws = 2\namplitudes = 0\n"
-           "faults = [\"friction\", \"thickness_zero\"]\nopen = [\"displacement_scale\"]\n"
-        << fmt::format("samples = {}\n", samples());
+        << kinds() << fmt::format("samples = {}\n", samples());
     const Round round = read_round((at_ / "round.toml").string());
     write_table(round.bank);
     std::vector<PressedTruth> pressed;
@@ -73,7 +75,7 @@ protected:
       pressed.push_back({t, {}, {}});
       for (const double target : {30.0, 50.0}) {
         pressed.back().shown.push_back(samples_of(t, target));
-        if (has_cause(t))
+        if (has_cause(t) || companion(round, t))
           pressed.back().without_cause.push_back(samples_of(without_cause(t), target));
       }
     }
@@ -239,6 +241,56 @@ TEST_F(WithheldInTwo, TheSignalIsWhatTheSamplesHaveInCommon) {
   const std::string sample = fs::directory_iterator(round_ + "/sealed/samples")->path().string();
   change(sample + "/1_without/experiment.toml");
   EXPECT_EQ(status_of_opening(), kCheckFailed);
+}
+
+/// Beside two samples without a cause experiments before and after a change, or none.
+class WithheldChanges : public Withheld {
+protected:
+  std::string kinds() const override {
+    return "interventions = [\"friction\", \"nothing\", \"thickness_zero\"]\n";
+  }
+
+  std::string one_of_them() const {
+    for (const auto &entry : fs::directory_iterator(round_ + "/handed_out"))
+      if (is_intervention(entry.path().string()))
+        return entry.path().filename().string();
+    return "";
+  }
+};
+
+TEST_F(WithheldChanges, WhatChangedBetweenTwoExperimentsIsFound) {
+  answer();
+  const std::vector<ScoredCase> cases = open_round(round_, answers_);
+  int changes = 0;
+  for (const ScoredCase &c : cases) {
+    if (c.block != kIntervention)
+      continue;
+    ++changes;
+    EXPECT_EQ(c.claim, c.truth) << c.id;
+    EXPECT_EQ(c.covered_amplitude.empty(), c.truth == "none");
+    EXPECT_EQ(nlohmann::json::parse(bytes_of(answers_ + "/" + c.id + "/gap.json"))["change_from"],
+              "case " + c.id + ", before");
+  }
+  EXPECT_EQ(changes, 3);
+  for (const Metric &m : metrics_of(cases))
+    if (m.name == "intervention: claimed right where something changed") {
+      EXPECT_EQ(m.cases, 2);
+      EXPECT_EQ(m.value, 1.0);
+    }
+}
+
+TEST_F(WithheldChanges, BothExperimentsAreSealed) {
+  answer();
+  EXPECT_EQ(status_of_opening(), kDone);
+  const std::string of_round = round_ + "/handed_out/" + one_of_them();
+  for (const char *file : {"/before/p30.csv", "/after/experiment.toml"}) {
+    const std::string good = bytes_of(of_round + file);
+    change(of_round + file);
+    EXPECT_EQ(status_of_opening(), kCheckFailed) << file;
+    std::ofstream(of_round + file) << good;
+  }
+  std::ofstream(given_ + "/" + one_of_them() + "/more.toml") << "a = 1\n";
+  EXPECT_THROW(answer(), Failure);
 }
 
 // Learning takes most of the time of a diagnosis; it depends on no measured value.

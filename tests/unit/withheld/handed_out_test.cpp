@@ -96,6 +96,28 @@ TEST(Truths, RunsHaveTheTruthsSettings) {
   }
 }
 
+TEST(Truths, NumbersOfSamplesComeInTurn) {
+  std::string text = kRound;
+  text.replace(text.find("samples = 3"), 11, "samples = [2, 10]");
+  const Round round = round_of(text);
+  const std::vector<Truth> truths = draw_truths(round, "secret");
+  std::vector<int> samples;
+  std::size_t runs = 0;
+  for (const Truth &t : truths) {
+    samples.push_back(t.samples);
+    EXPECT_EQ(t.packings.size(), std::size_t(t.samples));
+    EXPECT_EQ(to_json(t, round.bank)["samples"], t.samples);
+    runs += 2 * t.packings.size();
+  }
+  // two nulls, three amplitudes of each effect, then a block in each line of the file
+  EXPECT_EQ(samples, (std::vector<int>{2, 10, 2, 10, 2, 10, 2, 10, 2, 2, 2, 2, 10}));
+  const Study study = truth_study(round, truths);
+  ASSERT_EQ(study.runs.size(), runs);
+  EXPECT_EQ(study.runs.back().recipe.seed, truths.back().packings.back());
+  text.replace(text.find("[2, 10]"), 7, "[]");
+  EXPECT_THROW(round_of(text), Failure);
+}
+
 // A press has a new disc for each pressure.
 TEST(Truths, APressureCanHaveDiscsOfItsOwn) {
   std::string text = kRound;
@@ -136,6 +158,38 @@ TEST(Truths, WithoutItsCauseATruthKeepsItsSamplesPressAndNumerics) {
   EXPECT_EQ(all.back().packings, truths[truths.size() - 2].packings); // larger_cell + friction
 }
 
+TEST(Truths, AnInterventionHasSamplesOfItsOwnBeforeIt) {
+  const std::string text =
+      kRound.substr(0, kRound.find("[noise]")) +
+      "interventions = [\"friction\", \"cohesion\", \"nothing\", \"half_time_step + friction\"]\n";
+  const Round round = round_of(text);
+  const std::vector<Truth> truths = draw_truths(round, "secret");
+  const std::vector<std::string> answers = {"friction", "unknown", "none", "friction"};
+  const std::size_t first = truths.size() - answers.size();
+  for (std::size_t k = 0; k < answers.size(); ++k) {
+    const Truth &after = truths[first + k];
+    EXPECT_EQ(after.block, kIntervention);
+    EXPECT_EQ(right_answer(after, round.bank), answers[k]);
+    const auto before = companion(round, after);
+    ASSERT_TRUE(before);
+    EXPECT_FALSE(has_cause(*before));
+    EXPECT_EQ(before->hidden.size(), k == 3 ? 1u : 0u); // the numerics are those of both
+    EXPECT_EQ(before->base, after.base);
+    EXPECT_EQ(before->pressure_error, after.pressure_error);
+    std::set<unsigned long> packings(after.packings.begin(), after.packings.end());
+    packings.insert(before->packings.begin(), before->packings.end());
+    EXPECT_EQ(packings.size(), 6u);
+  }
+  EXPECT_EQ(with_pairs(round, truths).size(), truths.size() + answers.size());
+  const Round same = round_of(text + "interventions_on = \"the same specimens\"\n");
+  const Truth last = draw_truths(same, "secret").back();
+  EXPECT_EQ(companion(same, last)->packings, last.packings);
+  // what a round without them draws does not change
+  const std::vector<Truth> others = draw_truths(round_of(kRound), "secret");
+  ASSERT_EQ(others.size(), first);
+  EXPECT_EQ(others.back().packings, truths[first - 1].packings);
+}
+
 // Intervals of 90 % hold 90 % of the truths only if truths are drawn from the whole prior.
 TEST(Truths, BaseParametersAreDrawnFromTheirPriors) {
   const Round round = round_of(kRound);
@@ -151,12 +205,14 @@ TEST(Truths, BaseParametersAreDrawnFromTheirPriors) {
 TEST(Truths, MistakesOfARoundAreReported) {
   try {
     round_of("[round]\nbank = \"bank.toml\"\nnull_packings = 9\nnull_draws = 3\nopen = "
-             "[\"cohesin\"]\n[noise]\nthickness_um = -1\nunderstated_by = [4, 3]\n");
+             "[\"cohesin\"]\ninterventions = [\"noise\"]\n[noise]\nthickness_um = "
+             "-1\nunderstated_by = [4, 3]\n");
     FAIL();
   } catch (const Failure &e) {
     const std::string message = e.what();
-    for (const char *part : {"null_draws is 3, null_packings 9", "Did you mean 'cohesion'",
-                             "thickness_um is -1", "[least, most]"})
+    for (const char *part :
+         {"null_draws is 3, null_packings 9", "Did you mean 'cohesion'",
+          "interventions: 'noise' is no effect of the bank", "thickness_um is -1", "[least, most]"})
       EXPECT_NE(message.find(part), std::string::npos) << part << "\nis not in\n" << message;
   }
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Scores of answers made by hand, whose values can be counted.
+#include "base/provenance.h"
+#include "support/test_folder.h"
 #include "withheld/score.h"
 #include <cmath>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 namespace {
@@ -130,6 +131,69 @@ TEST(Scores, BaselinesMustBeBeaten) {
       Metric::missed);
 }
 
+TEST(Scores, RightAnswersAreListedBySampleSize) {
+  std::vector<ScoredCase> cases = round_by_hand();
+  for (ScoredCase &c : cases)
+    c.samples = 2;
+  const std::size_t of_one_size = metrics_of(cases).size();
+  cases[4].samples = cases[6].samples = 10; // one of two claimed; with two cells also one of two
+  const std::vector<Metric> m = metrics_of(cases);
+  EXPECT_EQ(m.size(), of_one_size + 2 * 5);
+  for (const char *cells : {"2", "10"}) {
+    const Metric one = named(m, std::string("single: claimed right, samples of ") + cells);
+    EXPECT_EQ(one.cases, 2);
+    EXPECT_DOUBLE_EQ(one.value, 0.5);
+  }
+  EXPECT_EQ(named(m, "null: claimed right, samples of 2").cases, 4);
+}
+
+// As print does it; what is worse than the round's own frequencies has a negative skill.
+TEST(Scores, PagesHaveSignsNotTheirSpellings) {
+  std::vector<ScoredCase> cases = round_by_hand();
+  for (ScoredCase &c : cases)
+    c.probability = {{c.truth == "none" ? "friction" : "none", 1.0}};
+  const std::string folder = calendem_test::test_folder().string();
+  write_scores(cases, "by hand", folder);
+  for (const char *file : {"/scores.md", "/scores.html"}) {
+    const std::string text = text_of_file(folder + file);
+    for (const char *sign : {"≥ 0.85", "≤ 0.05", "0.85–0.95", "−", "0.000–"})
+      EXPECT_NE(text.find(sign), std::string::npos) << sign << file;
+    for (const char *spelt : {">= ", "&gt;= ", "<= ", "&lt;= ", "0.85-0.95", "-0.", "-1."})
+      EXPECT_EQ(text.find(spelt), std::string::npos) << spelt << file;
+  }
+}
+
+// What changed between two experiments is another question: its answers are in a block of their own.
+TEST(Scores, InterventionsAreScoredByThemselves) {
+  std::vector<ScoredCase> cases = round_by_hand();
+  const auto before = metrics_of(cases);
+  const auto add = [&](const char *truth, const char *claim, const char *first) {
+    cases.push_back(scored("intervention", int(cases.size()), truth, claim, {{first, 0.9}}));
+    cases.back().set95 = {first};
+  };
+  add("friction", "friction", "friction");
+  cases.back().covered_amplitude = {true};
+  add("friction", "undecided", "friction");
+  cases.back().covered_amplitude = {false};
+  add("friction", "pre_cracks", "pre_cracks");
+  add("unknown", "unknown", "unknown");
+  add("none", "none", "none");
+  add("none", "friction", "friction");
+  const auto after = metrics_of(cases);
+  ASSERT_GT(after.size(), before.size());
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    EXPECT_EQ(after[k].name, before[k].name);
+    EXPECT_EQ(after[k].cases, before[k].cases) << before[k].name;
+  }
+  EXPECT_DOUBLE_EQ(named(after, "intervention: the most probable").value, 4.0 / 6.0);
+  EXPECT_DOUBLE_EQ(named(after, "intervention: claimed right").value, 2.0 / 4.0);
+  EXPECT_DOUBLE_EQ(named(after, "intervention: the 95 %").value, 4.0 / 6.0);
+  EXPECT_DOUBLE_EQ(named(after, "intervention: wrong share").value, 1.0 / 3.0);
+  EXPECT_DOUBLE_EQ(named(after, "intervention: a change claimed").value, 1.0 / 2.0);
+  EXPECT_DOUBLE_EQ(named(after, "intervention: 90 % intervals").value, 1.0 / 2.0);
+  EXPECT_EQ(confusion_of(cases)["friction (intervention)"]["pre_cracks"], 1);
+}
+
 // Two of three answers right is the gate of 0.6; chance gives as much from a half.
 TEST(Scores, AGateIsMetByItsBoundNotByItsValue) {
   std::vector<ScoredCase> cases;
@@ -156,8 +220,8 @@ TEST(Scores, WhatNoTableHasMayNotBeCalledNothingNorAnEffect) {
   cases.back().paired = true;
   cases.back().signal_to_noise = 2.0; // too weak to count
   const std::vector<Metric> m = metrics_of(cases);
-  EXPECT_DOUBLE_EQ(named(m, "no effect of the table, signal-to-noise >= 3: unknown").value, 0.5);
-  EXPECT_DOUBLE_EQ(named(m, "no effect of the table, signal-to-noise >= 3: nothing").value, 0.25);
+  EXPECT_DOUBLE_EQ(named(m, "no effect of the table, signal-to-noise ≥ 3: unknown").value, 0.5);
+  EXPECT_DOUBLE_EQ(named(m, "no effect of the table, signal-to-noise ≥ 3: nothing").value, 0.25);
 }
 
 // 20 draws of one packing say no more about packings than one does.

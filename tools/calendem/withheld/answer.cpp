@@ -85,18 +85,18 @@ public:
     if (is_answered(id, identity))
       return;
     fs::create_directories(o_.folder + "/" + id);
-    const Experiment experiment = experiment_in(from);
-    Diagnosed full = diagnosed(experiment, table_, 0.0, models_);
-    write(id, kFiles[0], full.gap, identity);
-    nlohmann::ordered_json simple, less;
-    simple["named"] = baselines(full.model->problem(full.data.experiment.values), full.diagnosis);
-    const std::string name = most_probable_effect(full.diagnosis.which);
-    if (!name.empty())
-      less = diagnosed(experiment, without_.at(name), 0.0, models_).gap;
-    less["without"] = name;
+    nlohmann::ordered_json full, less = {{"without", ""}},
+                                 simple = {{"named", nlohmann::ordered_json::object()}};
+    if (is_intervention(from))
+      full = diagnosed_change(experiment_in(from + "/before"), experiment_in(from + "/after"),
+                              table_, 0.0)
+                 .gap;
+    else
+      answer_one(experiment_in(from), full, less, simple);
+    write(id, kFiles[0], full, identity);
     write(id, kFiles[1], less, identity);
     write(id, kFiles[2], simple, identity);
-    fmt::print("withheld: case {}: {}\n", id, full.diagnosis.which.claim);
+    fmt::print("withheld: case {}: {}\n", id, full["which"]["claim"].get<std::string>());
     std::cout << std::flush;
   }
 
@@ -107,7 +107,8 @@ public:
     if (made_of(here + "/" + kShrink, identity))
       return;
     fs::remove(here + "/" + kShrink);
-    if (!names_effect(read_diagnosis(here + "/" + kFiles[0]).at("which").at("claim")))
+    if (is_intervention(o_.handed_out + "/" + id) ||
+        !names_effect(read_diagnosis(here + "/" + kFiles[0]).at("which").at("claim")))
       return;
     const Experiment experiment = experiment_in(o_.handed_out + "/" + id);
     const Diagnosed d = diagnosed(experiment, table_, 0.0, models_);
@@ -154,9 +155,20 @@ private:
   std::string of_bank_, of_reruns_; // hashes
   SharedModels models_;
 
+  void answer_one(const Experiment &experiment, nlohmann::ordered_json &full,
+                  nlohmann::ordered_json &less, nlohmann::ordered_json &simple) {
+    const Diagnosed d = diagnosed(experiment, table_, 0.0, models_);
+    full = d.gap;
+    simple["named"] = baselines(d.model->problem(d.data.experiment.values), d.diagnosis);
+    const std::string name = most_probable_effect(d.diagnosis.which);
+    if (!name.empty())
+      less = diagnosed(experiment, without_.at(name), 0.0, models_).gap;
+    less["without"] = name;
+  }
+
   /// Of all that the answer to a case depends on.
   std::string identity_of(const std::string &id) const {
-    return sha256(of_bank_ + sha256_of_files(o_.handed_out + "/" + id) + version());
+    return sha256(of_bank_ + sha256_of_case(o_.handed_out + "/" + id) + version());
   }
 
   bool is_answered(const std::string &id, const std::string &identity) const {

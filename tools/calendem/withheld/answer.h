@@ -24,7 +24,8 @@ void check_handed_out(const std::string &folder);
 /// the most probable) and NNN/baselines.json, and last answers.json with their hashes: without
 /// each case's own effect the right answer is "unknown", and leaving out what the diagnosis itself
 /// names gives nothing away. With reruns also NNN/shrink.json where an effect is claimed: base
-/// model, effect and placebo, run again on the highest pressure. Reads nothing but `handed_out`,
+/// model, effect and placebo, run again on the highest pressure. Of an intervention gap.json is the
+/// diagnosis of what changed; nothing is left out, run again or answered by baselines. Reads nothing but `handed_out`,
 /// the bank and its table. Cases that are answered from the same files are not answered again.
 void answer_round(const AnswerOptions &options);
 

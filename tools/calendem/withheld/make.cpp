@@ -42,12 +42,15 @@ std::string secret_of(const MakeOptions &o) {
 
 /// What the press shows of each truth; empty where a run is not usable.
 std::vector<std::vector<PressedSamples>> shown_runs(const std::vector<std::string> &folders,
-                                                    std::size_t samples, std::size_t pressures) {
-  const std::size_t runs = samples * pressures; // of a truth
-  std::vector<std::vector<PressedSamples>> out(folders.size() / runs);
+                                                    const std::vector<Truth> &truths,
+                                                    std::size_t pressures) {
+  std::vector<std::vector<PressedSamples>> out(truths.size());
+  auto first = folders.begin(), end = first;
   for (std::size_t t = 0; t < out.size(); ++t) {
-    const auto first = folders.begin() + std::ptrdiff_t(t * runs);
-    if (std::find(first, first + std::ptrdiff_t(runs), "") != first + std::ptrdiff_t(runs))
+    const std::size_t runs = std::size_t(truths[t].samples) * pressures;
+    first = end;
+    end += std::ptrdiff_t(runs);
+    if (std::find(first, end, "") != end)
       continue;
     out[t].resize(pressures);
     for (std::size_t k = 0; k < runs; ++k)
@@ -56,12 +59,16 @@ std::vector<std::vector<PressedSamples>> shown_runs(const std::vector<std::strin
   return out;
 }
 
+bool usable(const PressedTruth &t) {
+  return !t.shown.empty() && (t.truth.block != kIntervention || !t.without_cause.empty());
+}
+
 /// In an order that reveals nothing (Fisher and Yates).
 std::vector<Case> shuffled_cases(const std::vector<PressedTruth> &truths,
                                  const std::string &secret) {
   std::vector<Case> cases;
   for (std::size_t t = 0; t < truths.size(); ++t)
-    for (int d = 0; d < truths[t].truth.draws && !truths[t].shown.empty(); ++d)
+    for (int d = 0; d < truths[t].truth.draws && usable(truths[t]); ++d)
       cases.push_back({int(t), d});
   Random random(derived_seed(secret, "order"), 0);
   for (std::size_t k = cases.size(); k > 1; --k)
@@ -72,7 +79,7 @@ std::vector<Case> shuffled_cases(const std::vector<PressedTruth> &truths,
 /// The samples' own experiments with the cause and without it, as if they were the whole case.
 void seal_samples(const std::string &folder, const std::string &id, const Round &round,
                   const PressedTruth &pressed, std::uint64_t noise) {
-  for (std::size_t k = 0; k < std::size_t(round.samples); ++k)
+  for (std::size_t k = 0; k < std::size_t(pressed.truth.samples); ++k)
     for (const bool with : {true, false}) {
       std::vector<PressedSamples> one;
       for (const PressedSamples &all : with ? pressed.shown : pressed.without_cause)
@@ -80,6 +87,15 @@ void seal_samples(const std::string &folder, const std::string &id, const Round 
       hand_out(fmt::format("{}/{}{}", folder, k, with ? "" : "_without"), id, round,
                with ? pressed.truth : without_cause(pressed.truth), one, noise);
     }
+}
+
+/// Two experiments with errors of their own; the press, with its error of pressure, is one.
+void hand_out_intervention(const std::string &folder, const std::string &id, const Round &round,
+                           const PressedTruth &pressed, const std::string &secret) {
+  hand_out(folder + "/before", id + ", before", round, without_cause(pressed.truth),
+           pressed.without_cause, derived_seed(secret, "noise before " + id));
+  hand_out(folder + "/after", id + ", after", round, pressed.truth, pressed.shown,
+           derived_seed(secret, "noise of " + id));
 }
 
 } // namespace
@@ -101,12 +117,16 @@ void seal_round(const std::string &folder, const Round &round,
     const PressedTruth &pressed = truths[std::size_t(cases[k].truth)];
     const std::string id = fmt::format("{:03}", k + 1), here = folder + "/handed_out/" + id;
     const std::uint64_t noise = derived_seed(secret, "noise of " + id);
-    hand_out(here, id, round, pressed.truth, pressed.shown, noise);
+    const bool intervention = pressed.truth.block == kIntervention;
+    if (intervention)
+      hand_out_intervention(here, id, round, pressed, secret);
+    else
+      hand_out(here, id, round, pressed.truth, pressed.shown, noise);
     nlohmann::json t = to_json(pressed.truth, round.bank);
-    if (!pressed.without_cause.empty()) {
+    if (!intervention && !pressed.without_cause.empty()) {
       hand_out(without + id, id, round, without_cause(pressed.truth), pressed.without_cause, noise);
       t["without_cause_sha256"] = sha256_of_files(without + id);
-      if (round.samples > 1) {
+      if (pressed.truth.samples > 1) {
         seal_samples(samples + id, id, round, pressed, noise);
         t["samples_sha256"] = sha256_of_samples(samples + id);
       }
@@ -114,7 +134,7 @@ void seal_round(const std::string &folder, const Round &round,
     t["id"] = id;
     t["point"] = cases[k].truth;
     t["noise_draw"] = cases[k].draw;
-    t["handed_out_sha256"] = sha256_of_files(here);
+    t["handed_out_sha256"] = sha256_of_case(here);
     const std::string salt = derived(secret, "salt of " + id);
     sealed["cases"].push_back({{"salt", salt}, {"truth", t}});
     open["cases"][id] = commitment(salt, t);
@@ -123,10 +143,7 @@ void seal_round(const std::string &folder, const Round &round,
   write_file(folder + "/handed_out/commitment.json", open.dump(1) + "\n");
   fmt::print("withheld: {0} cases of {1} truths, {2}/handed_out\nNext: copy handed_out away from "
              "sealed, then calendem withheld answer COPY -o ANSWERS\n",
-             cases.size(),
-             std::count_if(truths.begin(), truths.end(),
-                           [](const PressedTruth &t) { return !t.shown.empty(); }),
-             folder);
+             cases.size(), std::count_if(truths.begin(), truths.end(), usable), folder);
 }
 
 void make_round(const MakeOptions &given) {
@@ -143,18 +160,23 @@ void make_round(const MakeOptions &given) {
   fs::permissions(o.folder + "/sealed", fs::perms::owner_all);
   const std::string secret = secret_of(o);
   const std::vector<Truth> truths = draw_truths(round, secret);
-  const Study study = truth_study(round, with_pairs(round, truths));
+  const std::vector<Truth> all = with_pairs(round, truths);
+  const Study study = truth_study(round, all);
+  fmt::print(
+      "withheld: {} truths, with what is run beside them {}; {} runs, {} for each pressure\n",
+      truths.size(), all.size(), study.runs.size(),
+      study.runs.size() / round.bank.pressures.size());
   StudyOptions options;
   options.folder = o.folder + "/sealed/study";
   options.liggghts = o.liggghts;
   options.jobs = o.jobs;
-  const auto shown = shown_runs(make_what_runs(study, options, "Truths"),
-                                std::size_t(round.samples), round.bank.pressures.size());
+  const auto shown =
+      shown_runs(make_what_runs(study, options, "Truths"), all, round.bank.pressures.size());
   std::vector<PressedTruth> pressed;
   auto pair = shown.begin() + std::ptrdiff_t(truths.size());
   for (std::size_t k = 0; k < truths.size(); ++k) {
     pressed.push_back({truths[k], shown[k], {}});
-    if (round.paired_runs && has_cause(truths[k]))
+    if (companion(round, truths[k]))
       pressed.back().without_cause = *pair++;
   }
   seal_round(o.folder, round, pressed, secret);
@@ -267,14 +289,14 @@ void hand_out(const std::string &folder, const std::string &id, const Round &rou
               const Truth &truth, const std::vector<PressedSamples> &shown, std::uint64_t seed) {
   std::filesystem::create_directories(folder);
   Press press(round, truth, seed);
-  const double area = round.samples * area_of(round, truth); // um2
+  const double area = truth.samples * area_of(round, truth); // um2
   const double diameter = 2.0 * std::sqrt(area / kPi);
   std::string text =
       fmt::format("# means of {} samples, each as large as a simulated cell; the "
                   "diameter is that of all together\n[experiment]\nname = \"case "
                   "{}\"\nelectrode = \"electrode.toml\"\nmeasured_on = \"simulation\"\n"
                   "sample_diameter_mm = {:.6g}\n",
-                  round.samples, id, 1e-3 * diameter);
+                  truth.samples, id, 1e-3 * diameter);
   if (const auto &p = round.bank.pressures; p.size() > 1)
     text += fmt::format("split = {{ train = [\"p{:g}\"], test = [\"p{:g}\"] }}\n",
                         fmt::join(p.begin(), p.end() - 1, "\", \"p"), p.back());

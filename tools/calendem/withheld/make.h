@@ -28,12 +28,13 @@ using PressedSamples = std::vector<SimulatedRun>;
 struct PressedTruth {
   Truth truth;
   std::vector<PressedSamples> shown;
-  std::vector<PressedSamples> without_cause; ///< of the same samples; empty: not run
+  std::vector<PressedSamples> without_cause; ///< of its companion; empty: it has none
 };
 
 /// The part without runs: hands out and seals. Beside the truth it seals what would have been handed
 /// out without its cause, with the same errors of measurement: sealed/without_cause/NNN, and both of
-/// each sample alone: sealed/samples/NNN/K and K_without.
+/// each sample alone: sealed/samples/NNN/K and K_without. Of an intervention two experiments are
+/// handed out, NNN/before and NNN/after.
 void seal_round(const std::string &folder, const Round &round,
                 const std::vector<PressedTruth> &truths, const std::string &secret);
 

@@ -11,6 +11,7 @@ namespace {
 
 const char *const kPlus = " + ";
 const char *const kOne = "one for all pressures", *const kEach = "one for each pressure";
+const char *const kOther = "other specimens", *const kSame = "the same specimens";
 
 class Reader : TableReader {
 public:
@@ -18,7 +19,8 @@ public:
 
   void read_head(const toml::table &t, Round &out) {
     report_unknown(t, {"name", "bank", "null_packings", "null_draws", "amplitudes", "samples",
-                       "specimens", "paired_runs", "open", "pairs", "faults", "other_numerics"});
+                       "specimens", "paired_runs", "open", "pairs", "faults", "other_numerics",
+                       "interventions", "interventions_on"});
     out.name = text(t, {"name", "", "withheld", 0, 0, "", "for reports", "", true});
     if (const std::string bank = path(t, {"bank", "", "", 0, 0, "", "bank (TOML)", "", true});
         !bank.empty())
@@ -29,7 +31,7 @@ public:
     out.null_packings = whole("null_packings", "12", 1000);
     out.null_draws = whole("null_draws", "100", 100000);
     out.amplitudes = whole("amplitudes", "3", 100);
-    out.samples = int(number(t, {"samples", "", "1", 1, 1000, "", "number of", "", false, true}));
+    read_samples(t, out.samples);
     out.disc_for_each_pressure = text(t, {"specimens", "", kOne, 0, 0, "", "that are pressed",
                                           std::string(kOne) + "|" + kEach}) == kEach;
     out.paired_runs = text(t, {"paired_runs", "", "no", 0, 0, "",
@@ -38,10 +40,14 @@ public:
       mistakes_.add(line_of(t), fmt::format("null_draws is {}, null_packings {}: every packing "
                                             "needs a draw.",
                                             out.null_draws, out.null_packings));
-    out.open = lists(t, "open", out.bank);
-    out.pairs = lists(t, "pairs", out.bank);
-    out.faults = lists(t, "faults", out.bank);
-    out.other_numerics = lists(t, "other_numerics", out.bank);
+    out.open = lists(t, "open", out.bank, "noise");
+    out.pairs = lists(t, "pairs", out.bank, "noise");
+    out.faults = lists(t, "faults", out.bank, "noise");
+    out.other_numerics = lists(t, "other_numerics", out.bank, "noise");
+    out.interventions = lists(t, "interventions", out.bank, kNothing);
+    out.same_specimens_after =
+        text(t, {"interventions_on", "", kOther, 0, 0, "", "that are pressed after the change",
+                 std::string(kOther) + "|" + kSame}) == kSame;
   }
 
   void read_noise(const toml::table &t, MeasurementNoise &out) {
@@ -64,12 +70,26 @@ public:
   }
 
 private:
+  void read_samples(const toml::table &t, std::vector<int> &out) {
+    const Key key = {"samples", "", "1", 1, 1000, "", "number of", "", false, true};
+    if (!t.contains("samples") || !t.get("samples")->is_array()) {
+      out = {int(number(t, key))};
+      return;
+    }
+    out.clear();
+    for (const double n : numbers(t, key))
+      out.push_back(int(n));
+    if (out.empty())
+      mistakes_.add(line_of(*t.get("samples")),
+                    "samples is an empty list; give a number or [2, 10].");
+  }
+
   std::vector<std::vector<std::string>> lists(const toml::table &t, const char *key,
-                                              const BankSpec &bank) {
+                                              const BankSpec &bank, const char *special) {
     std::vector<std::string> known = bank.effects;
     for (const HiddenChange &c : hidden_changes())
       known.push_back(c.name);
-    known.push_back("noise");
+    known.push_back(special);
     std::vector<std::vector<std::string>> out;
     for (const std::string &text : texts(t, key)) {
       out.push_back(names_in(text));
@@ -77,8 +97,8 @@ private:
         if (std::find(known.begin(), known.end(), name) == known.end())
           mistakes_.add(line_of(*t.get(key)),
                         fmt::format("{}: '{}' is no effect of the bank, no hidden change and not "
-                                    "noise. Did you mean '{}'?",
-                                    key, name, closest(name, known)));
+                                    "{}. Did you mean '{}'?",
+                                    key, name, special, closest(name, known)));
     }
     return out;
   }

@@ -7,13 +7,15 @@
 //   null_packings = 12               # nothing is left out of the base model
 //   null_draws = 100                 # of noise, over these packings
 //   samples = 4                      # of one truth, each as large as the bank's cell; their means
-//                                    # are handed out
+//                                    # are handed out. [2, 2, 10]: truths get these in turn
 //   amplitudes = 3                   # truths of every effect of the bank, each in its own part of
 //                                    # the prior
 //   open = ["cohesion"]              # changes that are no effect of the table (hidden_changes.cpp)
 //   pairs = ["friction + pre_cracks"]
 //   faults = ["thickness_zero", "noise"]          # noise: the errors stated are too small
 //   other_numerics = ["half_time_step + friction"] # truths from another resolution
+//   interventions = ["friction", "nothing"]       # experiments in pairs, before and after a change
+//   interventions_on = "other specimens"          # or "the same specimens"
 //   [noise]                          # standard deviations of what is handed out
 //   pressure_percent = 1             # of the press's calibration, one for all pressures
 //   displacement_um = 0.02
@@ -40,13 +42,19 @@ struct MeasurementNoise {
 struct Round {
   std::string file, name;
   BankSpec bank;
-  int null_packings = 12, null_draws = 100, amplitudes = 3, samples = 1;
+  int null_packings = 12, null_draws = 100, amplitudes = 3;
+  std::vector<int> samples = {1};      ///< truths get these in turn
   bool disc_for_each_pressure = false; ///< as on a press: packings of its own for each pressure
   bool paired_runs = false; ///< truths are run without their effects too: their gap is known then
   /// Each a list of names: effects of the bank, hidden changes, "noise".
   std::vector<std::vector<std::string>> open, pairs, faults, other_numerics;
+  std::vector<std::vector<std::string>> interventions; ///< "nothing" instead of "noise"
+  bool same_specimens_after = false; ///< of an intervention: those that were pressed before it
   MeasurementNoise noise;
 };
+
+/// The block of experiments in pairs, and what an intervention without any change is called.
+inline constexpr char kIntervention[] = "intervention", kNothing[] = "nothing";
 
 /// Throws Failure(2) with every mistake of the file, or of the bank that it names.
 Round read_round(const std::string &file);

@@ -5,6 +5,7 @@
 #include "base/output_folder.h"
 #include "base/provenance.h"
 #include "base/registry.h"
+#include "base/shown.h"
 #include "report/page.h"
 #include "withheld/sealing.h"
 #include <algorithm>
@@ -65,6 +66,7 @@ ScoredCase case_of(const Json &truth, const Json &gap) {
   c.id = truth.at("id");
   c.block = truth.at("block");
   c.cluster = truth.at("point");
+  c.samples = truth.value("samples", 0);
   c.truth = truth.at("answer");
   const Json &which = gap.at("which");
   c.claim = which.at("claim");
@@ -124,7 +126,7 @@ std::vector<ScoredCase> open_round(const std::string &folder, const std::string 
     const Json &truth = one.at("truth");
     const std::string id = truth.at("id");
     must_be(commitment(one.at("salt"), truth), committed.value(id, ""), "the truth of case " + id);
-    must_be(sha256_of_files(folder + "/handed_out/" + id), truth.at("handed_out_sha256"),
+    must_be(sha256_of_case(folder + "/handed_out/" + id), truth.at("handed_out_sha256"),
             "what was handed out of case " + id);
     if (const std::string sealed_too = truth.value("without_cause_sha256", ""); !sealed_too.empty())
       must_be(sha256_of_files(folder + "/sealed/without_cause/" + id), sealed_too,
@@ -176,15 +178,16 @@ std::string verdict_of(const Metric &m) {
 }
 
 OrderedJson number_or_null(double v) { return std::isfinite(v) ? OrderedJson(v) : OrderedJson(); }
-std::string shown(double v) { return std::isfinite(v) ? fmt::format("{:.3f}", v) : "–"; }
+std::string in_thousandths(double v) { return shown(number_or_null(v), "{:.3f}"); }
 
 /// Everything as one object: scores.json, and what the page is made of.
 OrderedJson scores_of(const std::vector<ScoredCase> &cases, const std::string &round) {
   OrderedJson out = {
       {"round", round}, {"metrics", OrderedJson::array()}, {"cases", OrderedJson::array()}};
   for (const Metric &m : metrics_of(cases)) {
+    const char *const to = m.low < 0.0 ? " to " : "–"; // no dash behind a minus sign
     const std::string interval =
-        std::isfinite(m.low) ? shown(m.low) + " to " + shown(m.high) : shown(m.low);
+        in_thousandths(m.low) + (std::isfinite(m.low) ? to + in_thousandths(m.high) : "");
     out["metrics"].push_back({{"name", m.name},
                               {"value", number_or_null(m.value)},
                               {"interval90", {number_or_null(m.low), number_or_null(m.high)}},
@@ -192,7 +195,7 @@ OrderedJson scores_of(const std::vector<ScoredCase> &cases, const std::string &r
                               {"truths", m.clusters},
                               {"gate", m.gate},
                               {"verdict", verdict_of(m)},
-                              {"shown", shown(m.value)},
+                              {"shown", in_thousandths(m.value)},
                               {"interval", interval}});
   }
   for (const auto &[truth, claims] : confusion_of(cases))
@@ -202,6 +205,7 @@ OrderedJson scores_of(const std::vector<ScoredCase> &cases, const std::string &r
     out["cases"].push_back(
         {{"id", c.id},
          {"block", c.block},
+         {"samples", c.samples},
          {"truth", c.truth},
          {"claim", c.claim},
          {"most_probable", c.ranked(0)},

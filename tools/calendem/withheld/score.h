@@ -47,6 +47,7 @@ TrueGap true_gap(const PairedExperiments &all, const std::vector<PairedExperimen
 struct ScoredCase {
   std::string id, block;       ///< of the truth; left_out: the answer without the case's own effect
   int cluster = 0;             ///< number of the truth: cases of one packing share it
+  int samples = 0;             ///< of the truth, each as large as a cell; 0: not written down
   std::string truth;           ///< what should be said
   std::string claim, headline; ///< headline: gap.json's "answer"
   std::map<std::string, double> probability; ///< of hypotheses
@@ -83,7 +84,7 @@ struct Metric {
   double value = 0.0, low = 0.0, high = 0.0; ///< NaN: no case for it
   double least = 0.0, most = 0.0;            ///< one-sided 90 % bounds
   int cases = 0, clusters = 0;
-  std::string gate; ///< ">= 0.85"; empty: reported only
+  std::string gate; ///< "≥ 0.85"; empty: reported only
   /// Met: by the one-sided 90 % bound too; not_shown: by the value alone.
   enum Verdict { none, met, not_shown, missed, not_measured } verdict = none;
 };

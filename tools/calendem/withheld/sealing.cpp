@@ -42,6 +42,21 @@ std::string sha256_of_files(const std::string &folder) {
   return sha256(all);
 }
 
+bool is_intervention(const std::string &folder) {
+  return std::filesystem::is_directory(folder + "/after");
+}
+
+std::string sha256_of_case(const std::string &folder) {
+  if (!is_intervention(folder))
+    return sha256_of_files(folder);
+  for (const auto &entry : std::filesystem::directory_iterator(folder))
+    if (const auto name = entry.path().filename(); name != "before" && name != "after")
+      throw Failure(kBadInput, fmt::format("{} lies beside what was measured before and after; "
+                                           "nothing else was handed out. Take it as it was made.",
+                                           entry.path().string()));
+  return sha256(sha256_of_files(folder + "/before") + sha256_of_files(folder + "/after"));
+}
+
 std::vector<std::string> samples_in(const std::string &folder) {
   std::vector<std::string> out;
   while (std::filesystem::exists(fmt::format("{}/{}", folder, out.size())))

@@ -18,14 +18,13 @@ public:
   Drawing(const Round &round, const std::string &secret)
       : round_(round), random_(derived_seed(secret, "truths"), 0) {}
 
-  Truth truth(const std::string &block, const std::vector<std::string> &names, double low = 0.0,
-              double high = 1.0) {
+  /// `turn`: whose turn it is to be given its number of samples.
+  Truth truth(const std::string &block, const std::vector<std::string> &names, std::size_t turn,
+              double low = 0.0, double high = 1.0) {
     Truth t;
     t.block = block;
-    const std::size_t packings = std::size_t(round_.samples) *
-                                 (round_.disc_for_each_pressure ? round_.bank.pressures.size() : 1);
-    for (std::size_t k = 0; k < packings; ++k) // far from the bank's own seeds, which count from 1
-      t.packings.push_back(static_cast<unsigned long>(1e6 + 4e9 * 0.99 * random_.uniform()));
+    t.samples = round_.samples[turn % round_.samples.size()];
+    t.packings = packings(t.samples);
     for (const BankParameter &p : round_.bank.parameters)
       t.base.push_back(prior_value(p.low, p.high, p.spread, random_.uniform()));
     for (const std::string &name : names)
@@ -33,12 +32,23 @@ public:
         t.understated =
             round_.noise.least_understated +
             random_.uniform() * (round_.noise.most_understated - round_.noise.least_understated);
+      else if (name == kNothing)
+        continue;
       else if (find_hidden(name))
         t.hidden.push_back(name);
       else
         t.effects.emplace_back(name, value(effect_of(round_.bank, name).parameter, low, high));
     t.pressure_error = 0.01 * round_.noise.pressure_percent * t.understated * random_.normal();
     return t;
+  }
+
+  std::vector<unsigned long> packings(int samples) {
+    const std::size_t n =
+        std::size_t(samples) * (round_.disc_for_each_pressure ? round_.bank.pressures.size() : 1);
+    std::vector<unsigned long> out;
+    for (std::size_t k = 0; k < n; ++k) // far from the bank's own seeds, which count from 1
+      out.push_back(static_cast<unsigned long>(1e6 + 4e9 * 0.99 * random_.uniform()));
+    return out;
   }
 
 private:
@@ -106,11 +116,22 @@ Truth without_cause(Truth t) {
   return t;
 }
 
+std::optional<Truth> companion(const Round &round, const Truth &truth) {
+  std::optional<Truth> out;
+  if (truth.block == kIntervention) {
+    out = without_cause(truth);
+    out->packings = truth.packings_before;
+  } else if (round.paired_runs && has_cause(truth)) {
+    out = without_cause(truth);
+  }
+  return out;
+}
+
 std::vector<Truth> with_pairs(const Round &round, std::vector<Truth> truths) {
   const std::size_t drawn = truths.size();
-  for (std::size_t k = 0; k < drawn && round.paired_runs; ++k)
-    if (has_cause(truths[k]))
-      truths.push_back(without_cause(truths[k]));
+  for (std::size_t k = 0; k < drawn; ++k)
+    if (const auto other = companion(round, truths[k]))
+      truths.push_back(*other);
   return truths;
 }
 
@@ -132,22 +153,26 @@ std::vector<Truth> draw_truths(const Round &round, const std::string &secret) {
   Drawing drawing(round, secret);
   std::vector<Truth> out;
   for (int k = 0; k < round.null_packings; ++k) {
-    out.push_back(drawing.truth("null", {}));
+    out.push_back(drawing.truth("null", {}, std::size_t(k)));
     out.back().draws = round.null_draws / round.null_packings +
                        (k < round.null_draws % round.null_packings ? 1 : 0);
   }
-  for (const std::string &name : round.bank.effects)
+  for (std::size_t e = 0; e < round.bank.effects.size(); ++e)
     for (int k = 0; k < round.amplitudes; ++k)
-      out.push_back(drawing.truth("single", {name}, double(k) / round.amplitudes,
-                                  double(k + 1) / round.amplitudes));
+      out.push_back(drawing.truth("single", {round.bank.effects[e]}, e + std::size_t(k),
+                                  double(k) / round.amplitudes, double(k + 1) / round.amplitudes));
   const auto add = [&](const char *block, const std::vector<std::vector<std::string>> &list) {
-    for (const auto &names : list)
-      out.push_back(drawing.truth(block, names));
+    for (std::size_t k = 0; k < list.size(); ++k)
+      out.push_back(drawing.truth(block, list[k], k));
   };
   add("open", round.open);
   add("pair", round.pairs);
   add("fault", round.faults);
   add("other", round.other_numerics);
+  add(kIntervention, round.interventions);
+  for (Truth &t : out)
+    if (t.block == kIntervention)
+      t.packings_before = round.same_specimens_after ? t.packings : drawing.packings(t.samples);
   return out;
 }
 
@@ -171,7 +196,7 @@ Study truth_study(const Round &round, const std::vector<Truth> &truths) {
     double offset = 0.0; // that the press shows too much
     for (const std::string &name : t.hidden)
       offset += find_hidden(name)->pressure_offset_MPa;
-    for (std::size_t k = 0; k < std::size_t(round.samples) * pressures.size(); ++k) {
+    for (std::size_t k = 0; k < std::size_t(t.samples) * pressures.size(); ++k) {
       rows.push_back(changed);
       rows.back().push_back(
           fmt::format("{}", t.packings[round.disc_for_each_pressure ? k : k / pressures.size()]));
@@ -195,9 +220,11 @@ nlohmann::json to_json(const Truth &t, const BankSpec &bank) {
           {"answer", right_answer(t, bank)},
           {"effects", effects},
           {"hidden", t.hidden},
+          {"samples", t.samples},
           {"parameters", base},
           {"understated", t.understated},
           {"packing_seeds", t.packings},
+          {"packing_seeds_before", t.packings_before},
           {"pressure_error", t.pressure_error}};
 }
 

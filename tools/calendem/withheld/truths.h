@@ -6,18 +6,22 @@
 #include "simulate/study_file.h"
 #include "withheld/round_file.h"
 #include <nlohmann/json.hpp>
+#include <optional>
 
 namespace calendem {
 
 /// One set of parameters, run to every pressure of the bank on a packing for each sample.
 struct Truth {
-  std::string block;                                   ///< null, single, open, pair, fault, other
+  std::string block; ///< null, single, open, pair, fault, other, intervention
   std::vector<std::pair<std::string, double>> effects; ///< value of the effect's key
   std::vector<std::string> hidden;
+  int samples = 1;          ///< whose mean is handed out
   double understated = 1.0; ///< true over stated standard deviations
   /// Seeds of the recipe: one for each sample, or, where every pressure has discs of its own, for
   /// each sample and pressure, the pressures of a sample together.
   std::vector<unsigned long> packings;
+  std::vector<unsigned long>
+      packings_before;         ///< the same of what was pressed before an intervention
   std::vector<double> base;    ///< of the bank's parameters
   double pressure_error = 0.0; ///< true over stated pressure, less 1
   int draws = 1;               ///< of noise
@@ -26,8 +30,10 @@ struct Truth {
 /// The same samples under the same press without effects and hidden changes of the physics.
 Truth without_cause(Truth truth);
 bool has_cause(const Truth &truth);
-/// All that is run: the truths and, in a round of paired runs, behind them those with a cause again
-/// without it, in their order.
+/// What is run beside a truth, if anything: the samples before an intervention; in a round of paired
+/// runs the samples of any other truth with a cause again, without it.
+std::optional<Truth> companion(const Round &round, const Truth &truth);
+/// All that is run: the truths, and behind them their companions, in their order.
 std::vector<Truth> with_pairs(const Round &round, std::vector<Truth> truths);
 
 /// What a diagnosis should say: none, effects joined by " + " in the bank's order, noise, unknown.
@@ -35,7 +41,8 @@ std::string right_answer(const Truth &truth, const BankSpec &bank);
 
 /// All truths of the round, the same for the same secret. Base parameters are drawn from their
 /// priors, or intervals could not be judged; the k-th of n amplitudes from the k-th n-th of its
-/// prior.
+/// prior. Numbers of samples come in turn in every block; among single effects each effect starts
+/// with another, or an amplitude would always have the same.
 std::vector<Truth> draw_truths(const Round &round, const std::string &secret);
 
 /// The runs of all truths: for each sample, one per pressure of the bank. Throws Failure(2) where
