@@ -39,6 +39,8 @@ public:
     static std::map<std::string, int> runs; // of each test
     const auto *test = ::testing::UnitTest::GetInstance()->current_test_info();
     const std::string name = std::string(test->test_suite_name()) + "." + test->name();
+    if (ranks > 1 && name.find("Ranks") == std::string::npos)
+      ADD_FAILURE() << "a test on several ranks has Ranks in its name, by which ctest knows it";
     const int run = ++runs[name];
     if (run == 1)
       fs::remove_all(fs::path(CALENDEM_SCRATCH) / name);

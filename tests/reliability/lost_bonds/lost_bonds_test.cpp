@@ -59,7 +59,7 @@ TEST(LostBonds, DrawnApartByTwoRanksIsAnError) {
   EXPECT_TRUE(says(draw(1e4, kUnbreakable, 2), "0 of 1 intact bonds acted"));
 }
 
-TEST(LostBonds, ABondThatBreaksInTimeIsLogged) {
+TEST(LostBonds, ABondThatBreaksInTimeIsLoggedOnOneAndTwoRanks) {
   for (const double speed : {5.0, 1e3})
     for (const int ranks : {1, 2}) {
       const CaseRun run = draw(speed, {{"breakable", "yes"}}, ranks);

@@ -156,7 +156,7 @@ TEST(SamePhysics, EnoughBreaksToCompare) {
   EXPECT_GT(breaks - before, 100);
 }
 
-TEST(SamePhysics, SameBitsOnEveryProcessorGrid) {
+TEST(SamePhysics, SameBitsOnAnyRanksAndGrid) {
   const char *const grids[][3] = {{"2", "1", "1"}, {"1", "1", "2"}, {"2", "2", "1"},
                                   {"1", "2", "1"}, {"3", "1", "1"}, {"1", "2", "2"}};
   const bool heavy = std::getenv("CALENDEM_HEAVY") != nullptr;
@@ -301,7 +301,7 @@ const std::pair<const char *, const char *> kLaws[] = {
     {"none", "hertz"}, {"plastic", "flow"}, {"viscous", "dashpots"}, {"confined", "hertz"}};
 } // namespace
 
-TEST(SamePhysics, ContactsAreTheSameOnEveryProcessorGrid) {
+TEST(SamePhysics, ContactsAreTheSameOnAnyRanksAndGrid) {
   for (const auto &[law, taken] : kLaws) {
     const Outcome one = press_them(law, kSerial);
     const Outcome four = press_them(law, {{"px", "2"}, {"py", "2"}, {"pz", "1"}}, 4);
@@ -311,7 +311,7 @@ TEST(SamePhysics, ContactsAreTheSameOnEveryProcessorGrid) {
 }
 
 // The pressure of a sphere sums the forces of its contacts.
-TEST(SamePhysics, CollapseIsTheSameOnEveryProcessorGridAndAfterRebuilds) {
+TEST(SamePhysics, CollapseIsTheSameOnAnyRanksAndAfterRebuilds) {
   const Outcome one = press_them("collapse", kSerial);
   EXPECT_GT(difference(one.state, press_them("none", kSerial).state, 1), 1e-6) << "it does not act";
   const Outcome four = press_them("collapse", {{"px", "2"}, {"py", "2"}, {"pz", "1"}}, 4);

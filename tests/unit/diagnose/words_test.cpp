@@ -109,11 +109,11 @@ TEST(ClaimInWords, AnEffectIsSwitchedOnAndAnInstrumentIsChecked) {
   Json &rows = gap["which"]["effects"];
   rows = Json::array({fitted("friction", "material.am.friction")});
   expect_parts(gap, {"Explained by friction", "Coulomb friction", "Switch it on",
-                     "material.am.friction = 0.3 (95 %: 0.2 to 0.45)",
+                     "material.am.friction = 0.300 (95 %: 0.200 to 0.450)",
                      "Something else acts too with a probability of 65 %"});
   rows.push_back(fitted("thickness_zero", "effects.thickness_zero.offset_um"));
   gap["which"]["claim"] = "thickness_zero";
-  expect_parts(gap, {"Check the instrument: effects.thickness_zero.offset_um = 0.3"});
+  expect_parts(gap, {"Check the instrument: effects.thickness_zero.offset_um = 0.300"});
   EXPECT_EQ(all_of(claim_in_words(gap)).find("Coulomb"), std::string::npos);
   gap["which"]["claim"] = "friction + thickness_zero";
   expect_parts(gap, {"Explained by friction + thickness_zero", "Switch it on"});
@@ -187,7 +187,7 @@ TEST(PutInWords, AmplitudesBecomeValuesOfTheKeyWithTheSmallerEndFirst) {
                             "points too high (z = 4.0, 60 % of the gap).");
   const std::string key = "nmc_plasticity: effects.nmc_plasticity.yield_pressure_GPa ";
   EXPECT_EQ(gap["which"]["effects"][0]["said"], key + "above 2.5 (95 %)");
-  EXPECT_EQ(gap["which"]["effects"][1]["said"], key + "= 4 (95 %: 2 to 5)");
+  EXPECT_EQ(gap["which"]["effects"][1]["said"], key + "= 4.00 (95 %: 2.00 to 5.00)");
 }
 
 TEST(PutInWords, APoorEmulatorSaysWhatFollowsForItsEffect) {

@@ -133,7 +133,7 @@ TEST(VerificationFaults, FreeBodiesBreakAlikeOnAnyRanksAndGrid) {
   EXPECT_GT(serial.size(), 10u);
 }
 
-TEST(VerificationFaults, NoBreakIsOneSided) { // counts of both spheres of every bond
+TEST(VerificationFaults, NoBreakIsOneSidedOnTwoRanks) { // counts of both spheres of every bond
   const CaseRun run = stretch({{"gx", "2"}, {"gy", "1"}, {"gz", "1"}}, 2, [] {
     Files files = chains();
     files["start.in"] += pull() +
@@ -184,7 +184,7 @@ TEST(VerificationFaults, BondEnergyOnAnyRanksIsThatOfTheFormula) {
   }
 }
 
-TEST(VerificationFaults, RestartInTheMiddleOfTheDamageIsBitIdentical) {
+TEST(VerificationFaults, RestartInTheMiddleOfTheDamageIsBitIdenticalOnTwoRanksToo) {
   const int first = 25; // while the shaken bodies crack
   const CaseRun whole =
       meet({}, 1, "run " + std::to_string(first) + "\nwrite_restart half.restart\n");

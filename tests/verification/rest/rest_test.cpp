@@ -30,7 +30,7 @@ std::vector<BodySphere> bodies() {
 
 } // namespace
 
-TEST(VerificationRest, FreshBodiesStayWhereTheyAre) {
+TEST(VerificationRest, FreshBodiesStayWhereTheyAreOnOneAndTwoRanks) {
   const double strength_force = 2e5 * kPi * 0.795 * 0.795;
   for (int ranks : {1, 2}) {
     const CaseRun run("rest/in.rest", {{"dt", "7e-5"}}, ranks,

@@ -90,7 +90,7 @@ TEST(VerificationRoll, PathLoadAndLineLoad) {
 }
 
 // A sphere between collector and a roll that runs ahead rolls at half of the slip.
-TEST(VerificationRoll, SlipRollsASphere) {
+TEST(VerificationRoll, SlipRollsASphereOnOneAndTwoRanks) {
   const double top = 2 * R, depth = 0.05, speed = 0.05, dt = 5e-5, slip = 1e-3;
   const RollNip nip = {kRoll, kRoll, slip};
   const double way = nip.distance(depth), u = nip.web_speed(speed, depth);
@@ -127,7 +127,7 @@ TEST(VerificationRoll, SlipRollsASphere) {
 
 // A cube that cannot roll slides: the roll's work, along and across, is motion, elastic energy and
 // what damping and friction take. On two ranks the cube lies on both; faster, to be done sooner.
-TEST(VerificationRoll, LedgerWithSlip) {
+TEST(VerificationRoll, LedgerWithSlipOnOneAndTwoRanks) {
   const double spacing = 1.28, top = 2 * R + spacing, depth = 0.03, dt = 2e-5;
   const RollNip nip = {kRoll, kRoll, 0.01};
   for (const int ranks : {1, 2}) {

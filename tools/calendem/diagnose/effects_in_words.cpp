@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/effects_in_words.h"
+#include "base/shown.h"
 #include "diagnose/compare/gap.h"
 #include "diagnose/diagnose.h"
 #include <algorithm>
@@ -14,9 +15,21 @@ std::string keys_of(const Json &row) {
   return fmt::format("{}", fmt::join(row["keys"].get<std::vector<std::string>>(), ", "));
 }
 
+namespace {
+
+/// Of a row, with the same decimals; a dash where there is no number.
+std::vector<std::string> shown_together(const Json &row, const std::vector<const char *> &names) {
+  std::vector<double> numbers;
+  for (const char *name : names)
+    numbers.push_back(row[name].is_number() ? row[name].get<double>() : std::nan(""));
+  return shown_alike(numbers);
+}
+
+} // namespace
+
 std::string setting_of(const Json &row) {
-  return fmt::format("{} = {} (95 %: {} to {})", keys_of(row), shown(row["value"], "{:.3g}"),
-                     shown(row["value_low95"], "{:.3g}"), shown(row["value_high95"], "{:.3g}"));
+  const auto text = shown_together(row, {"value", "value_low95", "value_high95"});
+  return fmt::format("{} = {} (95 %: {} to {})", keys_of(row), text[0], text[1], text[2]);
 }
 
 namespace {
@@ -66,9 +79,10 @@ std::string said_of(const Json &gap, const Json &row) {
     return fmt::format("{}: {}", name, setting_of(row));
   if (row["limited"] != true)
     return fmt::format("{}: not limited", name);
-  if (row["two_sided"] == true)
-    return fmt::format("{}: {} between {} and {} (95 %)", name, keys,
-                       shown(row["value_low95"], "{:.2g}"), shown(row["value_high95"], "{:.2g}"));
+  if (row["two_sided"] == true) {
+    const auto text = shown_together(row, {"value_low95", "value_high95"});
+    return fmt::format("{}: {} between {} and {} (95 %)", name, keys, text[0], text[1]);
+  }
   return fmt::format("{}: {} {} {} (95 %)", name, keys,
                      row["weak_is_large"] == true ? "above" : "below",
                      shown(row["value_limit95"], "{:.2g}"));

@@ -11,7 +11,7 @@ namespace calendem {
 /// "effects.x.y, effects.x.z"
 std::string keys_of(const nlohmann::ordered_json &row);
 
-/// "effects.x.y = 0.3 (95 %: 0.2 to 0.4)"
+/// "effects.x.y = 0.300 (95 %: 0.200 to 0.400)": with the same decimals.
 std::string setting_of(const nlohmann::ordered_json &row);
 
 } // namespace calendem
