@@ -158,6 +158,27 @@ TEST(Truths, WithoutItsCauseATruthKeepsItsSamplesPressAndNumerics) {
   EXPECT_EQ(all.back().packings, truths[truths.size() - 2].packings); // larger_cell + friction
 }
 
+TEST(Truths, RepeatsAreOtherSpecimens) {
+  for (const char *kind : {"one for all pressures", "one for each pressure"}) {
+    std::string text = kRound;
+    text.insert(text.find("samples"), std::string("repeats = 2\nspecimens = \"") + kind + "\"\n");
+    const Round round = round_of(text);
+    const std::vector<Truth> truths = draw_truths(round, "secret");
+    const Study study = truth_study(round, {truths[0]});
+    ASSERT_EQ(study.runs.size(), 2u * 3 * 2);
+    std::set<unsigned long> first, second;
+    for (std::size_t k = 0; k < 12; ++k)
+      (k < 6 ? first : second).insert(study.runs[k].recipe.seed);
+    const std::size_t packings = round.disc_for_each_pressure ? 6 : 3;
+    EXPECT_EQ(first.size(), packings);
+    EXPECT_EQ(second.size(), packings);
+    first.merge(second);
+    EXPECT_EQ(first.size(), 2 * packings);
+    EXPECT_NEAR(study.runs[7].settings.number("platen.max_pressure_MPa"),
+                50 * (1 + truths[0].pressure_error), 1e-3);
+  }
+}
+
 TEST(Truths, AnInterventionHasSamplesOfItsOwnBeforeIt) {
   const std::string text =
       kRound.substr(0, kRound.find("[noise]")) +
@@ -261,6 +282,32 @@ TEST(HandedOut, NoiseIsWhatTheFileStatesUnlessUnderstated) {
   EXPECT_NEAR(noise_over_stated(round, truth), 1.0, chance);
   truth.understated = 3.0;
   EXPECT_NEAR(noise_over_stated(round, truth), 3.0, 3.0 * chance);
+}
+
+// As a laboratory's file has them: conditions of other specimens, which are compared as one.
+TEST(HandedOut, RepeatsAreSpecimensPressedAlike) {
+  std::string text = kRound;
+  text.insert(text.find("samples"), "repeats = 3\n");
+  const Round round = round_of(text);
+  const Truth truth = draw_truths(round, "secret")[0];
+  const auto folder = std::filesystem::path(round.file).parent_path() / "out";
+  std::vector<PressedSamples> shown;
+  for (int k = 0; k < 3; ++k)
+    shown.insert(shown.end(), {pressed(30), pressed(50)});
+  hand_out(folder.string(), "007", round, truth, shown, 1);
+  const Experiment e = read_experiment((folder / "experiment.toml").string());
+  ASSERT_EQ(e.conditions.size(), 6u);
+  EXPECT_EQ(e.train, (std::vector<std::string>{"p30", "p30_2", "p30_3"}));
+  EXPECT_EQ(e.test, (std::vector<std::string>{"p50", "p50_2", "p50_3"}));
+  std::set<double> values;
+  for (std::size_t k = 0; k < 6; ++k) {
+    const Condition &c = e.conditions[k];
+    EXPECT_EQ(c.max_pressure_MPa->value, k % 2 == 0 ? 30 : 50);
+    EXPECT_EQ(c.specimen, e.conditions[k - k % 2].specimen); // pressed to both pressures
+    EXPECT_TRUE(values.insert(c.porosity_after_percent->value).second) << "one reading twice";
+  }
+  EXPECT_NE(e.conditions[0].specimen, e.conditions[2].specimen);
+  EXPECT_NEAR(sample_area_cm2(e) * 1e8, 3 * 36.0, 1e-3); // of one specimen
 }
 
 TEST(HandedOut, CurvesAreThoseOfThePressTrueButForItsErrors) {

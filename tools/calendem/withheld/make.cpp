@@ -42,19 +42,22 @@ std::string secret_of(const MakeOptions &o) {
 
 /// What the press shows of each truth; empty where a run is not usable.
 std::vector<std::vector<PressedSamples>> shown_runs(const std::vector<std::string> &folders,
-                                                    const std::vector<Truth> &truths,
-                                                    std::size_t pressures) {
+                                                    const Round &round,
+                                                    const std::vector<Truth> &truths) {
+  const std::size_t pressures = round.bank.pressures.size();
   std::vector<std::vector<PressedSamples>> out(truths.size());
   auto first = folders.begin(), end = first;
   for (std::size_t t = 0; t < out.size(); ++t) {
-    const std::size_t runs = std::size_t(truths[t].samples) * pressures;
+    const std::size_t runs = runs_of(round, truths[t]),
+                      of_repeat = runs / std::size_t(round.repeats);
     first = end;
     end += std::ptrdiff_t(runs);
     if (std::find(first, end, "") != end)
       continue;
-    out[t].resize(pressures);
+    out[t].resize(pressures * std::size_t(round.repeats));
     for (std::size_t k = 0; k < runs; ++k)
-      out[t][k % pressures].push_back(read_simulated_run(first[std::ptrdiff_t(k)]));
+      out[t][k / of_repeat * pressures + k % pressures].push_back(
+          read_simulated_run(first[std::ptrdiff_t(k)]));
   }
   return out;
 }
@@ -76,14 +79,18 @@ std::vector<Case> shuffled_cases(const std::vector<PressedTruth> &truths,
   return cases;
 }
 
-/// The samples' own experiments with the cause and without it, as if they were the whole case.
+/// Each sample's own experiments with the cause and without it, as if they were the whole case. The
+/// samples of all repeats count: what chance does in one, it does not in another.
 void seal_samples(const std::string &folder, const std::string &id, const Round &round,
                   const PressedTruth &pressed, std::uint64_t noise) {
-  for (std::size_t k = 0; k < std::size_t(pressed.truth.samples); ++k)
+  const std::size_t samples = std::size_t(pressed.truth.samples),
+                    pressures = round.bank.pressures.size();
+  for (std::size_t k = 0; k < samples * std::size_t(round.repeats); ++k)
     for (const bool with : {true, false}) {
+      const std::vector<PressedSamples> &all = with ? pressed.shown : pressed.without_cause;
       std::vector<PressedSamples> one;
-      for (const PressedSamples &all : with ? pressed.shown : pressed.without_cause)
-        one.push_back({all[k]});
+      for (std::size_t p = 0; p < pressures; ++p)
+        one.push_back({all[k / samples * pressures + p][k % samples]});
       hand_out(fmt::format("{}/{}{}", folder, k, with ? "" : "_without"), id, round,
                with ? pressed.truth : without_cause(pressed.truth), one, noise);
     }
@@ -126,7 +133,7 @@ void seal_round(const std::string &folder, const Round &round,
     if (!intervention && !pressed.without_cause.empty()) {
       hand_out(without + id, id, round, without_cause(pressed.truth), pressed.without_cause, noise);
       t["without_cause_sha256"] = sha256_of_files(without + id);
-      if (pressed.truth.samples > 1) {
+      if (pressed.truth.samples * round.repeats > 1) {
         seal_samples(samples + id, id, round, pressed, noise);
         t["samples_sha256"] = sha256_of_samples(samples + id);
       }
@@ -170,8 +177,7 @@ void make_round(const MakeOptions &given) {
   options.folder = o.folder + "/sealed/study";
   options.liggghts = o.liggghts;
   options.jobs = o.jobs;
-  const auto shown =
-      shown_runs(make_what_runs(study, options, "Truths"), all, round.bank.pressures.size());
+  const auto shown = shown_runs(make_what_runs(study, options, "Truths"), round, all);
   std::vector<PressedTruth> pressed;
   auto pair = shown.begin() + std::ptrdiff_t(truths.size());
   for (std::size_t k = 0; k < truths.size(); ++k) {
@@ -244,16 +250,30 @@ private:
   }
 };
 
+/// Of the k-th specimen at each pressure, from 0.
+std::string id_of(double pressure, std::size_t k) {
+  return k == 0 ? fmt::format("p{:g}", pressure) : fmt::format("p{:g}_{}", pressure, k + 1);
+}
+
+/// Repeats are specimens by name: the diagnosis compares means of specimens pressed alike.
+std::string specimen_of(const Round &round, const std::string &id, std::size_t k) {
+  if (round.repeats == 1)
+    return round.disc_for_each_pressure ? "" : "specimen = \"one\"\n";
+  return fmt::format("specimen = \"{}\"\n",
+                     round.disc_for_each_pressure ? id : fmt::format("number {}", k + 1));
+}
+
 std::string condition(const Round &round, const PressedSamples &samples, double target,
-                      const std::string &curve, Press &press) {
+                      std::size_t repeat, Press &press) {
   const MeasurementNoise &n = round.noise;
   const auto shown = [&](double SimulatedRun::*what) {
     return mean(samples, [&](const SimulatedRun &s) { return s.*what; });
   };
   const double cracked =
       press.with_noise(shown(&SimulatedRun::cracked_fraction), n.cracked_fraction);
-  std::string out = fmt::format("\n[[condition]]\nid = \"p{:g}\"\n{}control = \"pressure\"\n",
-                                target, round.disc_for_each_pressure ? "" : "specimen = \"one\"\n");
+  const std::string id = id_of(target, repeat);
+  std::string out = fmt::format("\n[[condition]]\nid = \"{}\"\n{}control = \"pressure\"\n", id,
+                                specimen_of(round, id, repeat));
   out += fmt::format("max_pressure_MPa = {{ value = {:g}, sd_relative = {:g} }}\n", target,
                      0.01 * n.pressure_percent);
   const auto add = [&](const char *key, double value, double sd) {
@@ -270,7 +290,7 @@ std::string condition(const Round &round, const PressedSamples &samples, double 
   add("thickness_after_um", press.with_noise(shown(&SimulatedRun::thickness_after), n.thickness_um),
       n.thickness_um);
   add("cracked_bodies_fraction", std::clamp(cracked, 0.0, 1.0), n.cracked_fraction);
-  return out + fmt::format("curve = \"{}\"\ncurve_sd_um = {:g}\n", curve, n.displacement_um);
+  return out + fmt::format("curve = \"{}.csv\"\ncurve_sd_um = {:g}\n", id, n.displacement_um);
 }
 
 /// Area of the truth's own cell [um2].
@@ -297,14 +317,19 @@ void hand_out(const std::string &folder, const std::string &id, const Round &rou
                   "{}\"\nelectrode = \"electrode.toml\"\nmeasured_on = \"simulation\"\n"
                   "sample_diameter_mm = {:.6g}\n",
                   truth.samples, id, 1e-3 * diameter);
-  if (const auto &p = round.bank.pressures; p.size() > 1)
-    text += fmt::format("split = {{ train = [\"p{:g}\"], test = [\"p{:g}\"] }}\n",
-                        fmt::join(p.begin(), p.end() - 1, "\", \"p"), p.back());
+  const auto &pressures = round.bank.pressures;
+  std::vector<std::string> train, test;
+  for (std::size_t k = 0; k < shown.size(); ++k)
+    (k % pressures.size() + 1 == pressures.size() ? test : train)
+        .push_back(id_of(pressures[k % pressures.size()], k / pressures.size()));
+  if (pressures.size() > 1)
+    text += fmt::format("split = {{ train = [\"{}\"], test = [\"{}\"] }}\n",
+                        fmt::join(train, "\", \""), fmt::join(test, "\", \""));
   for (std::size_t k = 0; k < shown.size(); ++k) {
-    const double target = round.bank.pressures[k];
-    const std::string curve = fmt::format("p{:g}.csv", target);
-    text += condition(round, shown[k], target, curve, press);
-    write_file(folder + "/" + curve, press.curve(shown[k], target));
+    const double target = pressures[k % pressures.size()];
+    const std::size_t repeat = k / pressures.size();
+    text += condition(round, shown[k], target, repeat, press);
+    write_file(folder + "/" + id_of(target, repeat) + ".csv", press.curve(shown[k], target));
   }
   write_file(folder + "/experiment.toml", text);
   write_file(folder + "/electrode.toml", bytes_of(round.bank.recipe_file));

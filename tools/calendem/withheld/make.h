@@ -21,10 +21,12 @@ struct MakeOptions {
 /// Throws Failure: 2 bad input, 3 stopped or no run usable. Truths whose runs fail are left out.
 void make_round(const MakeOptions &options);
 
-/// What the press shows at one pressure: a run for each sample. What is handed out is their mean.
+/// What the press shows of one specimen at one pressure: a run for each sample. What is handed out is
+/// their mean.
 using PressedSamples = std::vector<SimulatedRun>;
 
-/// A truth, and what the press shows of it at each pressure; empty where a run is not usable.
+/// A truth, and what the press shows of it at each pressure, of one repeat after the other; empty
+/// where a run is not usable.
 struct PressedTruth {
   Truth truth;
   std::vector<PressedSamples> shown;
@@ -33,13 +35,13 @@ struct PressedTruth {
 
 /// The part without runs: hands out and seals. Beside the truth it seals what would have been handed
 /// out without its cause, with the same errors of measurement: sealed/without_cause/NNN, and both of
-/// each sample alone: sealed/samples/NNN/K and K_without. Of an intervention two experiments are
+/// each sample of each repeat alone: sealed/samples/NNN/K and K_without. Of an intervention two experiments are
 /// handed out, NNN/before and NNN/after.
 void seal_round(const std::string &folder, const Round &round,
                 const std::vector<PressedTruth> &truths, const std::string &secret);
 
 /// Writes experiment.toml, a curve for each pressure and the recipe into `folder`, which is made.
-/// `shown`: of one truth, by the bank's pressures. `seed`: of the noise. `id`: the case's name.
+/// `shown`: of one truth, by the bank's pressures, of one repeat or of several. `seed`: of the noise. `id`: the case's name.
 void hand_out(const std::string &folder, const std::string &id, const Round &round,
               const Truth &truth, const std::vector<PressedSamples> &shown, std::uint64_t seed);
 

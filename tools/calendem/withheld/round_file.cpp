@@ -20,7 +20,7 @@ public:
   void read_head(const toml::table &t, Round &out) {
     report_unknown(t, {"name", "bank", "null_packings", "null_draws", "amplitudes", "samples",
                        "specimens", "paired_runs", "open", "pairs", "faults", "other_numerics",
-                       "interventions", "interventions_on"});
+                       "interventions", "interventions_on", "repeats"});
     out.name = text(t, {"name", "", "withheld", 0, 0, "", "for reports", "", true});
     if (const std::string bank = path(t, {"bank", "", "", 0, 0, "", "bank (TOML)", "", true});
         !bank.empty())
@@ -32,6 +32,7 @@ public:
     out.null_draws = whole("null_draws", "100", 100000);
     out.amplitudes = whole("amplitudes", "3", 100);
     read_samples(t, out.samples);
+    out.repeats = int(number(t, {"repeats", "", "1", 1, 100, "", "specimens", "", false, true}));
     out.disc_for_each_pressure = text(t, {"specimens", "", kOne, 0, 0, "", "that are pressed",
                                           std::string(kOne) + "|" + kEach}) == kEach;
     out.paired_runs = text(t, {"paired_runs", "", "no", 0, 0, "",

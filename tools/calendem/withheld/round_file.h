@@ -8,6 +8,7 @@
 //   null_draws = 100                 # of noise, over these packings
 //   samples = 4                      # of one truth, each as large as the bank's cell; their means
 //                                    # are handed out. [2, 2, 10]: truths get these in turn
+//   repeats = 4                      # specimens at each pressure, each of samples of its own
 //   amplitudes = 3                   # truths of every effect of the bank, each in its own part of
 //                                    # the prior
 //   open = ["cohesion"]              # changes that are no effect of the table (hidden_changes.cpp)
@@ -42,7 +43,7 @@ struct MeasurementNoise {
 struct Round {
   std::string file, name;
   BankSpec bank;
-  int null_packings = 12, null_draws = 100, amplitudes = 3;
+  int null_packings = 12, null_draws = 100, amplitudes = 3, repeats = 1;
   std::vector<int> samples = {1};      ///< truths get these in turn
   bool disc_for_each_pressure = false; ///< as on a press: packings of its own for each pressure
   bool paired_runs = false; ///< truths are run without their effects too: their gap is known then

@@ -43,8 +43,8 @@ public:
   }
 
   std::vector<unsigned long> packings(int samples) {
-    const std::size_t n =
-        std::size_t(samples) * (round_.disc_for_each_pressure ? round_.bank.pressures.size() : 1);
+    const std::size_t n = std::size_t(round_.repeats) * std::size_t(samples) *
+                          (round_.disc_for_each_pressure ? round_.bank.pressures.size() : 1);
     std::vector<unsigned long> out;
     for (std::size_t k = 0; k < n; ++k) // far from the bank's own seeds, which count from 1
       out.push_back(static_cast<unsigned long>(1e6 + 4e9 * 0.99 * random_.uniform()));
@@ -176,6 +176,10 @@ std::vector<Truth> draw_truths(const Round &round, const std::string &secret) {
   return out;
 }
 
+std::size_t runs_of(const Round &round, const Truth &t) {
+  return std::size_t(round.repeats) * std::size_t(t.samples) * round.bank.pressures.size();
+}
+
 Study truth_study(const Round &round, const std::vector<Truth> &truths) {
   Study study;
   study.file = round.file;
@@ -196,7 +200,7 @@ Study truth_study(const Round &round, const std::vector<Truth> &truths) {
     double offset = 0.0; // that the press shows too much
     for (const std::string &name : t.hidden)
       offset += find_hidden(name)->pressure_offset_MPa;
-    for (std::size_t k = 0; k < std::size_t(t.samples) * pressures.size(); ++k) {
+    for (std::size_t k = 0; k < runs_of(round, t); ++k) {
       rows.push_back(changed);
       rows.back().push_back(
           fmt::format("{}", t.packings[round.disc_for_each_pressure ? k : k / pressures.size()]));

@@ -18,7 +18,8 @@ struct Truth {
   int samples = 1;          ///< whose mean is handed out
   double understated = 1.0; ///< true over stated standard deviations
   /// Seeds of the recipe: one for each sample, or, where every pressure has discs of its own, for
-  /// each sample and pressure, the pressures of a sample together.
+  /// each sample and pressure, the pressures of a sample together. Of a round with repeats the samples
+  /// of one repeat together.
   std::vector<unsigned long> packings;
   std::vector<unsigned long>
       packings_before;         ///< the same of what was pressed before an intervention
@@ -45,8 +46,9 @@ std::string right_answer(const Truth &truth, const BankSpec &bank);
 /// with another, or an amplitude would always have the same.
 std::vector<Truth> draw_truths(const Round &round, const std::string &secret);
 
-/// The runs of all truths: for each sample, one per pressure of the bank. Throws Failure(2) where
+/// The runs of a truth, and of all: for each repeat and sample, one per pressure of the bank. Throws Failure(2) where
 /// values contradict each other.
+std::size_t runs_of(const Round &round, const Truth &truth);
 Study truth_study(const Round &round, const std::vector<Truth> &truths);
 
 nlohmann::json to_json(const Truth &truth, const BankSpec &bank);
