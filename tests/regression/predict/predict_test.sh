@@ -51,7 +51,7 @@ width() { awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
 awk -v one="$(width of_one)" -v other="$(width of_other)" 'BEGIN { exit !(other > one) }' ||
   fail "a material that was not measured is predicted more surely than one that was: $(width of_other), $(width of_one)"
 for page in model/model.html prediction/prediction.html design/design.html gap/gap.html; do
-  sed '/<script type="application.json" id="data">/,$d' $page | grep -q '{{\|https\?:\| src=' && fail "$page is not whole"
+  sed '/<script type="application.json" id="data">/,$d' $page | grep '{{\|https\?:\| src=' >/dev/null && fail "$page is not whole"
 done
 
 # The gap that a pressure leads to takes that pressure, and less is left of a smaller gap.
@@ -126,7 +126,7 @@ calendem design model/model.json small.toml --porosity 38 --within 3 --pressure 
 grep -q "run 4 times, each with another draw of the material on another packing: it meets the target with" confirmed.log ||
   fail "the proposal was not run"
 grep -q '"confirmed": {' confirmed/design.json || fail "design.json does not hold what was run"
-sed '/<script type="application.json" id="data">/,$d' confirmed/design.html | grep -q "4 runs: .* %, porosity" || fail "the page does not show what was run"
+sed '/<script type="application.json" id="data">/,$d' confirmed/design.html | grep "4 runs: .* %, porosity" >/dev/null || fail "the page does not show what was run"
 grep -q '"tortuosity_through_plane": {' own/prediction.json || fail "runs of their own are not measured"
 
 # A calibration runs its films again: simulated beside emulated.
