@@ -277,7 +277,7 @@ TEST(SamePhysics, TwoRunsAreOneButForAKickWithDamping) {
 }
 
 // `restart N` writes the file of write_restart, also in a step with breaks.
-TEST(SamePhysics, PeriodicRestartIsWriteRestart) {
+TEST(SamePhysics, PeriodicRestartIsWriteRestartOnAnyRanks) {
   const Outcome periodic = throw_them(with({{"how", "periodic"}}));
   EXPECT_GT(breaks_in(periodic.breaks, 250), 0);
   const Outcome o = go_on(periodic, kSerial, 1, "half.250.restart");

@@ -39,8 +39,7 @@ TEST(FilmBank, BeyondTheBankItWidensAndSaysSo) {
   const Film inside = made_film("x", 46.0, 2.2), outside = made_film("x", 60.0, 2.2);
   EXPECT_TRUE(bank.beyond(inside).empty());
   ASSERT_EQ(bank.beyond(outside).size(), 1u);
-  EXPECT_EQ(bank.beyond(outside)[0],
-            "porosity before 60 %; the bank has 41 to 52 %: extrapolated");
+  EXPECT_EQ(bank.beyond(outside)[0], "porosity before 60 %; the bank has 41 to 52 %: extrapolated");
   const auto width = [&](const Film &f) {
     return bank.at_pressures(FilmNumber::PorosityAfter, f, kMiddle)[2].variance;
   };
@@ -124,7 +123,7 @@ TEST(FilmBank, TheShippedTableHoldsTheRunsOfItsDesigns) {
       EXPECT_TRUE(p.base[k] >= whole.parameters[k].low && p.base[k] <= whole.parameters[k].high);
     rich += row.point.base_point >= 48;
   }
-  EXPECT_EQ(rich, 120);
+  EXPECT_EQ(rich, 179); // of 180: one did not reach 300 MPa
 }
 
 TEST(FilmBank, TooFewPressuresAreRefused) {
