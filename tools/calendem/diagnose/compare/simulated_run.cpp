@@ -45,7 +45,8 @@ void read_summary(RunFolder &folder, SimulatedRun &run, Mistakes &mistakes) {
     run.imposed = s["imposed"].value("what", "something that this version does not know");
   const double bodies = number("bodies");
   run.cracked_fraction = bodies > 0.0 ? number("cracked_bodies") / bodies : 0.0;
-  run.broken_fraction = number("broken_fraction_after");
+  if (s.contains("broken_fraction_after") && s["broken_fraction_after"].is_number())
+    run.broken_fraction = s["broken_fraction_after"]; // the mean of a sample's cells has none
   run.solid_column = number("thickness_at_max_um") * (1.0 - run.porosity_at_max);
 }
 
