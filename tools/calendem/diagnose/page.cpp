@@ -70,9 +70,7 @@ json simulated_next(const json &gap) {
   for (const json &m : next["measurements"]) {
     json cells = json::array();
     for (const json &v : m["values"])
-      cells.push_back(v["mean"].is_number() ? fmt::format("{:.1f} ± {}", v["mean"].get<double>(),
-                                                          shown(v["error"], "{:.1f}"))
-                                            : std::string("–"));
+      cells.push_back(shown(v["mean"], "{:.1f}") + " ± " + shown(v["error"], "{:.1f}"));
     std::vector<std::string> parts;
     for (const json &pair : m["parted"])
       if (pair["apart"].is_number() && pair["apart"].get<double>() >= kParts)
