@@ -288,6 +288,45 @@ Plot.prototype.drawError = function(g, s, i, x, error) {
   });
 };
 
+/// Steps of at most four pixels along what is drawn of a series.
+Plot.prototype.steps = function(s) {
+  var points = this.path(s), out = [];
+  for (var i = 1; i < points.length; ++i) {
+    var p = points[i - 1], q = points[i];
+    var n = p && q ? Math.ceil(Math.max(Math.abs(q[0] - p[0]), Math.abs(q[1] - p[1])) / 4) : 0;
+    for (var k = 0; k < n; ++k)
+      out.push([ p[0] + (q[0] - p[0]) * k / n, p[1] + (q[1] - p[1]) * k / n ]);
+  }
+  return out.concat(points.filter(function(p) { return p; }));
+};
+
+/// Above or below its line, where the fewest curves pass; in white behind itself, for those that do.
+Plot.prototype.drawLimitLabel = function(label, y) {
+  var self = this, a = this.at, steps = [], best = null;
+  this.chart.series.forEach(function(s, k) {
+    if (!self.hidden[k])
+      steps = steps.concat(self.steps(s));
+  });
+  var halo = this.svg.append('text').text(label).attr(
+      {fill : '#fff', stroke : '#fff', 'stroke-width' : 4, 'stroke-linejoin' : 'round'});
+  var long = halo.node().getComputedTextLength(), free = a.right - a.left - long - 12;
+  [1, 0.5, 0].forEach(function(share) {
+    [y - 5, y + 16].forEach(function(base) {
+      var x = a.left + 6 + share * free, top = base - 15, bottom = base + 5;
+      if (top < a.top || bottom > a.bottom)
+        return;
+      var crossed = steps.filter(function(p) {
+        return p[0] > x - 4 && p[0] < x + long + 4 && p[1] > top && p[1] < bottom;
+      });
+      if (!best || crossed.length < best.crossed)
+        best = {x : x, y : base, crossed : crossed.length};
+    });
+  });
+  best = best || {x : a.left + 6 + free, y : y - 5};
+  halo.attr({x : best.x, y : best.y});
+  this.svg.append('text').text(label).attr({x : best.x, y : best.y, fill : kInk});
+};
+
 Plot.prototype.drawLimits = function() {
   var self = this, a = this.at;
   this.chart.limits.forEach(function(limit) {
@@ -297,14 +336,7 @@ Plot.prototype.drawLimits = function() {
     self.svg.append('line')
         .attr({x1 : a.left, x2 : a.right, y1 : y, y2 : y, stroke : '#000', 'stroke-width' : 1.4})
         .attr({'stroke-dasharray' : '1 4', 'stroke-linecap' : 'round'});
-    self.svg.append('text')
-        .attr({
-          x : a.right - 6,
-          y : y + (y < a.top + 20 ? 16 : -5),
-          'text-anchor' : 'end',
-          fill : kInk
-        })
-        .text(limit.label);
+    self.drawLimitLabel(limit.label, y);
   });
 };
 
