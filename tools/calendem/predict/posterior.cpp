@@ -53,8 +53,8 @@ struct Sample {
 };
 
 /// The hypothesis at a place (0-1) of all, each as wide as its prior probability.
-std::vector<int> effects_at(const FilmBank &bank, double pair_share, double place) {
-  const auto all = hypotheses_of(bank);
+std::vector<int> effects_at(const std::vector<std::vector<int>> &all, double pair_share,
+                            double place) {
   double passed = 0.0;
   for (const std::vector<int> &effects : all)
     if ((passed += prior_of(all, effects, pair_share)) > place)
@@ -75,6 +75,7 @@ double score_given(const std::vector<double> &others, double alike, double own) 
 void add_material(const FilmBank &bank, double pair_share, std::uint64_t seed,
                   std::vector<Sample> &samples) {
   const inference::Prior alike = {inference::Prior::uniform, 0.0, 1.0};
+  const auto hypotheses = hypotheses_of(bank);
   const std::size_t d = bank.material().size(), effects = bank.effects().size(),
                     before = samples.front().draw.materials.size();
   const Matrix scores =
@@ -105,7 +106,7 @@ void add_material(const FilmBank &bank, double pair_share, std::uint64_t seed,
     const std::vector<int> acting =
         follows && sample.follows >= 0
             ? effects_of(draw.materials[std::size_t(sample.follows)])
-            : effects_at(bank, pair_share, alike.value(own(d + effects + 3)));
+            : effects_at(hypotheses, pair_share, alike.value(own(d + effects + 3)));
     for (const int effect : acting)
       more.effects.push_back(
           {effect, next(bank.effects()[std::size_t(effect)].prior, d + std::size_t(effect),
