@@ -70,6 +70,7 @@ inline BankTable made_coatings(const std::vector<std::string> &effects = {"nmc_p
   table.spec.effect_points = 16;
   table.spec.effects = effects;
   table.spec.full_cell.points = 0;
+  table.spec.nanoporosity_within = 0.0;
   for (const BankPoint &point : bank_points(table.spec))
     for (const double target : table.spec.pressures)
       table.rows.push_back({point, made_coating(point, target)});

@@ -97,6 +97,74 @@ TEST(FilmBank, AFilmOfLikeParticlesIsDescribedByVolume) {
   EXPECT_NE(bank.beyond(film)[0].find("an error of 0.6 points"), std::string::npos);
 }
 
+/// A bank that does not take the nanoporosity of CBD for known.
+FilmBank of_unknown_nanopores() {
+  BankTable table = made_coatings({"cbd_collapse"});
+  table.spec.nanoporosity_within = 10.0;
+  return FilmBank(table);
+}
+
+// A film of 92 : 4 : 4 with 48 % pores whose CBD has 40 % nanopores is as thick, and has as much of CBD with its
+// nanopores, as one with half of CBD nanopores and 5/6 of the solid CBD.
+TEST(FilmBank, FewerNanoporesAreLessOfTheBanksCbd) {
+  const FilmBank bank = of_unknown_nanopores();
+  ASSERT_EQ(bank.material().back().name, kNanoporosity);
+  const double am = 0.92 / 4.65, cbd = 0.08 / 1.83, of_bank = cbd * 5.0 / 6.0,
+               thickness = (am + cbd) / 0.52;
+  const double weight = of_bank * 1.83 / (of_bank * 1.83 + am * 4.65);
+  const Film film = made_film("x", 48.0, 4.0),
+             as = made_film("x", 100.0 * (1.0 - (am + of_bank) / thickness), 50.0 * weight);
+  const Material fewer = {{190.0, 2.4, 480.0, -10.0}, {}}, same = {{190.0, 2.4, 480.0, 0.0}, {}};
+  const auto at = [&](FilmNumber number, const Film &f, const Material &m) {
+    return bank.at_pressures(number, f, m)[3];
+  };
+  const Guess after = at(FilmNumber::PorosityAfter, film, fewer),
+              of_as = at(FilmNumber::PorosityAfter, as, same);
+  const double pressed = (am + of_bank) / (1.0 - of_as.mean); // its thickness
+  EXPECT_NEAR(after.mean, 1.0 - (am + cbd) / pressed, 1e-12);
+  EXPECT_NEAR(std::sqrt(after.variance / of_as.variance), (am + cbd) / (am + of_bank), 1e-12);
+  EXPECT_NEAR(at(FilmNumber::Springback, film, fewer).mean,
+              at(FilmNumber::Springback, as, same).mean, 1e-12);
+  EXPECT_NEAR(bank.nanoporosity(film, fewer), 0.4, 1e-12);
+}
+
+// The paper's collapse leaves 27 %: of 40 % of a sphere's volume 13 points can go, of 50 % 23.
+TEST(FilmBank, FewerNanoporesHaveLessToLose) {
+  const FilmBank bank = of_unknown_nanopores();
+  const Acting collapse = {0, find_effect("cbd_collapse").parameter.amplitude(10.0)};
+  const Film film = made_film("x", 48.0, 4.0);
+  const auto lost = [&](double points) {
+    const auto cracked = [&](const Material &m) {
+      return bank.at_pressures(FilmNumber::Broken, film, m)[3].mean;
+    };
+    const auto porosity = [&](const Material &m) {
+      return bank.at_pressures(FilmNumber::PorosityAfter, film, m)[1].mean;
+    };
+    const Material off = {{190.0, 2.4, 480.0, points}, {}},
+                   on = {{190.0, 2.4, 480.0, points}, {collapse}};
+    EXPECT_NEAR(cracked(on), cracked(off), 0.01); // hangs on the strength alone
+    return porosity(off) - porosity(on);
+  };
+  EXPECT_GT(lost(0.0), 0.03);
+  // Of the film with 5/6 of the solid CBD; 4 % less of solids; its emulator's slope with the film is small.
+  EXPECT_NEAR(lost(-10.0) / lost(0.0), 0.13 / 0.23 * 1.031, 0.05);
+}
+
+TEST(FilmBank, ARecipesNanoporosityIsTakenWhereItIsNoneOfTheBanksOwn) {
+  const Recipe fewer = recipe_of("[cbd]\nnanoporosity_percent = 45\n");
+  EXPECT_THROW(made_film_bank().film_of(fewer), Failure);
+  const FilmBank bank = of_unknown_nanopores();
+  const Film film = bank.film_of(fewer);
+  EXPECT_NEAR(bank.nanoporosity(film, {{190.0, 2.4, 480.0, 3.0}, {}}), 0.48, 1e-12);
+}
+
+TEST(FilmBank, NanoporesAreUnknownOnlyWhereFilmsDiffer) {
+  BankTable table = made_coatings();
+  table.spec.nanoporosity_within = 10.0;
+  table.spec.parameters[4].keys = {"case.material.cbd.friction"};
+  EXPECT_THROW(FilmBank{table}, Failure);
+}
+
 TEST(FilmBank, OtherParticlesAreRefused) {
   for (const char *sizes : {"median_um = 6", "sigma_ln = 0.3", "median_um = 3.5"})
     EXPECT_THROW(made_film_bank().film_of(recipe_of(std::string("[particles]\n") + sizes + "\n")),

@@ -121,6 +121,23 @@ TEST(OwnRuns, EveryDrawHasItsMaterialItsPackingAndThePressures) {
   EXPECT_EQ(study.runs.front().settings.number("effects.nmc_plasticity.yield_pressure_GPa"), 0.0);
 }
 
+// A material whose CBD has 3 points more nanopores than recipes say is packed and collapses so.
+TEST(OwnRuns, HaveTheNanoporesOfTheirMaterial) {
+  BankTable table = made_coatings({"cbd_collapse"});
+  table.spec.nanoporosity_within = 10.0;
+  const FilmBank bank(table);
+  std::vector<Draw> draws(4);
+  for (Draw &d : draws)
+    d.materials = {{{190.0, 2.4, 480.0, 3.0}, {{0, 0.4}}}};
+  const auto file = calendem_test::test_folder() / "film.toml";
+  std::ofstream(file) << "name = \"film\"\n[cbd]\nnanoporosity_percent = 45\n";
+  const Study study = own_runs(bank, draws, read_recipe(file.string()), 0, {50.0});
+  EXPECT_NEAR(study.runs.front().recipe.nanoporosity, 0.48, 1e-12);
+  EXPECT_NEAR(study.runs.front().settings.number("effects.cbd_collapse.initial_nanoporosity"), 0.48,
+              1e-12);
+  EXPECT_EQ(study.runs.front().settings.number("material.am.youngs_modulus_GPa"), 190.0);
+}
+
 // Two materials: one meets the target for sure at 50 MPa, the other never; at 100 MPa both do with 40 %.
 TEST(Chances, AnAssuredProbabilityHoldsForFourOfFiveMaterials) {
   const Target target = {0.3, 0.01, 1.0};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "predict/film_bank.h"
+#include "base/case.h"
 #include "base/messages.h"
 #include "diagnose/bank_points.h"
 #include "diagnose/experiment_data.h"
@@ -21,6 +22,9 @@ using inference::Vector;
 namespace {
 
 constexpr std::size_t kFewestPressures = 4; // of the monotone cubic
+// The effect that closes nanopores, and how many it leaves.
+constexpr const char *kCollapse = "cbd_collapse",
+                     *kFloor = "effects.cbd_collapse.floor_nanoporosity";
 constexpr double kBeyond = 0.05; // standard deviation per unit of ln p beyond the bank's pressures
 
 bool is_recipe(const BankParameter &p) { return p.keys.front().rfind("recipe.", 0) == 0; }
@@ -59,7 +63,8 @@ double value_of(FilmNumber number, const SimulatedRun &run) {
   return NAN;
 }
 
-FilmBank::FilmBank(const BankTable &table) : spec_(table.spec) {
+FilmBank::FilmBank(const BankTable &table)
+    : spec_(table.spec), recipe_(read_recipe(spec_.recipe_file)) {
   if (spec_.pressures.size() < kFewestPressures)
     throw Failure(kBadInput, fmt::format("{}: the bank has {} pressures; to predict between them "
                                          "{} are needed (pressures_MPa).",
@@ -71,7 +76,11 @@ FilmBank::FilmBank(const BankTable &table) : spec_(table.spec) {
     else
       material_.push_back(parameter_of(p));
   }
-  bank_loading_ = read_recipe(spec_.recipe_file).loading;
+  if (const double within = spec_.nanoporosity_within; within > 0.0) {
+    check_nanoporosity();
+    floor_nanoporosity_ = read_case(spec_.case_file).number(kFloor);
+    material_.push_back({kNanoporosity, {inference::Prior::uniform, -within, within}});
+  }
   learn(table);
   learn_full_cell(table);
 }
@@ -256,6 +265,7 @@ void FilmBank::learn_full_cell(const BankTable &table) {
       for (std::size_t k = 0; k < of_film_.size(); ++k)
         if (!of_film_[k])
           material.parameters.push_back(row->point.base[k]);
+      material.parameters.resize(material_.size(), 0.0); // of the recipe's nanoporosity
       const auto p =
           std::size_t(std::find(spec_.pressures.begin(), spec_.pressures.end(), row->run.target) -
                       spec_.pressures.begin());
@@ -304,7 +314,7 @@ Vector FilmBank::input(const Film &film, const Material &material) const {
 // A film's faces weigh by 1 / loading: no change on the bank's film, all of it on the full cell's.
 double FilmBank::full_cell_share(const Film &film) const {
   return full_loading_ > 0.0
-             ? (1.0 - bank_loading_ / film.loading) / (1.0 - bank_loading_ / full_loading_)
+             ? (1.0 - recipe_.loading / film.loading) / (1.0 - recipe_.loading / full_loading_)
              : 0.0;
 }
 
@@ -336,7 +346,8 @@ std::pair<double, double> FilmBank::beside(double pressure) const {
 std::vector<Guess> FilmBank::at_pressures(FilmNumber number, const Film &film,
                                           const Material &material) const {
   const auto n = std::size_t(number);
-  const Vector x = input(film, material);
+  const Alike as = alike(film, nanoporosity(film, material));
+  const Vector x = input(as.film, material);
   const double share = full_cell_share(film);
   std::vector<Guess> out;
   for (std::size_t p = 0; p < spec_.pressures.size(); ++p) {
@@ -348,11 +359,14 @@ std::vector<Guess> FilmBank::at_pressures(FilmNumber number, const Film &film,
       with << x, q.input(a.amplitude);
       strength << q.strength(a.amplitude);
       const inference::Mean more = with_[std::size_t(a.effect)][n][p].at(with, strength);
-      g.mean += more.mean;
-      g.variance += more.variance;
+      const double of = q.name == kCollapse ? as.collapse : 1.0;
+      g.mean += of * more.mean;
+      g.variance += of * of * more.variance;
     }
     if (share != 0.0)
       g.mean += share * full_cell_[n].change[p];
+    if (number == FilmNumber::PorosityAfter)
+      g = {1.0 - as.solids * (1.0 - g.mean), as.solids * as.solids * g.variance};
     out.push_back(g);
   }
   return out;

@@ -28,6 +28,9 @@ constexpr int kFilmNumbers = 6;
 /// Of the porosity before calendering, where a bank's films differ in it.
 inline constexpr const char *kPorosityKey = "recipe.coating.porosity_total_percent";
 
+/// A parameter of materials: nanoporosity of their CBD less the recipe's [%].
+inline constexpr const char *kNanoporosity = "nanoporosity_points";
+
 /// The uncalendered film, as the bank's parameters describe it: by volumes, as if carbon, binder and
 /// active material had the bank's densities.
 struct Film {
@@ -36,6 +39,7 @@ struct Film {
   double loading = 0.0;       ///< [mg/cm2]
   double sizes = 0.0;         ///< ln of its particles' median by volume over the bank's
   int material = 0;           ///< place in Draw::materials
+  double nanoporosity = 0.5;  ///< of its recipe's CBD, 0-1
 };
 
 struct Acting {
@@ -43,7 +47,7 @@ struct Acting {
   double amplitude = 0.0;
 };
 
-/// One set of the parameters whose keys are a case's, and the effects that are on.
+/// Values of FilmBank::material(), and the effects that are on.
 struct Material {
   std::vector<double> parameters; ///< in their units
   std::vector<Acting> effects;
@@ -60,7 +64,11 @@ public:
   explicit FilmBank(const BankTable &table);
 
   const BankSpec &spec() const { return spec_; }
+  /// Those of the bank whose keys are a case's, and kNanoporosity where the bank does not take it
+  /// for known.
   const std::vector<inference::Parameter> &material() const { return material_; }
+  /// Of a film's CBD, if it is made of that material, 0-1.
+  double nanoporosity(const Film &film, const Material &material) const;
   const std::vector<BankParameter> &film() const { return film_; }
   /// Simulated ones that the bank has runs of.
   const std::vector<inference::Parameter> &effects() const { return effects_; }
@@ -100,15 +108,28 @@ private:
     std::vector<std::vector<double>> off; ///< what each run is off by, at each pressure
   };
   BankSpec spec_;
+  Recipe recipe_; ///< the bank's
   std::vector<inference::Parameter> material_, effects_;
   std::vector<BankParameter> film_;
   std::vector<bool> of_film_; ///< of the bank's parameters
   std::array<Emulators, kFilmNumbers> base_;
   std::vector<std::array<Emulators, kFilmNumbers>> with_; ///< differences, by effect
   std::array<FullCell, kFilmNumbers> full_cell_;
-  double bank_loading_ = 0.0, full_loading_ = 0.0;
+  double full_loading_ = 0.0;
+  double floor_nanoporosity_ = 0.0; ///< that collapse leaves, 0-1
+
+  /// A film whose CBD has the bank's nanoporosity, as thick as another and with as much of CBD, pores
+  /// included; and what to multiply with.
+  struct Alike {
+    Film film;
+    double solids = 1.0;   ///< its solid parts per film's
+    double collapse = 1.0; ///< what nanopores can lose, film's per its own
+  };
 
   inference::Vector input(const Film &film, const Material &material) const;
+  double carbon_and_binder(const Film &film) const;
+  Alike alike(const Film &film, double nanoporosity) const;
+  void check_nanoporosity() const;
   void learn(const BankTable &table);
   void learn_full_cell(const BankTable &table);
   void forget(FilmNumber number);

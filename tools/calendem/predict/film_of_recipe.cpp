@@ -3,6 +3,7 @@
 #include "base/messages.h"
 #include "base/shown.h"
 #include "predict/film_bank.h"
+#include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <fmt/format.h>
@@ -56,12 +57,14 @@ ByVolume by_volume(const Recipe &film, const Recipe &bank) {
   return {cbd / (am + cbd), 0.1 * (am + cbd)};
 }
 
-bool is_composition(const std::string &key) { return key.rfind("composition.", 0) == 0; }
+/// A bank's key without "recipe.".
+std::string bare_of(const std::string &key) { return key.substr(key.find('.') + 1); }
+bool is_composition(const std::string &bare) { return bare.rfind("composition.", 0) == 0; }
 
 } // namespace
 
 Film FilmBank::described(const Recipe &recipe) const {
-  const Recipe bank = read_recipe(spec_.recipe_file);
+  const Recipe &bank = recipe_;
   const bool same_solids =
       recipe.am_density == bank.am_density && recipe.cbd_solid_density == bank.cbd_solid_density;
   const ByVolume volumes = same_solids || recipe.am_weight >= 1.0
@@ -71,10 +74,11 @@ Film FilmBank::described(const Recipe &recipe) const {
   Film out;
   out.name = recipe.settings.text("name");
   out.loading = volumes.loading;
+  out.nanoporosity = recipe.nanoporosity;
   for (const BankParameter &p : film_) {
     double sum = 0.0;
     for (const std::string &key : p.keys) {
-      const std::string bare = key.substr(key.find('.') + 1);
+      const std::string bare = bare_of(key);
       sum += recipe.settings.number(bare) * (is_composition(bare) ? of_weight : 1.0);
     }
     out.recipe.push_back(sum / double(p.keys.size()));
@@ -86,18 +90,20 @@ Film FilmBank::described(const Recipe &recipe) const {
 }
 
 Film FilmBank::film_of(const Recipe &recipe) const {
-  const Recipe bank = read_recipe(spec_.recipe_file);
+  const Recipe &bank = recipe_;
   std::map<std::string, std::string> wanted = bank.settings.all();
   const auto any = [&](const char *key) { wanted[key] = recipe.settings.text(key); };
   for (const BankParameter &p : film_)
     for (const std::string &key : p.keys) {
-      const std::string bare = key.substr(key.find('.') + 1);
+      const std::string bare = bare_of(key);
       any(bare.c_str());
       if (is_composition(bare))
         for (const char *other :
              {"composition.am_weight_percent", "density.am_g_cm3", "density.cbd_solid_g_cm3"})
           any(other);
     }
+  if (spec_.nanoporosity_within > 0.0)
+    any("cbd.nanoporosity_percent");
   if (has_like_particles(recipe, bank))
     for (const char *key : {"particles.median_um", "particles.sigma_ln"})
       any(key);
@@ -109,30 +115,76 @@ Film FilmBank::film_of(const Recipe &recipe) const {
   return described(recipe);
 }
 
-double FilmBank::solid_column(const Film &film) const {
-  Recipe bank = read_recipe(spec_.recipe_file);
+double FilmBank::carbon_and_binder(const Film &film) const {
   double percent = 0.0;
   for (const char *key :
        {"composition.carbon_weight_percent", "composition.binder_weight_percent"}) {
-    double value = bank.settings.number(key);
+    double value = recipe_.settings.number(key);
     for (std::size_t k = 0; k < film_.size(); ++k)
       for (const std::string &name : film_[k].keys)
         if (name == std::string("recipe.") + key)
           value = film.recipe[k];
     percent += value;
   }
-  bank.loading = film.loading;
-  bank.am_weight = 1.0 - 0.01 * percent;
-  return bank.am_column() + bank.cbd_solid_column();
+  return 0.01 * percent;
+}
+
+double FilmBank::solid_column(const Film &film) const {
+  Recipe as = recipe_;
+  as.loading = film.loading;
+  as.am_weight = 1.0 - carbon_and_binder(film);
+  return as.am_column() + as.cbd_solid_column();
+}
+
+void FilmBank::check_nanoporosity() const {
+  const auto has = [&](const auto &wanted) {
+    return std::any_of(film_.begin(), film_.end(), [&](const BankParameter &p) {
+      return std::any_of(p.keys.begin(), p.keys.end(), wanted);
+    });
+  };
+  if (!has([](const std::string &key) { return key == kPorosityKey; }) ||
+      !has([](const std::string &key) { return is_composition(bare_of(key)); }))
+    throw Failure(kBadInput,
+                  fmt::format("{}: nanoporosity_within_points is {:g}; for that the bank's films "
+                              "must differ in porosity ({}) and in carbon and binder "
+                              "(recipe.composition.*). Add such [[parameter]]s, or leave it out.",
+                              spec_.file, spec_.nanoporosity_within, kPorosityKey));
+}
+
+double FilmBank::nanoporosity(const Film &film, const Material &material) const {
+  constexpr double kMost = 0.9; // 0-1
+  return spec_.nanoporosity_within > 0.0
+             ? std::clamp(film.nanoporosity + 0.01 * material.parameters.back(), 0.0, kMost)
+             : recipe_.nanoporosity;
+}
+
+FilmBank::Alike FilmBank::alike(const Film &film, double nanoporosity) const {
+  Alike out = {film};
+  const double of_bank = recipe_.nanoporosity, weight = carbon_and_binder(film);
+  if (nanoporosity == of_bank || weight <= 0.0)
+    return out;
+  const double more = (1.0 - of_bank) / (1.0 - nanoporosity), // solid CBD, the bank's per film's
+      am = (1.0 - weight) / recipe_.am_density, cbd = weight / recipe_.cbd_solid_density;
+  out.solids = (am + cbd) / (am + more * cbd);
+  for (std::size_t k = 0; k < film_.size(); ++k)
+    if (const std::string &key = film_[k].keys.front(); key == kPorosityKey)
+      out.film.recipe[k] = 100.0 - (100.0 - film.recipe[k]) / out.solids;
+    else if (is_composition(bare_of(key)))
+      out.film.recipe[k] *= more / (1.0 - weight + more * weight);
+  out.collapse =
+      std::max(0.0, nanoporosity - floor_nanoporosity_) / (of_bank - floor_nanoporosity_);
+  return out;
 }
 
 std::vector<std::string> FilmBank::beyond(const Film &film) const {
   std::vector<std::string> out;
+  const std::vector<double> recipe =
+      spec_.nanoporosity_within > 0.0 ? alike(film, film.nanoporosity).film.recipe : film.recipe;
   for (std::size_t k = 0; k < film_.size(); ++k)
-    if (film.recipe[k] < film_[k].low || film.recipe[k] > film_[k].high)
+    if (recipe[k] < film_[k].low || recipe[k] > film_[k].high)
       out.push_back(fmt::format("{0} {2:.4g}{1}; the bank has {3:g} to {4:g}{1}: extrapolated",
                                 in_words(film_[k].name).name, in_words(film_[k].name).unit,
-                                film.recipe[k], film_[k].low, film_[k].high));
+                                recipe[k], film_[k].low, film_[k].high));
   if (const double error = kPorosityBySize * std::fabs(film.sizes); error > kSizesSaid)
     out.push_back(fmt::format("half of the particles' volume lies below a diameter that is {:.2f} "
                               "times the bank's: counted as an error of {:.1f} points of porosity",

@@ -21,6 +21,7 @@ Json films_of(const FilmBank &bank, const Calibration &c) {
     Json row = {{"name", f.name},
                 {"material", f.material},
                 {"loading_mg_cm2", f.loading},
+                {"nanoporosity", f.nanoporosity},
                 {"sizes", f.sizes}};
     for (std::size_t k = 0; k < f.recipe.size(); ++k)
       row["recipe"][bank.film()[k].name] = f.recipe[k];
@@ -272,6 +273,10 @@ std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_t
         add(key, value);
     }
   std::string of_recipe;
+  if (bank.spec().nanoporosity_within > 0.0)
+    of_recipe += fmt::format(
+        "# In the recipe: cbd.nanoporosity_percent {:+.1f} beside what it says\n",
+        middle([&](const Draw &d) { return d.materials[of_those].parameters[material]; }));
   const Settings of_bank = read_case(bank.spec().case_file);
   for (std::size_t k = 0; k < effects.size(); ++k) {
     const Effect effect = find_effect(bank.effects()[std::size_t(effects[k])].name);

@@ -60,6 +60,7 @@ Calibration calibration_of(const FilmBank &bank, const Json &json) {
     f.name = row.at("name");
     f.material = row.at("material");
     f.loading = row.at("loading_mg_cm2");
+    f.nanoporosity = row.at("nanoporosity");
     f.sizes = row.at("sizes");
     for (const BankParameter &p : bank.film())
       f.recipe.push_back(row.at("recipe").at(p.name));

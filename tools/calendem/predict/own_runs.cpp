@@ -10,6 +10,10 @@ namespace calendem {
 
 namespace {
 
+/// Of the packing [%], and of the effect that changes it (0-1).
+constexpr const char *kNanoporosityKeys[] = {"recipe.cbd.nanoporosity_percent",
+                                             "case.effects.cbd_collapse.initial_nanoporosity"};
+
 double four_digits(double value) { return std::stod(fmt::format("{:.4g}", value)); }
 
 /// The draws all of whose runs are usable, and these: draws x pressures.
@@ -54,14 +58,23 @@ Study own_runs(const FilmBank &bank, const std::vector<Draw> &draws, const Recip
   for (const BankParameter &p : spec.parameters)
     if (p.keys.front().rfind("case.", 0) == 0)
       of_material.push_back(p);
+  const std::size_t of_case = of_material.size();
+  const bool varies = spec.nanoporosity_within > 0.0 && !recipe.structure.given();
+  if (varies)
+    for (const char *key : kNanoporosityKeys)
+      of_material.push_back({key, {key}});
   spec.parameters = of_material;
   std::vector<BankPoint> points;
   for (const Draw &draw : draws) {
     BankPoint p;
     p.packing = int(points.size()) + 1;
     const Material &of = draw.materials[std::size_t(material)];
-    for (const double value : of.parameters)
-      p.base.push_back(four_digits(value));
+    for (std::size_t k = 0; k < of_case; ++k)
+      p.base.push_back(four_digits(of.parameters[k]));
+    if (varies) {
+      const double nanoporosity = bank.nanoporosity(bank.described(recipe), of);
+      p.base.insert(p.base.end(), {four_digits(100.0 * nanoporosity), four_digits(nanoporosity)});
+    }
     for (const Acting &a : of.effects)
       p.also[bank.effects()[std::size_t(a.effect)].name] = four_digits(key_value(bank, a));
     points.push_back(p);

@@ -26,7 +26,8 @@ const std::vector<Key> &head_keys() {
       {"seed", "", "1", 0, 4e9, "", "of the design", "", false, true},
       {"pressures_MPa", "", "", 0.1, 2000, "MPa", "a run for each at every point"},
       {"first_point", "", "0", 0, 5000, "", "number of the first base point", "", false, true},
-      {"tortuosity", "", "no", 0, 0, "", "of the pores after release", "yes|no"}};
+      {"tortuosity", "", "no", 0, 0, "", "of the pores after release", "yes|no"},
+      {"nanoporosity_within_points", "", "0", 0, 20, "%", "to either side of a recipe's"}};
   return keys;
 }
 
@@ -36,7 +37,8 @@ public:
 
   void read_head(const toml::table &t, BankSpec &out) {
     report_unknown(t, {"name", "recipe", "case", "packings", "base_points", "effect_points", "seed",
-                       "first_point", "tortuosity", "pressures_MPa", "effects"});
+                       "first_point", "tortuosity", "nanoporosity_within_points", "pressures_MPa",
+                       "effects"});
     out.name = text(t, head_keys()[0]);
     out.recipe_file = path(t, head_keys()[1]);
     out.case_file = path(t, head_keys()[2]);
@@ -46,6 +48,7 @@ public:
     out.seed = static_cast<unsigned long>(number(t, head_keys()[6]));
     out.first_point = int(number(t, head_keys()[8]));
     out.tortuosity = text(t, head_keys()[9]) == "yes";
+    out.nanoporosity_within = number(t, head_keys()[10]);
     if (out.effect_points > out.base_points)
       mistakes_.add(0, fmt::format("effect_points is {}, base_points {}: every point of an effect "
                                    "needs a base point of its own.",

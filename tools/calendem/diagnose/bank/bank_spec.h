@@ -12,6 +12,7 @@
 //   seed = 1                         # of the design
 //   first_point = 0                  # number of the first base point, where tables are joined
 //   tortuosity = "yes"               # of the pores after release; default: no
+//   nanoporosity_within_points = 10  # how far that of CBD may lie from the recipe's; default: 0
 //   [[parameter]]                    # of the base model, recalibrated by the diagnosis
 //   name = "E_am"
 //   keys = ["case.material.am.youngs_modulus_GPa"]
@@ -89,6 +90,9 @@ struct BankSpec {
   unsigned long seed = 1;
   int first_point = 0;     ///< number of the first base point
   bool tortuosity = false; ///< of the pores after release, of every run
+  /// How far the nanoporosity of a measured film's CBD may lie from its recipe's [%], to either
+  /// side; 0: known. No laboratory measures it.
+  double nanoporosity_within = 0.0;
   std::vector<BankParameter> parameters;
   std::vector<std::string> effects;
   std::map<std::string, std::pair<double, double>> ranges; ///< of effects, where not the table's
