@@ -273,10 +273,12 @@ std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_t
         add(key, value);
     }
   std::string of_recipe;
-  if (bank.spec().nanoporosity_within > 0.0)
-    of_recipe += fmt::format(
-        "# In the recipe: cbd.nanoporosity_percent {:+.1f} beside what it says\n",
-        middle([&](const Draw &d) { return d.materials[of_those].parameters[material]; }));
+  if (bank.spec().nanoporosity_within > 0.0) {
+    const double points =
+        middle([&](const Draw &d) { return d.materials[of_those].parameters[material]; });
+    of_recipe += fmt::format("# In the recipe: cbd.nanoporosity_percent {:.1f} {}\n",
+                             std::fabs(points), points < 0.0 ? "lower" : "higher");
+  }
   const Settings of_bank = read_case(bank.spec().case_file);
   for (std::size_t k = 0; k < effects.size(); ++k) {
     const Effect effect = find_effect(bank.effects()[std::size_t(effects[k])].name);

@@ -110,12 +110,12 @@ json parameters_part(const Json &model) {
   json rows = json::array();
   for (const Json &p : model.at("parameters")) {
     const auto text = shown_alike({p["median"], p["low90"], p["high90"]});
-    rows.push_back({{"name", p["parameter"]},
-                    {"prior", fmt::format("{:g} to {:g}", p["prior_low"].get<double>(),
-                                          p["prior_high"].get<double>())},
-                    {"median", text[0]},
-                    {"low", text[1]},
-                    {"high", text[2]}});
+    rows.push_back(
+        {{"name", p["parameter"]},
+         {"prior", shown(p["prior_low"], "{:g}") + " to " + shown(p["prior_high"], "{:g}")},
+         {"median", text[0]},
+         {"low", text[1]},
+         {"high", text[2]}});
   }
   return rows;
 }
