@@ -1,264 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Draws of a round, and what of a truth is handed out.
+// What of a truth is handed out and sealed.
 #include "base/experiment.h"
-#include "base/messages.h"
-#include "support/test_folder.h"
-#include "withheld/make.h"
-#include "withheld/round_file.h"
-#include "withheld/sealing.h"
+#include "small_round.h"
 #include <cmath>
-#include <fstream>
 #include <set>
 
 namespace {
 
-using namespace calendem;
-using calendem_test::test_folder;
-
-const std::string kRound =
-    "[round]\nbank = \"bank.toml\"\nnull_packings = 2\nnull_draws = 5\namplitudes = 3\n"
-    "samples = 3\n"
-    "open = [\"cohesion\"]\npairs = [\"thickness_zero + friction\"]\nfaults = [\"noise\"]\n"
-    "other_numerics = [\"larger_cell + friction\", \"half_time_step\"]\n"
-    "[noise]\nunderstated_by = [3, 4]\nporosity_percent = 0.5\n";
-
-Round round_of(const std::string &text) {
-  const auto folder = test_folder();
-  std::ofstream(folder / "electrode.toml") << "[cell]\nx_um = 6\ny_um = 6\n";
-  std::ofstream(folder / "case.toml") << "electrode = \"any\"\n";
-  std::ofstream(folder / "bank.toml")
-      << "[bank]\nrecipe = \"electrode.toml\"\ncase = \"case.toml\"\npressures_MPa = [30, 50]\n"
-         "effects = [\"friction\", \"thickness_zero\"]\n[[parameter]]\nname = \"strength\"\nkeys = "
-         "[\"case.bond.tensile_strength_MPa\", \"case.bond.shear_strength_MPa\"]\nlow = 150\nhigh "
-         "= 400\n";
-  std::ofstream(folder / "round.toml") << text;
-  return read_round((folder / "round.toml").string());
-}
-
-std::map<std::string, std::string> answers_of(const Round &round,
-                                              const std::vector<Truth> &truths) {
-  std::map<std::string, std::string> out;
-  for (const Truth &t : truths)
-    out[t.block + (t.hidden.empty() ? "" : " " + t.hidden[0])] = right_answer(t, round.bank);
-  return out;
-}
-
-TEST(Truths, ARoundHoldsWhatItsFileAsksFor) {
-  const Round round = round_of(kRound);
-  const std::vector<Truth> truths = draw_truths(round, "secret");
-  ASSERT_EQ(truths.size(), 2u + 2 * 3 + 1 + 1 + 1 + 2);
-  EXPECT_EQ(truths[0].draws + truths[1].draws, 5);
-  std::set<unsigned long> packings;
-  for (const Truth &t : truths) {
-    EXPECT_EQ(t.packings.size(), 3u);
-    for (const unsigned long packing : t.packings)
-      EXPECT_TRUE(packings.insert(packing).second && packing > 1000);
-    EXPECT_TRUE(t.base[0] > 150 && t.base[0] < 400);
-  }
-  for (int k = 0; k < 3; ++k) // each in its third of 0.05 to 0.6
-    EXPECT_EQ(int((truths[2 + k].effects[0].second - 0.05) / 0.55 * 3), k);
-  auto answers = answers_of(round, truths);
-  EXPECT_EQ(answers["null"], "none");
-  EXPECT_EQ(answers["open cohesion"], "unknown");
-  EXPECT_EQ(answers["pair"], "friction + thickness_zero"); // in the bank's order
-  EXPECT_EQ(answers["fault"], "noise");
-  EXPECT_EQ(answers["other larger_cell"], "friction");
-  EXPECT_EQ(answers["other half_time_step"], "none");
-}
-
-TEST(Truths, TheSecretDecidesAllDraws) {
-  const Round round = round_of(kRound);
-  const auto text = [&](const std::string &secret) {
-    std::string out;
-    for (const Truth &t : draw_truths(round, secret))
-      out += to_json(t, round.bank).dump();
-    return out;
-  };
-  EXPECT_EQ(text("one"), text("one"));
-  EXPECT_NE(text("one"), text("two"));
-}
-
-TEST(Truths, RunsHaveTheTruthsSettings) {
-  const Round round = round_of(kRound);
-  const std::vector<Truth> truths = draw_truths(round, "secret");
-  const Study study = truth_study(round, truths);
-  ASSERT_EQ(study.runs.size(), 3 * 2 * truths.size());
-  for (std::size_t t = 0; t < truths.size(); ++t) {
-    const Settings &s = study.runs[6 * t + 5].settings;
-    const bool larger = !truths[t].hidden.empty() && truths[t].hidden[0] == "larger_cell";
-    EXPECT_NEAR(s.number("platen.max_pressure_MPa"), 50 * (1 + truths[t].pressure_error), 1e-3);
-    EXPECT_EQ(s.number("bond.shear_strength_MPa"), truths[t].base[0]);
-    EXPECT_NEAR(study.runs[6 * t].recipe.cell_x, larger ? 7.8 : 6.0, 1e-9);
-    for (std::size_t k = 0; k < 6; ++k)
-      EXPECT_EQ(study.runs[6 * t + k].recipe.seed, truths[t].packings[k / 2]);
-    const bool rough = !truths[t].effects.empty() && truths[t].effects.back().first == "friction";
-    EXPECT_EQ(s.number("material.am.friction"), rough ? truths[t].effects.back().second : 0.001);
-  }
-}
-
-TEST(Truths, NumbersOfSamplesComeInTurn) {
-  std::string text = kRound;
-  text.replace(text.find("samples = 3"), 11, "samples = [2, 10]");
-  const Round round = round_of(text);
-  const std::vector<Truth> truths = draw_truths(round, "secret");
-  std::vector<int> samples;
-  std::size_t runs = 0;
-  for (const Truth &t : truths) {
-    samples.push_back(t.samples);
-    EXPECT_EQ(t.packings.size(), std::size_t(t.samples));
-    EXPECT_EQ(to_json(t, round.bank)["samples"], t.samples);
-    runs += 2 * t.packings.size();
-  }
-  // two nulls, three amplitudes of each effect, then a block in each line of the file
-  EXPECT_EQ(samples, (std::vector<int>{2, 10, 2, 10, 2, 10, 2, 10, 2, 2, 2, 2, 10}));
-  const Study study = truth_study(round, truths);
-  ASSERT_EQ(study.runs.size(), runs);
-  EXPECT_EQ(study.runs.back().recipe.seed, truths.back().packings.back());
-  text.replace(text.find("[2, 10]"), 7, "[]");
-  EXPECT_THROW(round_of(text), Failure);
-}
-
-// A press has a new disc for each pressure.
-TEST(Truths, APressureCanHaveDiscsOfItsOwn) {
-  std::string text = kRound;
-  text.insert(text.find("samples"), "specimens = \"one for each pressure\"\n");
-  const Round round = round_of(text);
-  const std::vector<Truth> truths = draw_truths(round, "secret");
-  const Study study = truth_study(round, truths);
-  std::set<unsigned long> packings;
-  for (const StudyRun &run : study.runs)
-    packings.insert(run.recipe.seed);
-  EXPECT_EQ(packings.size(), study.runs.size());
-  EXPECT_EQ(study.runs[4].recipe.seed, truths[0].packings[4]);
-}
-
-TEST(Truths, WithoutItsCauseATruthKeepsItsSamplesPressAndNumerics) {
-  const Round round = round_of(kRound);
-  int causes = 0;
-  for (const Truth &t : draw_truths(round, "secret")) {
-    const Truth without = without_cause(t);
-    EXPECT_FALSE(has_cause(without));
-    EXPECT_EQ(without.packings, t.packings);
-    EXPECT_EQ(without.pressure_error, t.pressure_error);
-    EXPECT_EQ(without.understated, t.understated);
-    causes += has_cause(t);
-    const auto numerics = [](const Truth &of) {
-      return std::count_if(of.hidden.begin(), of.hidden.end(),
-                           [](const auto &name) { return find_hidden(name)->numerics; });
-    };
-    EXPECT_EQ(numerics(without), numerics(t));
-    EXPECT_EQ(without.hidden.size(), std::size_t(numerics(t)));
-  }
-  EXPECT_EQ(causes, 2 * 3 + 1 + 1 + 1); // effects, cohesion, the pair, friction on a larger cell
-  Round paired = round;
-  paired.paired_runs = true;
-  const std::vector<Truth> truths = draw_truths(round, "secret"), all = with_pairs(paired, truths);
-  EXPECT_EQ(with_pairs(round, truths).size(), truths.size());
-  ASSERT_EQ(int(all.size()), int(truths.size()) + causes);
-  EXPECT_EQ(all.back().packings, truths[truths.size() - 2].packings); // larger_cell + friction
-}
-
-TEST(Truths, RepeatsAreOtherSpecimens) {
-  for (const char *kind : {"one for all pressures", "one for each pressure"}) {
-    std::string text = kRound;
-    text.insert(text.find("samples"), std::string("repeats = 2\nspecimens = \"") + kind + "\"\n");
-    const Round round = round_of(text);
-    const std::vector<Truth> truths = draw_truths(round, "secret");
-    const Study study = truth_study(round, {truths[0]});
-    ASSERT_EQ(study.runs.size(), 2u * 3 * 2);
-    std::set<unsigned long> first, second;
-    for (std::size_t k = 0; k < 12; ++k)
-      (k < 6 ? first : second).insert(study.runs[k].recipe.seed);
-    const std::size_t packings = round.disc_for_each_pressure ? 6 : 3;
-    EXPECT_EQ(first.size(), packings);
-    EXPECT_EQ(second.size(), packings);
-    first.merge(second);
-    EXPECT_EQ(first.size(), 2 * packings);
-    EXPECT_NEAR(study.runs[7].settings.number("platen.max_pressure_MPa"),
-                50 * (1 + truths[0].pressure_error), 1e-3);
-  }
-}
-
-TEST(Truths, AnInterventionHasSamplesOfItsOwnBeforeIt) {
-  const std::string text =
-      kRound.substr(0, kRound.find("[noise]")) +
-      "interventions = [\"friction\", \"cohesion\", \"nothing\", \"half_time_step + friction\"]\n";
-  const Round round = round_of(text);
-  const std::vector<Truth> truths = draw_truths(round, "secret");
-  const std::vector<std::string> answers = {"friction", "unknown", "none", "friction"};
-  const std::size_t first = truths.size() - answers.size();
-  for (std::size_t k = 0; k < answers.size(); ++k) {
-    const Truth &after = truths[first + k];
-    EXPECT_EQ(after.block, kIntervention);
-    EXPECT_EQ(right_answer(after, round.bank), answers[k]);
-    const auto before = companion(round, after);
-    ASSERT_TRUE(before);
-    EXPECT_FALSE(has_cause(*before));
-    EXPECT_EQ(before->hidden.size(), k == 3 ? 1u : 0u); // the numerics are those of both
-    EXPECT_EQ(before->base, after.base);
-    EXPECT_EQ(before->pressure_error, after.pressure_error);
-    std::set<unsigned long> packings(after.packings.begin(), after.packings.end());
-    packings.insert(before->packings.begin(), before->packings.end());
-    EXPECT_EQ(packings.size(), 6u);
-  }
-  EXPECT_EQ(with_pairs(round, truths).size(), truths.size() + answers.size());
-  const Round same = round_of(text + "interventions_on = \"the same specimens\"\n");
-  const Truth last = draw_truths(same, "secret").back();
-  EXPECT_EQ(companion(same, last)->packings, last.packings);
-  // what a round without them draws does not change
-  const std::vector<Truth> others = draw_truths(round_of(kRound), "secret");
-  ASSERT_EQ(others.size(), first);
-  EXPECT_EQ(others.back().packings, truths[first - 1].packings);
-}
-
-// Intervals of 90 % hold 90 % of the truths only if truths are drawn from the whole prior.
-TEST(Truths, BaseParametersAreDrawnFromTheirPriors) {
-  const Round round = round_of(kRound);
-  int tails = 0, all = 0;
-  for (int k = 0; k < 100; ++k)
-    for (const Truth &t : draw_truths(round, std::to_string(k))) {
-      tails += t.base[0] < 150 + 0.05 * 250 || t.base[0] > 400 - 0.05 * 250;
-      ++all;
-    }
-  EXPECT_NEAR(double(tails) / all, 0.1, 4.0 * std::sqrt(0.09 / all));
-}
-
-TEST(Truths, MistakesOfARoundAreReported) {
-  try {
-    round_of("[round]\nbank = \"bank.toml\"\nnull_packings = 9\nnull_draws = 3\nopen = "
-             "[\"cohesin\"]\ninterventions = [\"noise\"]\n[noise]\nthickness_um = "
-             "-1\nunderstated_by = [4, 3]\n");
-    FAIL();
-  } catch (const Failure &e) {
-    const std::string message = e.what();
-    for (const char *part :
-         {"null_draws is 3, null_packings 9", "Did you mean 'cohesion'",
-          "interventions: 'noise' is no effect of the bank", "thickness_um is -1", "[least, most]"})
-      EXPECT_NE(message.find(part), std::string::npos) << part << "\nis not in\n" << message;
-  }
-}
-
-/// Three samples that scatter by 0.06 um in displacement and 0.03 in porosity; their means are
-/// 3 p / target and 0.43.
-PressedSamples pressed(double target) {
-  PressedSamples all;
-  for (const double off : {-0.06, 0.02, 0.04}) {
-    SimulatedRun s;
-    s.thickness_at_max = 14.0;
-    s.thickness_after = 16.0;
-    s.porosity_initial = 0.48;
-    s.porosity_after = 0.43 + 0.5 * off;
-    s.cracked_fraction = 0.5;
-    for (double p = 0.0; p <= 1.2 * target; p += 0.1) {
-      s.pressure.push_back(p);
-      s.displacement.push_back(3.0 * p / target + off);
-      s.release_pressure.push_back(p);
-      s.release_displacement.push_back(2.0 + p / target + off);
-    }
-    all.push_back(s);
-  }
-  return all;
-}
+using namespace calendem_test;
 
 Experiment handed(const Round &round, const Truth &truth, std::uint64_t seed) {
   const auto folder = std::filesystem::path(round.file).parent_path() / "out";
@@ -308,6 +57,67 @@ TEST(HandedOut, RepeatsAreSpecimensPressedAlike) {
   }
   EXPECT_NE(e.conditions[0].specimen, e.conditions[2].specimen);
   EXPECT_NEAR(sample_area_cm2(e) * 1e8, 3 * 36.0, 1e-3); // of one specimen
+}
+
+std::filesystem::path folder_to_seal(const Round &round) {
+  const auto folder = std::filesystem::path(round.file).parent_path();
+  std::filesystem::create_directories(folder / "sealed");
+  return folder;
+}
+
+// Samples of all repeats, with the cause and without it. Every thickness is another.
+TEST(HandedOut, EverySampleOfEveryRepeatIsSealedAlone) {
+  std::string text = kRound;
+  text.insert(text.find("samples"), "repeats = 2\n");
+  const Round round = round_of(text);
+  const auto thickness = [](bool with, std::size_t repeat, std::size_t pressure,
+                            std::size_t sample) {
+    return 10.0 + double(((with ? 0 : 2) + repeat) * 6 + pressure * 3 + sample); // um
+  };
+  PressedTruth single = {draw_truths(round, "secret")[2], {}, {}};
+  for (const bool with : {true, false})
+    for (std::size_t repeat = 0; repeat < 2; ++repeat)
+      for (std::size_t p = 0; p < 2; ++p) {
+        PressedSamples samples = pressed(round.bank.pressures[p]);
+        for (std::size_t k = 0; k < 3; ++k)
+          samples[k].thickness_at_max = thickness(with, repeat, p, k);
+        (with ? single.shown : single.without_cause).push_back(samples);
+      }
+  const auto folder = folder_to_seal(round);
+  seal_round(folder.string(), round, {single}, "secret");
+  const std::string alone = (folder / "sealed/samples/001/").string();
+  for (const bool with : {true, false})
+    for (std::size_t k = 0; k < 6; ++k) {
+      const Experiment e = read_experiment(alone + std::to_string(k) + (with ? "" : "_without") +
+                                           "/experiment.toml");
+      ASSERT_EQ(e.conditions.size(), 2u);
+      for (std::size_t p = 0; p < 2; ++p)
+        EXPECT_NEAR(e.conditions[p].thickness_at_max_um->value, thickness(with, k / 3, p, k % 3),
+                    6 * 0.05);
+    }
+  EXPECT_FALSE(std::filesystem::exists(alone + "6"));
+}
+
+// What did not change is measured twice.
+TEST(HandedOut, BothExperimentsOfAnInterventionHaveErrorsOfTheirOwn) {
+  const Round round =
+      round_of(kRound.substr(0, kRound.find("[noise]")) + "interventions = [\"nothing\"]\n");
+  const std::vector<PressedSamples> shown = {pressed(30), pressed(50)};
+  const auto folder = folder_to_seal(round);
+  seal_round(folder.string(), round, {{draw_truths(round, "secret").back(), shown, shown}},
+             "secret");
+  const auto conditions = [&](const char *when) {
+    return read_experiment((folder / "handed_out/001" / when / "experiment.toml").string())
+        .conditions;
+  };
+  const std::vector<Condition> before = conditions("before"), after = conditions("after");
+  ASSERT_EQ(before.size(), after.size());
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    const Measured &porosity = *before[k].porosity_after_percent;
+    EXPECT_NE(porosity.value, after[k].porosity_after_percent->value);
+    EXPECT_NEAR(porosity.value, after[k].porosity_after_percent->value, 8 * porosity.sd);
+    EXPECT_EQ(before[k].max_pressure_MPa->value, after[k].max_pressure_MPa->value);
+  }
 }
 
 TEST(HandedOut, CurvesAreThoseOfThePressTrueButForItsErrors) {

@@ -51,11 +51,36 @@ int stop_requested() { return received; }
 
 std::string this_program() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
 
+namespace {
+
+/// This program's environment with the child's own variables, each NAME=VALUE.
+std::vector<std::string> environment_of(const ChildProgram &child) {
+  std::vector<std::string> out;
+  for (const auto &[name, value] : child.environment)
+    out.push_back(name + "=" + value);
+  for (char **e = environ; *e; ++e) {
+    const std::string variable = *e, name = variable.substr(0, variable.find('='));
+    if (std::none_of(child.environment.begin(), child.environment.end(),
+                     [&](const auto &own) { return own.first == name; }))
+      out.push_back(variable);
+  }
+  return out;
+}
+
+/// As posix_spawn takes it; valid as long as the words are.
+std::vector<char *> pointers_to(const std::vector<std::string> &words) {
+  std::vector<char *> out;
+  for (const std::string &w : words)
+    out.push_back(const_cast<char *>(w.c_str()));
+  out.push_back(nullptr);
+  return out;
+}
+
+} // namespace
+
 pid_t start_child(const ChildProgram &child) {
-  std::vector<char *> argv;
-  for (const std::string &w : child.words)
-    argv.push_back(const_cast<char *>(w.c_str()));
-  argv.push_back(nullptr);
+  const std::vector<std::string> environment = environment_of(child);
+  const std::vector<char *> argv = pointers_to(child.words), envp = pointers_to(environment);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
@@ -68,7 +93,7 @@ pid_t start_child(const ChildProgram &child) {
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP); // 0: its own
   pid_t pid = 0;
-  const int error = posix_spawnp(&pid, argv[0], &actions, &attributes, argv.data(), environ);
+  const int error = posix_spawnp(&pid, argv[0], &actions, &attributes, argv.data(), envp.data());
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0)
@@ -143,12 +168,41 @@ std::vector<std::string> command_line(const LiggghtsJob &job) {
   return words;
 }
 
-pid_t start(const LiggghtsJob &job) {
-  if (geteuid() == 0) {
-    setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
-    setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+/// A folder for the temporary files of one mpirun. All runs of OpenMPI on a machine share one by
+/// default; a run that ends removes it if it sees no other run in it, and one that starts just then
+/// fails. TMPDIR gives way to a user's own orte_tmpdir_base, in whichever way that is set.
+class TemporaryFolder {
+public:
+  TemporaryFolder() {
+    std::error_code none;
+    const auto base = std::filesystem::temp_directory_path(none);
+    if (none)
+      return;
+    std::string path = (std::filesystem::absolute(base) / "calendem.XXXXXX").string();
+    if (mkdtemp(path.data()))
+      path_ = path;
   }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    if (!path_.empty())
+      std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder &) = delete;
+  TemporaryFolder &operator=(const TemporaryFolder &) = delete;
+
+  /// Empty if none could be made; mpirun then uses what it finds, as any other program does.
+  const std::string &path() const { return path_; }
+
+private:
+  std::string path_;
+};
+
+pid_t start(const LiggghtsJob &job, const std::string &temporary) {
   ChildProgram mpirun;
+  if (geteuid() == 0)
+    mpirun.environment = {{"OMPI_ALLOW_RUN_AS_ROOT", "1"}, {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"}};
+  if (!temporary.empty())
+    mpirun.environment.emplace_back("TMPDIR", temporary);
   mpirun.words = command_line(job);
   mpirun.output = job.screen;
   // the host writes a forced restart file into its working folder when it is asked to stop
@@ -237,8 +291,9 @@ void run_liggghts(const LiggghtsJob &job, const std::function<void()> &tick) {
   if (const std::string wrong = wrong_program(job.program); !wrong.empty())
     throw Failure(kBadInput, wrong);
   const StopRequests while_it_runs;
+  const TemporaryFolder temporary;
   int status = 0;
-  const std::string stopped = wait_for(start(job), job, status, tick);
+  const std::string stopped = wait_for(start(job, temporary.path()), job, status, tick);
   if (!stopped.empty())
     throw Failure(kSimulationFailed, stopped);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)

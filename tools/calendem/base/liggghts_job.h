@@ -37,6 +37,8 @@ struct ChildProgram {
   bool append = false;            ///< to the end of that file
   std::string folder;             ///< its working folder; empty: this program's
   std::string remedy;             ///< what to do if it cannot be started
+  /// Variables of its environment, NAME and value; the others are this program's.
+  std::vector<std::pair<std::string, std::string>> environment;
 };
 
 /// Starts the program with an empty input, in a process group of its own: a terminal's Ctrl-C
@@ -71,8 +73,9 @@ std::string wrong_program(const std::string &program);
 std::string wrong_path(const std::string &path);
 
 /// Runs the job; calls `tick` about twice a second meanwhile. SIGINT, SIGTERM and SIGHUP are passed
-/// on. Throws Failure(3) with LIGGGHTS's own error if it fails or is stopped, Failure(2) if it
-/// cannot be started.
+/// on. mpirun and its ranks have a folder of their own in the folder for temporary files (TMPDIR),
+/// which is removed at the end. Throws Failure(3) with LIGGGHTS's own error if it fails or is
+/// stopped, Failure(2) if it cannot be started.
 void run_liggghts(const LiggghtsJob &job, const std::function<void()> &tick);
 
 } // namespace calendem
