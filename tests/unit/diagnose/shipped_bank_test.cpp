@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <map>
+#include <tuple>
 
 namespace {
 
@@ -130,6 +132,39 @@ TEST(ShippedBank, EffectsAtTwiceTheirDetectionLimitAreNamed) {
   }
   EXPECT_EQ(visible, 13); // of 15
   RecordProperty("held_back", held_back);
+}
+
+// The wide table is of the same films: a row of its design each, and at 80 and 150 MPa those of the other table.
+TEST(ShippedBank, TheWideTableHoldsTheRunsOfItsDesign) {
+  const std::string folder = CALENDEM_SOURCE_DIR "/input_scripts/cases/bank/";
+  const BankSpec spec = read_bank_spec(folder + "wide.toml");
+  const BankTable wide = read_bank_table(spec, folder + "wide.csv"),
+                  other =
+                      read_bank_table(read_bank_spec(folder + "bank.toml"), folder + "bank.csv");
+  std::map<std::pair<std::string, int>, BankPoint> designed;
+  for (const BankPoint &p : bank_points(spec))
+    designed[{p.effect, p.base_point}] = p;
+  std::map<std::tuple<std::string, int, double>, const BankRow *> shared;
+  for (const BankRow &row : other.rows)
+    shared[{row.point.effect, row.point.base_point, row.run.target}] = &row;
+  int films = 0, of_other = 0;
+  for (const BankRow &row : wide.rows) {
+    if (row.point.effect == kFullCell)
+      continue;
+    const BankPoint &p = designed.at({row.point.effect, row.point.base_point});
+    EXPECT_EQ(row.point.base, p.base);
+    EXPECT_EQ(row.point.packing, p.packing);
+    EXPECT_EQ(row.point.value, p.value);
+    films += row.run.target == 300.0;
+    const auto same = shared.find({row.point.effect, row.point.base_point, row.run.target});
+    if (same != shared.end()) {
+      EXPECT_EQ(row.run.displacement, same->second->run.displacement);
+      EXPECT_EQ(row.run.porosity_after, same->second->run.porosity_after);
+      ++of_other;
+    }
+  }
+  EXPECT_EQ(films, 198); // of 200: two of NMC plasticity did not reach 300 MPa
+  EXPECT_EQ(of_other, 400);
 }
 
 } // namespace
