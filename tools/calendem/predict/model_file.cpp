@@ -236,6 +236,31 @@ Json to_json(const FilmBank &bank, const Calibration &c, const std::vector<LeftO
           {"provenance", {{"calendem", version()}, {"hashes", "64-bit FNV-1a"}}}};
 }
 
+namespace {
+
+template <class Value>
+double middle_of(const std::vector<const Draw *> &draws, const Value &value) {
+  std::vector<double> values;
+  for (const Draw *d : draws)
+    values.push_back(value(*d));
+  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2),
+                   values.end());
+  return values[values.size() / 2];
+}
+
+/// Empty where the bank takes the nanoporosity for known.
+std::string nanoporosity_line(const FilmBank &bank, const std::vector<const Draw *> &draws,
+                              std::size_t material) {
+  if (bank.spec().nanoporosity_within <= 0.0)
+    return "";
+  const double points =
+      middle_of(draws, [&](const Draw &d) { return d.materials[material].parameters.back(); });
+  return fmt::format("# In the recipe: cbd.nanoporosity_percent {:.1f} {}\n", std::fabs(points),
+                     points < 0.0 ? "lower" : "higher");
+}
+
+} // namespace
+
 std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_those) {
   const auto best = std::max_element(c.hypotheses.begin(), c.hypotheses.end(),
                                      [&](const Weighed &a, const Weighed &b) {
@@ -246,14 +271,7 @@ std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_t
   for (const Draw &d : c.draws)
     if (effects_of(d.materials[of_those]) == effects)
       of.push_back(&d);
-  const auto middle = [&](const auto &value) {
-    std::vector<double> values;
-    for (const Draw *d : of)
-      values.push_back(value(*d));
-    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2),
-                     values.end());
-    return values[values.size() / 2];
-  };
+  const auto middle = [&](const auto &value) { return middle_of(of, value); };
   std::map<std::string, std::string> tables; // lines by table
   const auto add_text = [&](const std::string &key, const std::string &value) {
     const std::string bare = key.rfind("case.", 0) == 0 ? key.substr(5) : key;
@@ -272,13 +290,7 @@ std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_t
       for (const std::string &key : p.keys)
         add(key, value);
     }
-  std::string of_recipe;
-  if (bank.spec().nanoporosity_within > 0.0) {
-    const double points =
-        middle([&](const Draw &d) { return d.materials[of_those].parameters[material]; });
-    of_recipe += fmt::format("# In the recipe: cbd.nanoporosity_percent {:.1f} {}\n",
-                             std::fabs(points), points < 0.0 ? "lower" : "higher");
-  }
+  std::string of_recipe = nanoporosity_line(bank, of, of_those);
   const Settings of_bank = read_case(bank.spec().case_file);
   for (std::size_t k = 0; k < effects.size(); ++k) {
     const Effect effect = find_effect(bank.effects()[std::size_t(effects[k])].name);
