@@ -57,7 +57,7 @@ namespace {
 std::vector<std::string> environment_of(const ChildProgram &child) {
   std::vector<std::string> out;
   for (const auto &[name, value] : child.environment)
-    out.push_back(name + "=" + value);
+    out.push_back(fmt::format("{}={}", name, value));
   for (char **e = environ; *e; ++e) {
     const std::string variable = *e, name = variable.substr(0, variable.find('='));
     if (std::none_of(child.environment.begin(), child.environment.end(),
