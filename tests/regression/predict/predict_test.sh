@@ -18,7 +18,7 @@ done
 grep -q "p006: its pressure is not known, or outside" calibrate.log || fail "what is left out is not reported"
 grep -q "nmc_plasticity + cbd_collapse" calibrate.log || fail "a pair of effects is no hypothesis"
 calendem validate model/case.toml || fail "the calibrated case is none"
-grep -q "^# In the recipe: cbd.nanoporosity_percent .* lower" model/case.toml || fail "the case does not say which nanoporosity"
+grep -qE "^# In the recipe: cbd.nanoporosity_percent [0-9.]+ (lower|higher)$" model/case.toml || fail "the case does not say which nanoporosity"
 
 cat >film.toml <<'END'
 name = "film"

@@ -162,7 +162,7 @@ std::vector<CoveredCondition> covered_conditions(const Experiment &e, const Bank
     const double p = c.max_pressure_MPa->value;
     if (p < 0.98 * spec.pressures.front() || p > 1.02 * spec.pressures.back()) {
       not_said.push_back(fmt::format("{}: {:g} MPa lies outside the bank's {:g} to {:g} MPa; the "
-                                     "condition is left out.",
+                                     "condition is left out. Another bank may reach it (--bank).",
                                      c.id, p, spec.pressures.front(), spec.pressures.back()));
       continue;
     }

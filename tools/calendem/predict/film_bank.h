@@ -122,8 +122,8 @@ private:
   /// included; and what to multiply with.
   struct Alike {
     Film film;
-    double solids = 1.0;   ///< its solid parts per film's
-    double collapse = 1.0; ///< what nanopores can lose, film's per its own
+    double solids = 1.0;   ///< volume of solids, the other's per its own
+    double collapse = 1.0; ///< volume that the nanopores can lose, the other's per its own
   };
 
   inference::Vector input(const Film &film, const Material &material) const;

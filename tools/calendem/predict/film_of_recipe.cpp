@@ -171,8 +171,9 @@ FilmBank::Alike FilmBank::alike(const Film &film, double nanoporosity) const {
       out.film.recipe[k] = 100.0 - (100.0 - film.recipe[k]) / out.solids;
     else if (is_composition(bare_of(key)))
       out.film.recipe[k] *= more / (1.0 - weight + more * weight);
-  out.collapse =
-      std::max(0.0, nanoporosity - floor_nanoporosity_) / (of_bank - floor_nanoporosity_);
+  if (of_bank > floor_nanoporosity_)
+    out.collapse =
+        std::max(0.0, nanoporosity - floor_nanoporosity_) / (of_bank - floor_nanoporosity_);
   return out;
 }
 
