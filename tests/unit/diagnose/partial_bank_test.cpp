@@ -149,6 +149,15 @@ TEST(PartialBank, AFurtherPressureIsLearntFromThePointsThatWentThere) {
   EXPECT_LT(std::sqrt(its_variance + variance), 0.3);
 }
 
+// Where no next measurement is asked for, what runs lack of one is no mistake of the bank.
+TEST(PartialBank, AModelNeedsWhatWasMeasuredOnly) {
+  const ExperimentData data = data_of(made_experiment(kTruth), with_runs_to(120.0, 6), {});
+  EXPECT_NO_THROW(inference::Model(data.bank, data.experiment, {}));
+  const Diagnosed d = diagnosed_change(made_experiment({"", 0, 98, {1.5, 250.0}, 0.0}),
+                                       made_experiment(kTruth), with_runs_to(120.0, 6), 100.0);
+  EXPECT_EQ(d.gap["which"]["claim"], "friction");
+}
+
 // 90 MPa lies between runs to 60 and 120: ln(1.5) ln(4/3) x 0.7 points; 60 MPa is a run's own.
 TEST(PartialBank, InterpolationIsAnErrorOfItsOwn) {
   const BankTable table = with_runs_to(120.0, 6);

@@ -9,15 +9,13 @@ namespace {
 
 constexpr double kLength = 0.3, kCommon = 0.5, kRough = 0.1; // of the unknown
 
-/// Those of the candidates that the experiment does not have.
-std::vector<int> only_of(const std::vector<Candidate> &candidates, const Bank &bank,
-                         const std::vector<ObservableId> &experiment) {
+/// Observables of the bank that the experiment does not have.
+std::vector<int> others_of(const Bank &bank, const std::vector<ObservableId> &experiment) {
   const std::vector<int> own = places_in(bank.observables, experiment);
   std::vector<int> out;
-  for (const Candidate &c : candidates)
-    for (const int k : places_in(bank.observables, c.of))
-      if (std::find(own.begin(), own.end(), k) == own.end())
-        out.push_back(k);
+  for (int k = 0; k < int(bank.observables.size()); ++k)
+    if (std::find(own.begin(), own.end(), k) == own.end())
+      out.push_back(k);
   return out;
 }
 
@@ -97,7 +95,7 @@ Model::Model(const Bank &bank, const ObservableVector &experiment, const ModelSe
     : observables_(experiment.of), effects_(bank.effects), settings_(settings),
       measurement_(experiment.covariance), base_parameters_(int(bank.base.size())) {
   check(experiment);
-  check(bank, only_of(candidates, bank, observables_));
+  check(bank, others_of(bank, observables_));
   const Matrix values = values_of(bank, places_in(bank.observables, observables_));
   sd_ = (measurement_.diagonal() + left_by_line(bank, values) / settings.packings_in_sample)
             .cwiseSqrt();
