@@ -40,7 +40,7 @@ TEST(ExperimentData, PressureOfTheBankTakesItsRunAndOneBetweenIsInterpolated) {
   EXPECT_EQ(porosity(30.0), low);
   EXPECT_EQ(porosity(29.5), low); // within 2 %
   EXPECT_EQ(porosity(60.0), high);
-  EXPECT_NEAR(porosity(40.0), low + (high - low) / 3.0, 1e-12);
+  EXPECT_NEAR(porosity(40.0), low + (high - low) * std::log(4.0 / 3.0) / std::log(2.0), 1e-12);
 }
 
 TEST(ExperimentData, ConditionsThatTheBankLacksAreReported) {

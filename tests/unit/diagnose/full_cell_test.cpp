@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/bank_points.h"
 #include "support/test_folder.h"
+#include <cmath>
 #include <fstream>
 
 namespace {
@@ -37,7 +38,7 @@ struct Films {
     }
     Observable o;
     o.simulated = [](const SimulatedRun &r) { return r.porosity_after; };
-    covered = {{Condition{}, 150.0, {o}}};
+    covered = {{Condition{}, 150.0, {o}, 1, {150.0}}};
   }
 };
 
@@ -73,6 +74,42 @@ TEST(FullCell, AnotherElectrodeIsShiftedByAllOfTheDifference) {
   EXPECT_NEAR(t.change[0], -0.05, 1e-15);
   EXPECT_NEAR(t.covariance(0, 0), 3e-4, 1e-15);
   EXPECT_NE(reported.at(0).find("of another electrode"), std::string::npos);
+}
+
+// A condition that the full cell was not run for has no value: as it is, it would be another film's.
+TEST(FullCell, WhatTheFullCellWasNotRunForIsNotKnown) {
+  std::vector<std::string> reported;
+  Films f(18.0);
+  f.covered.push_back(f.covered[0]);
+  f.covered[1].pressure = 300.0;
+  f.covered[1].runs = {300.0};
+  for (const int point : {0, 1}) {
+    BankRow row = f.bank.rows[std::size_t(point)];
+    row.run.target = 300.0;
+    f.bank.rows.push_back(row);
+  }
+  const FullCellChange t = full_cell_change(f.experiment, f.bank, f.covered, reported);
+  EXPECT_NEAR(t.change[0], -0.05, 1e-15);
+  EXPECT_NEAR(t.covariance(0, 0), 3e-4, 1e-15);
+  EXPECT_TRUE(std::isnan(t.change[1]));
+  const Films own(6.0);
+  EXPECT_EQ(full_cell_change(own.experiment, f.bank, f.covered, reported).change[1], 0.0);
+}
+
+// Wherever the condition's own runs went: between those of the full cell.
+TEST(FullCell, BetweenItsPressuresTheShiftIsInterpolated) {
+  std::vector<std::string> reported;
+  Films f(18.0);
+  for (const BankRow &at_150 : std::vector<BankRow>(f.bank.rows)) {
+    BankRow row = at_150;
+    row.run.target = 300.0;
+    row.run.porosity_after -= row.point.effect == kFullCell ? 0.02 : 0.0;
+    f.bank.rows.push_back(row);
+  }
+  f.covered[0].pressure = std::sqrt(150.0 * 300.0); // half-way in ln p
+  f.covered[0].runs = {f.covered[0].pressure};
+  const FullCellChange t = full_cell_change(f.experiment, f.bank, f.covered, reported);
+  EXPECT_NEAR(t.change[0], -0.06, 1e-12);
 }
 
 TEST(FullCell, OnePointIsTooFew) {

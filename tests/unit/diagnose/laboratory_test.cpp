@@ -79,7 +79,7 @@ public:
     std::string text = fmt::format("[experiment]\nname = \"laboratory\"\nelectrode = \"{}\"\n"
                                    "sample_diameter_mm = 11\n",
                                    bank().spec.recipe_file);
-    for (const double pressure : bank().spec.pressures)
+    for (const double pressure : {80.0, 150.0})
       for (int k = 0; k < kSpecimens; ++k) {
         SimulatedRun run = run_to(pressure);
         change(run);

@@ -131,7 +131,8 @@ std::vector<GaussianProcess> correlated(int runs, int each, std::vector<int> &pa
 TEST(PooledScatter, IsTheCovarianceOfThePackings) {
   for (const int each : {1, 3}) {
     std::vector<int> packing;
-    const Scatter s = pooled_scatter(correlated(90, each, packing), packing);
+    const std::vector<GaussianProcess> all = correlated(90, each, packing);
+    const Scatter s = pooled_scatter(all, residuals_of(all), packing);
     const double n = each == 1 ? s.degrees_of_freedom : 29.0;
     const Vector sd = s.covariance.diagonal().cwiseSqrt();
     for (int f = 0; f < 3; ++f)
@@ -164,7 +165,7 @@ TEST(PooledScatter, RunsOfOnePackingMayScatterTogether) {
     t.values = response + of_run.row(f).transpose();
     all.emplace_back(t);
   }
-  const Scatter s = pooled_scatter(all, t.packing);
+  const Scatter s = pooled_scatter(all, residuals_of(all), t.packing);
   EXPECT_NEAR(std::sqrt(s.covariance(0, 0)), 0.3, 3.0 * 0.3 / std::sqrt(2.0 * 55.0));
   const double correlation =
       s.covariance(0, 1) / std::sqrt(s.covariance(0, 0) * s.covariance(1, 1));

@@ -5,45 +5,128 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <optional>
 
 namespace calendem {
 
 using inference::Vector;
+
+const BankRow *run_to(double pressure, const PointRuns &runs) {
+  for (const BankRow *row : runs)
+    if (same_pressure(row->run.target, pressure))
+      return row;
+  return nullptr;
+}
+
 namespace {
 
 /// The point's run to a condition's pressure; `see` is how its press shows it.
-SimulatedRun run_at(const PointRuns &runs, double pressure, const Shows &see) {
-  for (std::size_t k = 0; k < runs.size(); ++k)
-    if (std::fabs(runs[k]->run.target - pressure) <= 0.02 * pressure)
-      return see(runs[k]->run);
-  for (std::size_t k = 1; k < runs.size(); ++k)
-    if (runs[k]->run.target > pressure)
-      return see(between_runs(runs[k - 1]->run, runs[k]->run, pressure));
-  return see(runs.back()->run);
+std::optional<SimulatedRun> run_at(const PointRuns &runs, const CoveredCondition &c,
+                                   const Shows &see) {
+  if (c.runs.empty())
+    return std::nullopt;
+  const BankRow *lower = run_to(c.runs.front(), runs), *upper = run_to(c.runs.back(), runs);
+  if (!lower || !upper)
+    return std::nullopt;
+  return see(lower == upper ? lower->run : between_runs(lower->run, upper->run, c.pressure));
+}
+
+SimulatedRun as_it_is(const SimulatedRun &run) { return run; }
+
+/// By effect and number of the base point.
+using Points = std::map<std::pair<std::string, int>, PointRuns>;
+
+Points points_of_cell(const BankTable &table) {
+  Points points;
+  for (const BankRow &row : table.rows)
+    if (row.point.effect != kFullCell)
+      points[{row.point.effect, row.point.base_point}].push_back(&row);
+  for (auto &[key, runs] : points)
+    std::sort(runs.begin(), runs.end(),
+              [](const BankRow *a, const BankRow *b) { return a->run.target < b->run.target; });
+  return points;
+}
+
+/// To which any of them was run, increasing.
+std::vector<double> pressures_of(const std::string &effect, const BankTable &table) {
+  std::vector<double> out;
+  for (const BankRow &row : table.rows)
+    if (row.point.effect == effect)
+      out.push_back(row.run.target);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end(), same_pressure), out.end());
+  return out;
+}
+
+bool went_to(double pressure, const Points &points, const std::string &effect, int base_point) {
+  const auto at = points.find({effect, base_point});
+  return at != points.end() && run_to(pressure, at->second);
+}
+
+/// Points of each effect, and of the base model, that went there beside a base point that did.
+std::map<std::string, int> count_to(double pressure, const Points &points) {
+  std::map<std::string, int> count;
+  for (const auto &[key, runs] : points)
+    count[key.first] += run_to(pressure, runs) && went_to(pressure, points, "", key.second);
+  return count;
 }
 
 } // namespace
 
-std::vector<PointRuns> points_of(const BankTable &table, std::vector<std::string> &not_said) {
-  std::map<std::pair<std::string, int>, PointRuns> points;
-  for (const BankRow &row : table.rows)
-    if (row.point.effect != kFullCell)
-      points[{row.point.effect, row.point.base_point}].push_back(&row);
-  std::vector<PointRuns> out;
-  const auto whole = [&](const std::string &effect, int base_point) {
-    const auto at = points.find({effect, base_point});
-    return at != points.end() && at->second.size() == table.spec.pressures.size();
-  };
-  for (auto &[key, runs] : points) {
-    std::sort(runs.begin(), runs.end(),
-              [](const BankRow *a, const BankRow *b) { return a->run.target < b->run.target; });
-    if (whole(key.first, key.second) && whole("", key.second))
-      out.push_back(runs);
+std::vector<double> pressures_learnt(const BankTable &table, bool with_effects) {
+  const Points points = points_of_cell(table);
+  const std::vector<double> pressures = pressures_of("", table);
+  std::map<std::string, int> most;
+  for (const double p : pressures)
+    for (const auto &[effect, n] : count_to(p, points))
+      most[effect] = std::max(most[effect], n);
+  std::vector<double> out;
+  for (const double p : pressures) {
+    const auto count = count_to(p, points);
+    const bool enough = std::all_of(count.begin(), count.end(), [&](const auto &of) {
+      const int fewest =
+          inference::kFewestRuns + (of.first.empty() ? int(table.spec.parameters.size()) : 0);
+      return of.second >= std::min(fewest, most[of.first]) || (!of.first.empty() && !with_effects);
+    });
+    if (enough)
+      out.push_back(p);
   }
+  return out;
+}
+
+std::vector<double> beside(double pressure, const std::vector<double> &pressures) {
+  for (const double p : pressures)
+    if (same_pressure(pressure, p))
+      return {p};
+  for (std::size_t k = 1; k < pressures.size(); ++k)
+    if (pressures[k - 1] < pressure && pressure < pressures[k])
+      return {pressures[k - 1], pressures[k]};
+  return {};
+}
+
+std::vector<double> runs_for(const std::vector<CoveredCondition> &all) {
+  std::vector<double> out;
+  for (const CoveredCondition &c : all)
+    out.insert(out.end(), c.runs.begin(), c.runs.end());
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+std::vector<PointRuns> points_of(const BankTable &table, const std::vector<double> &pressures,
+                                 std::vector<std::string> &not_said) {
+  const Points points = points_of_cell(table);
+  std::vector<PointRuns> out;
+  for (const auto &[key, runs] : points)
+    if (std::all_of(pressures.begin(), pressures.end(), [&, &of = key](double p) {
+          return went_to(p, points, of.first, of.second) && went_to(p, points, "", of.second);
+        }))
+      out.push_back(runs);
   if (out.size() < points.size())
-    not_said.push_back(fmt::format("{} of the bank's {} points lack a run, or that of their base "
-                                   "point, and are left out.",
-                                   points.size() - out.size(), points.size()));
+    not_said.push_back(fmt::format("{} of the bank's {} points lack a run to {:g} MPa, or their "
+                                   "base point does, and are left out.",
+                                   points.size() - out.size(), points.size(),
+                                   fmt::join(pressures, " or ")));
   return out;
 }
 
@@ -51,9 +134,9 @@ Vector values_of(const std::vector<CoveredCondition> &all, const PointRuns &runs
                  const Shows &see) {
   std::vector<double> values;
   for (const CoveredCondition &c : all) {
-    const SimulatedRun run = run_at(runs, c.pressure, see);
+    const std::optional<SimulatedRun> run = run_at(runs, c, see);
     for (const Observable &o : c.observables)
-      values.push_back(o.simulated(run));
+      values.push_back(run ? o.simulated(*run) : NAN);
   }
   return Eigen::Map<Vector>(values.data(), Eigen::Index(values.size()));
 }
@@ -61,9 +144,9 @@ Vector values_of(const std::vector<CoveredCondition> &all, const PointRuns &runs
 double film_ratio(const Experiment &experiment, const BankTable &bank) {
   double sum = 0.0;
   int n = 0;
-  for (const BankRow &row : bank.rows)
-    if (row.point.effect.empty()) {
-      sum += row.run.solid_column;
+  for (const auto &[key, runs] : points_of_cell(bank))
+    if (key.first.empty()) {
+      sum += runs.front()->run.solid_column;
       ++n;
     }
   return sum / n / solid_thickness_um(experiment, experiment.recipe.loading);
@@ -79,8 +162,8 @@ Vector mean_of_base(const std::vector<CoveredCondition> &all, const std::vector<
       int n = 0;
       for (const PointRuns &runs : points)
         if (derivative && runs.front()->point.effect.empty()) {
-          const double slope =
-              derivative(run_at(runs, c.pressure, [](const SimulatedRun &r) { return r; }));
+          const std::optional<SimulatedRun> run = run_at(runs, c, as_it_is);
+          const double slope = run ? derivative(*run) : NAN;
           sum += std::isfinite(slope) ? slope : 0.0; // NaN: the run ends before that pressure
           n += std::isfinite(slope);
         }
@@ -144,7 +227,7 @@ Matrix shown_by(const std::vector<PointRuns> &points, const CoveredCondition &co
                 std::vector<PointRuns> &whole) {
   Matrix all(Eigen::Index(points.size()), Eigen::Index(covered.observables.size()));
   for (const PointRuns &p : points) {
-    const Vector values = values_of({covered}, p, [](const SimulatedRun &r) { return r; });
+    const Vector values = values_of({covered}, p, as_it_is);
     if (!values.allFinite())
       continue;
     all.row(Eigen::Index(whole.size())) = values.transpose();
@@ -191,7 +274,7 @@ namespace {
 std::vector<Observable> reached(const std::vector<PointRuns> &points, const CoveredCondition &c) {
   std::vector<int> lacking(c.observables.size(), 0);
   for (const PointRuns &p : points) {
-    const Vector values = values_of({c}, p, [](const SimulatedRun &r) { return r; });
+    const Vector values = values_of({c}, p, as_it_is);
     for (std::size_t k = 0; k < lacking.size(); ++k)
       lacking[k] += !std::isfinite(values[Eigen::Index(k)]);
   }
@@ -208,7 +291,6 @@ std::vector<inference::PointNoise> point_noise_of(const Experiment &e, const Ban
                                                   double cells,
                                                   std::vector<std::string> &not_said) {
   std::vector<std::string> reported; // with the rest of what the bank lacks
-  const std::vector<PointRuns> points = points_of(table, reported);
   std::vector<inference::PointNoise> out;
   for (CoveredCondition &c : covered_conditions(e, table, {}, reported)) {
     c.observables = release_rows(e, c.condition);
@@ -221,6 +303,7 @@ std::vector<inference::PointNoise> point_noise_of(const Experiment &e, const Ban
       continue;
     }
     const std::size_t given = c.observables.size();
+    const std::vector<PointRuns> points = points_of(table, c.runs, reported);
     c.observables = reached(points, c);
     std::vector<PointRuns> whole;
     if (c.observables.size() >= kFewestRows) {
@@ -238,6 +321,28 @@ std::vector<inference::PointNoise> point_noise_of(const Experiment &e, const Ban
   return out;
 }
 
+namespace {
+
+/// Of one observable: the mean of its changes, and what each is off it, so that the sum of their
+/// squares is the variance of a further one about the mean.
+void set_change(const std::vector<Vector> &changes, Eigen::Index observable, double &mean,
+                Matrix &off) {
+  double sum = 0.0, n = 0.0;
+  for (const Vector &c : changes)
+    if (std::isfinite(c[observable])) {
+      sum += c[observable];
+      n += 1.0;
+    }
+  mean = n < 2.0 ? NAN : sum / n;
+  if (n < 2.0)
+    return;
+  for (std::size_t k = 0; k < changes.size(); ++k)
+    if (const double change = changes[k][observable]; std::isfinite(change))
+      off(observable, Eigen::Index(k)) = std::sqrt((1.0 + 1.0 / n) / (n - 1.0)) * (change - mean);
+}
+
+} // namespace
+
 FullCellChange full_cell_change(const Experiment &e, const BankTable &bank,
                                 const std::vector<CoveredCondition> &all,
                                 std::vector<std::string> &not_said) {
@@ -245,11 +350,15 @@ FullCellChange full_cell_change(const Experiment &e, const BankTable &bank,
   for (const BankRow &row : bank.rows)
     if (row.point.effect.empty() || row.point.effect == kFullCell)
       runs[row.point.base_point][row.point.effect].push_back(&row);
-  const auto as_it_is = [](const SimulatedRun &r) { return r; };
+  const std::vector<double> pressures = pressures_of(kFullCell, bank);
+  std::vector<CoveredCondition> here = all;
+  for (CoveredCondition &c : here)
+    c.runs = beside(c.pressure, pressures);
   std::vector<Vector> changes;
   for (auto &[point, of] : runs)
-    if (of[kFullCell].size() == bank.spec.pressures.size() && of[kFullCell].size() == of[""].size())
-      changes.push_back(values_of(all, of[kFullCell], as_it_is) - values_of(all, of[""], as_it_is));
+    if (!of[kFullCell].empty() && !of[""].empty())
+      changes.push_back(values_of(here, of[kFullCell], as_it_is) -
+                        values_of(here, of[""], as_it_is));
   if (changes.size() < 2)
     return {};
   const double small = read_recipe(bank.spec.recipe_file).loading,
@@ -259,12 +368,10 @@ FullCellChange full_cell_change(const Experiment &e, const BankTable &bank,
     return {};
   const double share =
       other ? 1.0 : (1.0 / small - 1.0 / e.recipe.loading) / (1.0 / small - 1.0 / full);
-  const double n = double(changes.size());
-  Matrix d(changes[0].size(), Eigen::Index(changes.size()));
-  for (std::size_t k = 0; k < changes.size(); ++k)
-    d.col(Eigen::Index(k)) = changes[k];
-  const Vector mean = d.rowwise().mean();
-  d.colwise() -= mean;
+  Vector mean = Vector::Zero(changes[0].size());
+  Matrix off = Matrix::Zero(mean.size(), Eigen::Index(changes.size()));
+  for (Eigen::Index i = 0; i < mean.size() && share != 0.0; ++i)
+    set_change(changes, i, mean[i], off);
   if (other)
     not_said.push_back(fmt::format(
         "The bank's runs are of another electrode: shifted by what {} runs of this one differ by; "
@@ -275,7 +382,7 @@ FullCellChange full_cell_change(const Experiment &e, const BankTable &bank,
         "The bank's cell carries {:g} mg/cm2, the sample {:g}: its runs are shifted by {:.0f} % of "
         "what {} runs of {:g} mg/cm2 differ by; how well that is known counts as uncertainty.",
         small, e.recipe.loading, 100.0 * share, changes.size(), full));
-  return {share * mean, share * share * (1.0 + 1.0 / n) / (n - 1.0) * d * d.transpose()};
+  return {share * mean, share * share * off * off.transpose()};
 }
 
 } // namespace calendem

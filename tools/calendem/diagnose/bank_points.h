@@ -8,6 +8,7 @@
 #include "diagnose/compare/observables.h"
 #include "diagnose/inference/numerics.h"
 #include "diagnose/inference/problem.h"
+#include <cmath>
 
 namespace calendem {
 
@@ -19,9 +20,24 @@ struct CoveredCondition {
   double pressure; ///< MPa
   std::vector<Observable> observables;
   int specimens = 1; ///< of which these are means
+  /// Where the bank's runs for it went [MPa]: to its pressure, or to one below and one above.
+  std::vector<double> runs = {};
 };
 
-/// The conditions named in `wanted` (all if it is empty) whose pressure the bank reaches. What is
+/// Pressures closer than this share of them are the same.
+constexpr double kSamePressure = 0.02;
+inline bool same_pressure(double a, double b) { return std::fabs(a - b) <= kSamePressure * b; }
+
+/// Pressures to which enough points of the bank were run to learn from them [MPa]: of the base model
+/// and of every effect, or if not `with_effects` of the base model. Enough are as many as can be
+/// learnt from, or all there are.
+std::vector<double> pressures_learnt(const BankTable &table, bool with_effects);
+
+/// Of `pressures` (increasing) the same one, or those next to it on either side; none outside.
+std::vector<double> beside(double pressure, const std::vector<double> &pressures);
+
+/// The conditions named in `wanted` (all if it is empty) whose pressure the bank reaches, by runs to
+/// pressures that every effect can be learnt at, if there are such on either side. What is
 /// left out, and why, is reported in `not_said`. A sample of unknown loading has the recipe's
 /// within 3 % where the bank's film carries another: micrometres of one film say nothing of
 /// another.
@@ -38,8 +54,8 @@ struct Further {
 };
 
 /// Those that the table can predict: each kind on the covered conditions that lack it, and
-/// porosities after the bank's other pressures, whose uncertainty is that of the others. The
-/// pressure's error counts as independent of that in what was measured already.
+/// porosities after the bank's other pressures with effects, whose uncertainty is that of the
+/// others. The pressure's error counts as independent of that in what was measured already.
 std::vector<Further> further_measurements(const Experiment &experiment, const BankTable &table,
                                           const std::vector<CoveredCondition> &covered);
 
@@ -49,12 +65,19 @@ using PointRuns = std::vector<const BankRow *>;
 /// How a press shows a run.
 using Shows = std::function<SimulatedRun(const SimulatedRun &)>;
 
-/// Points that have all their runs, beside a base point that has. The number left out is reported
-/// in `not_said`. The rows stay the table's.
-std::vector<PointRuns> points_of(const BankTable &table, std::vector<std::string> &not_said);
+/// Points that were run to all of `pressures`, beside a base point that was, with all their runs.
+/// The number left out is reported in `not_said`. The rows stay the table's.
+std::vector<PointRuns> points_of(const BankTable &table, const std::vector<double> &pressures,
+                                 std::vector<std::string> &not_said);
 
-/// Values of all observables at one point; NaN where a run does not have it. A pressure between
-/// two runs' is interpolated.
+/// The run to that pressure; null: there is none.
+const BankRow *run_to(double pressure, const PointRuns &runs);
+
+/// Pressures of the runs that the conditions need, increasing.
+std::vector<double> runs_for(const std::vector<CoveredCondition> &all);
+
+/// Values of all observables at one point; NaN where it has no run for the condition, or the run
+/// does not have it. A pressure between two runs' is interpolated.
 inference::Vector values_of(const std::vector<CoveredCondition> &all, const PointRuns &runs,
                             const Shows &see);
 
@@ -92,7 +115,8 @@ struct FullCellChange {
 /// Mean of runs of the same parameters on the full cell less those on the bank's, and what a
 /// further one would scatter about it. A film is more porous at its faces, in layers that do not
 /// grow with it: the change goes with 1 / loading, and is 0 for a sample of the bank's own loading.
-/// None with fewer than two points. What is done is reported in `not_said`.
+/// None with fewer than two points; NaN for what fewer than two of them have. What is done is
+/// reported in `not_said`.
 FullCellChange full_cell_change(const Experiment &experiment, const BankTable &bank,
                                 const std::vector<CoveredCondition> &all,
                                 std::vector<std::string> &not_said);

@@ -14,11 +14,8 @@ namespace calendem {
 
 namespace {
 
-constexpr double kSamePressure = 0.02; // of it
 constexpr double kOtherFilm = 0.1;     // of the film: more than a bank varies it
 constexpr double kLoadingKnown = 0.03; // of a loading that nobody measured
-
-bool near(double a, double b) { return std::fabs(a - b) <= kSamePressure * b; }
 
 /// Mean over the base model's runs to the bank's pressure next to this one.
 double usual(const BankTable &table, double pressure,
@@ -148,7 +145,8 @@ Condition at_pressure(double pressure, const std::vector<CoveredCondition> &cove
 std::vector<CoveredCondition> covered_conditions(const Experiment &e, const BankTable &table,
                                                  const std::vector<std::string> &wanted,
                                                  std::vector<std::string> &not_said) {
-  const BankSpec &spec = table.spec;
+  const std::vector<double> whole = pressures_learnt(table, true),
+                            reached = pressures_learnt(table, false);
   std::vector<CoveredCondition> out;
   for (const Condition &c : e.conditions) {
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), c.id) == wanted.end())
@@ -160,10 +158,17 @@ std::vector<CoveredCondition> covered_conditions(const Experiment &e, const Bank
       continue;
     }
     const double p = c.max_pressure_MPa->value;
-    if (p < 0.98 * spec.pressures.front() || p > 1.02 * spec.pressures.back()) {
+    std::vector<double> runs = beside(p, whole);
+    if (runs.empty())
+      runs = beside(p, reached);
+    if (reached.empty()) {
+      not_said.push_back(fmt::format("{}: the bank's table has no runs.", c.id));
+      continue;
+    }
+    if (runs.empty()) {
       not_said.push_back(fmt::format("{}: {:g} MPa lies outside the bank's {:g} to {:g} MPa; the "
                                      "condition is left out. Another bank may reach it (--bank).",
-                                     c.id, p, spec.pressures.front(), spec.pressures.back()));
+                                     c.id, p, reached.front(), reached.back()));
       continue;
     }
     if (c.dwell_s > 0.0)
@@ -184,7 +189,7 @@ std::vector<CoveredCondition> covered_conditions(const Experiment &e, const Bank
                                      "unloading curve is left out.",
                                      c.id));
     }
-    out.push_back({known, p, seen});
+    out.push_back({known, p, seen, 1, runs});
   }
   return out;
 }
@@ -214,13 +219,21 @@ std::vector<Further> further_measurements(const Experiment &e, const BankTable &
   std::vector<Further> list;
   for (const Kind *kind : {&porosity, &thickness, &cracked, &curve, &release})
     kind->finish(list);
-  for (const double p : table.spec.pressures) {
+  for (const double p : pressures_learnt(table, true)) {
     Kind other(e, table, "porosity_after");
     if (std::none_of(covered.begin(), covered.end(),
-                     [&](const CoveredCondition &c) { return near(c.pressure, p); }))
+                     [&](const CoveredCondition &c) { return same_pressure(c.pressure, p); }))
       add_porosity(other, at_pressure(p, covered));
     other.finish(list);
   }
+  for (Further &f : list)
+    for (CoveredCondition &c : f.of) {
+      const auto at =
+          std::find_if(covered.begin(), covered.end(), [&](const CoveredCondition &had) {
+            return had.condition.id == c.condition.id;
+          });
+      c.runs = at == covered.end() ? std::vector<double>{c.pressure} : at->runs;
+    }
   return list;
 }
 

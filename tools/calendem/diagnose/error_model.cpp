@@ -191,6 +191,29 @@ Matrix by_specimen(const std::vector<CoveredCondition> &all, const Vector &size)
   return columns;
 }
 
+/// Three errors of each condition between two of the bank's runs: of what is seen after release, of
+/// thicknesses under load, of the share of cracked particles.
+Matrix by_interpolation(const std::vector<CoveredCondition> &all, const Vector &density) {
+  Matrix columns = Matrix::Zero(density.size(), 3 * Eigen::Index(all.size()));
+  Eigen::Index row = 0, column = 0;
+  for (const CoveredCondition &c : all) {
+    BetweenRuns by;
+    if (!c.runs.empty() && c.runs.front() < c.runs.back())
+      by = error_between_runs(c.runs.front(), c.runs.back(), c.pressure);
+    for (const Observable &o : c.observables) {
+      if (o.name == "cracked bodies")
+        columns(row, column) = by.cracked;
+      else if (o.stage == "relaxation")
+        columns(row, column + 1) = by.porosity_after * density[row];
+      else if (o.stage != kBefore && o.curve.empty()) // a loading is that of the longer run
+        columns(row, column + 2) = by.porosity_at_max * density[row];
+      ++row;
+    }
+    column += 3;
+  }
+  return columns;
+}
+
 /// Mean over the repeats that a condition stands for.
 double shared(const CoveredCondition &c) { return 1.0 / std::sqrt(double(c.specimens)); }
 
@@ -232,6 +255,7 @@ std::vector<ErrorTerm> error_terms(const Experiment &e, const BankSpec &bank,
             return &c == &all[k] && !o.curve.empty() ? o.*by : 0.0;
           }));
     }
+  add("numerics: between the bank's pressures", by_interpolation(all, density));
   if (e.on_press)
     for (const Numerics &n : bank.numerics)
       add("numerics: " + n.name, 0.01 * n.porosity_points * density);

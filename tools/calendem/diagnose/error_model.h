@@ -38,8 +38,10 @@ struct ErrorTerm {
 /// says what an error of porosity does to each.
 /// pressure: the press's, common to all. loading, initial porosity, porosity under pressure,
 /// thickness: of a specimen, common to its conditions. Of a condition's curve: the first touch,
-/// common to its points; drift, growing from there to the end of the release. Those of the bank's
-/// file (numerics): common to all, if the experiment was made on a press.
+/// common to its points; drift, growing from there to the end of the release. Between the bank's
+/// pressures: what interpolation is off by (error_between_runs), common to a condition's values
+/// after release, and to those under load. Those of the bank's file (numerics): common to all, if
+/// the experiment was made on a press.
 std::vector<ErrorTerm> error_terms(const Experiment &experiment, const BankSpec &bank,
                                    const std::vector<CoveredCondition> &all,
                                    const std::vector<PointRuns> &points);

@@ -75,14 +75,33 @@ inference::ObservableVector measured_of(const std::vector<CoveredCondition> &all
   return out;
 }
 
-/// Of `count` values of all runs from `first` on, those that are numbers everywhere.
+/// Enough of the base model and of every effect to learn from, or all there are.
+bool enough_to_learn(const inference::Bank &bank, const std::vector<bool> &counted) {
+  std::map<std::string, int> all, of_these;
+  for (std::size_t k = 0; k < bank.runs.size(); ++k) {
+    ++all[bank.runs[k].effect];
+    of_these[bank.runs[k].effect] += counted[k];
+  }
+  return std::all_of(all.begin(), all.end(), [&](const auto &of) {
+    const int more = of.first.empty() ? int(bank.base.size()) : 0;
+    return of_these[of.first] >= std::min(of.second, inference::kFewestRuns + more);
+  });
+}
+
+/// Of `count` values from `first` on, those that are numbers in every run that has any of them;
+/// none, if too few runs have.
 std::vector<int> known_of(const inference::Bank &bank, int first, int count) {
+  std::vector<bool> has_any;
+  for (const inference::BankRun &run : bank.runs)
+    has_any.push_back(run.values.segment(first, count).array().isFinite().any());
   std::vector<int> known;
-  for (int k = 0; k < count; ++k)
-    if (std::all_of(bank.runs.begin(), bank.runs.end(), [&](const inference::BankRun &run) {
-          return std::isfinite(run.values[first + k]);
-        }))
+  for (int k = 0; k < count && enough_to_learn(bank, has_any); ++k) {
+    bool whole = true;
+    for (std::size_t r = 0; r < bank.runs.size(); ++r)
+      whole = whole && (!has_any[r] || std::isfinite(bank.runs[r].values[first + k]));
+    if (whole)
       known.push_back(k);
+  }
   return known;
 }
 
@@ -274,16 +293,16 @@ ExperimentData data_of(const Experiment &experiment, const BankTable &as_given,
   ExperimentData data;
   report_other_effects(as_given.spec, data.not_said);
   BankTable table = as_given;
-  const std::vector<PointRuns> all_points =
-      enough(points_of(table, data.not_said), table.spec, data.not_said);
   const std::vector<CoveredCondition> now = pooled_repeats(
       experiment, covered_conditions(experiment, table, conditions, data.not_said), data.not_said);
+  const std::vector<PointRuns> all_points =
+      enough(points_of(table, runs_for(now), data.not_said), table.spec, data.not_said);
   const std::vector<Further> further = further_measurements(experiment, table, now);
   std::vector<CoveredCondition> all = now;
   for (const Further &f : further)
     all.insert(all.end(), f.of.begin(), f.of.end());
   const std::vector<PointRuns> points =
-      enough(complete(all_points, all, data.not_said), table.spec, data.not_said);
+      enough(complete(all_points, now, data.not_said), table.spec, data.not_said);
   fill_bank(film_ratio(experiment, full_cell), table, all, points, data.bank);
   data.terms = error_terms(experiment, table.spec, now, points);
   for (const CoveredCondition &c : all)

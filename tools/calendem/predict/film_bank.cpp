@@ -95,10 +95,10 @@ Vector input_of(const BankSpec &spec, const BankPoint &point) {
   return out;
 }
 
-Vector values_of(FilmNumber number, const PointRuns &runs) {
-  Vector out{Eigen::Index(runs.size())};
-  for (std::size_t k = 0; k < runs.size(); ++k)
-    out[Eigen::Index(k)] = value_of(number, runs[k]->run);
+Vector values_of(FilmNumber number, const BankSpec &spec, const PointRuns &runs) {
+  Vector out{Eigen::Index(spec.pressures.size())};
+  for (std::size_t k = 0; k < spec.pressures.size(); ++k)
+    out[Eigen::Index(k)] = value_of(number, run_to(spec.pressures[k], runs)->run);
   return out;
 }
 
@@ -138,9 +138,9 @@ Learnt learnt_of(const BankSpec &spec, const std::vector<PointRuns> &points,
     }
     for (int number = 0; number < kFilmNumbers; ++number) {
       auto column = out.values[std::size_t(number)].col(k);
-      column = values_of(FilmNumber(number), *of[std::size_t(k)]);
+      column = values_of(FilmNumber(number), spec, *of[std::size_t(k)]);
       if (extra > 0)
-        column -= values_of(FilmNumber(number), *base.at(point.base_point));
+        column -= values_of(FilmNumber(number), spec, *base.at(point.base_point));
     }
   }
   return out;
@@ -185,7 +185,7 @@ emulators_of(const Learnt &learnt, int number, const std::vector<inference::Gaus
 
 void FilmBank::learn(const BankTable &table) {
   std::vector<std::string> ignored;
-  const std::vector<PointRuns> points = points_of(table, ignored);
+  const std::vector<PointRuns> points = points_of(table, spec_.pressures, ignored);
   const Learnt base = learnt_of(spec_, points, "");
   if (base.training.packing.size() < std::size_t(inference::kFewestRuns))
     throw Failure(kBadInput,

@@ -17,7 +17,8 @@ const ModelledEffect *effect_named(const Bank &bank, const std::string &name) {
   return nullptr;
 }
 
-void check_run(const Bank &bank, int number, Mistakes &mistakes) {
+void check_run(const Bank &bank, int number, const std::vector<bool> &may_lack,
+               Mistakes &mistakes) {
   const BankRun &r = bank.runs[number];
   const ModelledEffect *effect = effect_named(bank, r.effect);
   const auto add = [&](const std::string &text) {
@@ -34,7 +35,7 @@ void check_run(const Bank &bank, int number, Mistakes &mistakes) {
   if (!r.base.allFinite() || !r.amplitudes.allFinite())
     add("a parameter is not a number");
   for (Eigen::Index i = 0; i < r.values.size(); ++i)
-    if (!std::isfinite(r.values[i]))
+    if (!std::isfinite(r.values[i]) && !may_lack[std::size_t(i)])
       return add(key_of(bank.observables[i]) + " is not a number; leave the run out, or the "
                                                "observable in all runs and the experiment");
 }
@@ -56,7 +57,24 @@ std::vector<std::pair<int, int>> pairs_of(const Bank &bank, const std::string &e
   return pairs;
 }
 
-void check(const Bank &bank) {
+std::vector<int> runs_that_have(const Bank &bank, const std::vector<int> &observables) {
+  std::vector<bool> has;
+  for (const BankRun &run : bank.runs)
+    has.push_back(run.values(observables).allFinite());
+  for (const ModelledEffect &e : bank.effects)
+    for (const auto &[off, on] : pairs_of(bank, e.name))
+      has[std::size_t(on)] = has[std::size_t(on)] && has[std::size_t(off)];
+  std::vector<int> out;
+  for (std::size_t k = 0; k < has.size(); ++k)
+    if (has[k])
+      out.push_back(int(k));
+  return out;
+}
+
+void check(const Bank &bank, const std::vector<int> &may_lack) {
+  std::vector<bool> lacks(bank.observables.size(), false);
+  for (const int k : may_lack)
+    lacks[std::size_t(k)] = true;
   for (const Parameter &p : bank.base)
     check(p);
   Mistakes mistakes("bank of simulations", 10);
@@ -70,7 +88,7 @@ void check(const Bank &bank) {
       mistakes.add(0, fmt::format("effect '{}' has no amplitude that switches it off", e.name));
   }
   for (int i = 0; i < int(bank.runs.size()); ++i)
-    check_run(bank, i, mistakes);
+    check_run(bank, i, lacks, mistakes);
   mistakes.stop_if_any();
   const auto count = [&](const std::string &effect) {
     return int(std::count_if(bank.runs.begin(), bank.runs.end(),

@@ -35,11 +35,15 @@ struct Bank {
 constexpr int kFewestRuns = 5;
 
 /// Throws Failure(2) with every mistake of the bank: names, sizes, values that are no numbers, an
-/// effect run without a base run of the same parameters and packing, too few runs.
-void check(const Bank &bank);
+/// effect run without a base run of the same parameters and packing, too few runs. Runs may lack the
+/// observables at the places `may_lack`: NaN.
+void check(const Bank &bank, const std::vector<int> &may_lack = {});
 
 /// (base run, effect run) of the same base parameters and packing, for one effect.
 std::vector<std::pair<int, int>> pairs_of(const Bank &bank, const std::string &effect);
+
+/// Places of the runs that have the observables at these places, beside a base run that has.
+std::vector<int> runs_that_have(const Bank &bank, const std::vector<int> &observables);
 
 /// A mistake of measurement acts on numbers, no simulation is needed: what the instrument shows of
 /// true values, given the amplitudes. Amplitudes 0 must give the values back.

@@ -88,6 +88,7 @@ Emulators::Emulators(const Bank &bank, const Matrix &features)
     t.packing.push_back(packing[base[k]]);
   }
   packing_ = t.packing;
+  runs_ = base;
   for (Eigen::Index f = 0; f < features.rows(); ++f) {
     t.values = features.row(f)(base);
     base_.emplace_back(t);
@@ -96,6 +97,9 @@ Emulators::Emulators(const Bank &bank, const Matrix &features)
     const auto pairs = pairs_of(bank, effect.name);
     Training difference = effect_training(bank, effect, pairs, packing);
     difference.values.resize(Eigen::Index(pairs.size()));
+    for (const auto &[off, on] : pairs)
+      if (!effect.computed)
+        runs_.push_back(on);
     effects_.emplace_back();
     for (Eigen::Index f = 0; f < features.rows(); ++f) {
       for (std::size_t k = 0; k < pairs.size(); ++k)

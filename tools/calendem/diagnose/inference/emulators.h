@@ -33,13 +33,15 @@ public:
   /// What base model and simulated effects (not computed ones) miss in their own runs, in standard
   /// deviations of the runs' scatter: runs x features, in an order that depends on the bank only.
   Matrix residuals() const;
+  /// Of each of these rows the run's place in the bank; those of the base model are the first.
+  const std::vector<int> &runs() const { return runs_; }
   /// Number of the packing of each base run.
   const std::vector<int> &packing() const { return packing_; }
 
 private:
   std::vector<Parameter> parameters_;
   std::vector<ModelledEffect> table_;
-  std::vector<int> packing_;
+  std::vector<int> packing_, runs_;
   std::vector<GaussianProcess> base_;
   std::vector<std::vector<GaussianProcess>> effects_;
 

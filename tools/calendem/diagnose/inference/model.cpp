@@ -9,6 +9,16 @@ namespace {
 
 constexpr double kLength = 0.3, kCommon = 0.5, kRough = 0.1; // of the unknown
 
+/// Observables of the bank that the experiment does not have.
+std::vector<int> others_of(const Bank &bank, const std::vector<ObservableId> &experiment) {
+  const std::vector<int> own = places_in(bank.observables, experiment);
+  std::vector<int> out;
+  for (int k = 0; k < int(bank.observables.size()); ++k)
+    if (std::find(own.begin(), own.end(), k) == own.end())
+      out.push_back(k);
+  return out;
+}
+
 Matrix values_of(const Bank &bank, const std::vector<int> &places) {
   Matrix values(Eigen::Index(places.size()), Eigen::Index(bank.runs.size()));
   for (std::size_t i = 0; i < bank.runs.size(); ++i)
@@ -49,6 +59,12 @@ Matrix of_specimens(Matrix scatter, const std::vector<const FeatureMap *> &maps,
   return scatter;
 }
 
+Matrix side_by_side(const Matrix &left, const Matrix &right) {
+  Matrix out(left.rows(), left.cols() + right.cols());
+  out << left, right;
+  return out;
+}
+
 /// Emulators err between features as the runs lie off them.
 Matrix correlation_of_errors(const Matrix &residuals) {
   double weight = 0.0;
@@ -79,14 +95,14 @@ Model::Model(const Bank &bank, const ObservableVector &experiment, const ModelSe
     : observables_(experiment.of), effects_(bank.effects), settings_(settings),
       measurement_(experiment.covariance), base_parameters_(int(bank.base.size())) {
   check(experiment);
-  check(bank);
+  check(bank, others_of(bank, observables_));
   const Matrix values = values_of(bank, places_in(bank.observables, observables_));
   sd_ = (measurement_.diagonal() + left_by_line(bank, values) / settings.packings_in_sample)
             .cwiseSqrt();
   map_ = std::make_shared<FeatureMap>(observables_, values, sd_, measurement_);
   const auto learnt = std::make_shared<Emulators>(bank, map_->emulated_of(values));
   emulators_ = learnt;
-  scatter_ = pooled_scatter(learnt->base(), learnt->packing());
+  scatter_ = pooled_scatter(learnt->base(), residuals_of(learnt->base()), learnt->packing());
   correlation_ = correlation_of_errors(learnt->residuals());
   judge_emulators();
   for (const Candidate &c : candidates)
@@ -96,23 +112,38 @@ Model::Model(const Bank &bank, const ObservableVector &experiment, const ModelSe
 Model::Extra Model::learn_extra(const Bank &bank, const Candidate &candidate) const {
   check(ObservableVector{candidate.of, Vector::Zero(Eigen::Index(candidate.of.size())),
                          candidate.covariance});
-  const Matrix values = values_of(bank, places_in(bank.observables, candidate.of));
+  const std::vector<int> places = places_in(bank.observables, candidate.of),
+                         having = runs_that_have(bank, places);
+  Bank part = bank;
+  part.runs.clear();
+  for (const int k : having)
+    part.runs.push_back(bank.runs[std::size_t(k)]);
+  const Matrix values = values_of(part, places);
   const Vector sd =
-      (candidate.covariance.diagonal() + left_by_line(bank, values) / settings_.packings_in_sample)
+      (candidate.covariance.diagonal() + left_by_line(part, values) / settings_.packings_in_sample)
           .cwiseSqrt();
   Extra extra{candidate, nullptr, nullptr, {}, {}};
   extra.map = std::make_shared<FeatureMap>(candidate.of, values, sd, candidate.covariance);
-  const auto learnt = std::make_shared<Emulators>(bank, extra.map->emulated_of(values));
+  const auto learnt = std::make_shared<Emulators>(part, extra.map->emulated_of(values));
   extra.emulators = learnt;
+  std::vector<int> rows; // of the old emulators' residuals
+  for (const int k : learnt->runs())
+    rows.push_back(int(
+        std::find(emulators_->runs().begin(), emulators_->runs().end(), having[std::size_t(k)]) -
+        emulators_->runs().begin()));
   std::vector<GaussianProcess> all = emulators_->base();
   all.insert(all.end(), learnt->base().begin(), learnt->base().end());
-  extra.scatter = of_specimens(pooled_scatter(all, learnt->packing()).covariance,
-                               {map_.get(), extra.map.get()}, settings_.specimens);
-  Matrix residuals = emulators_->residuals();
-  const auto n = residuals.cols(), added = learnt->residuals().cols();
-  residuals.conservativeResize(Eigen::NoChange, n + added);
-  residuals.rightCols(added) = learnt->residuals();
-  extra.correlation = correlation_of_errors(residuals);
+  const Eigen::Index runs = Eigen::Index(learnt->packing().size());
+  const std::vector<int> of_base(rows.begin(), rows.begin() + runs);
+  extra.scatter = of_specimens(
+      pooled_scatter(all,
+                     side_by_side(residuals_of(emulators_->base())(of_base, Eigen::all),
+                                  residuals_of(learnt->base())),
+                     learnt->packing())
+          .covariance,
+      {map_.get(), extra.map.get()}, settings_.specimens);
+  extra.correlation = correlation_of_errors(
+      side_by_side(emulators_->residuals()(rows, Eigen::all), learnt->residuals()));
   return extra;
 }
 

@@ -15,26 +15,25 @@ constexpr double kFewest = 3.0; // degrees of freedom: below, a t distribution h
 
 using Groups = std::map<int, std::vector<int>>; // runs by packing
 
-/// Residuals of the features (columns) averaged over the runs of each packing.
-Matrix by_packing(const std::vector<GaussianProcess> &features, const Groups &groups) {
-  Matrix mean(Eigen::Index(groups.size()), Eigen::Index(features.size()));
+/// Residuals (runs x features) averaged over the runs of each packing.
+Matrix by_packing(const Matrix &residuals, const Groups &groups) {
+  Matrix mean(Eigen::Index(groups.size()), residuals.cols());
   Eigen::Index row = 0;
   for (const auto &[id, runs] : groups) {
     for (Eigen::Index f = 0; f < mean.cols(); ++f)
-      mean(row, f) = features[f].residuals()(runs).mean();
+      mean(row, f) = residuals.col(f)(runs).mean();
     ++row;
   }
   return mean;
 }
 
 /// What the residuals of single runs differ by from those means.
-Matrix beside_packing(const std::vector<GaussianProcess> &features, const Groups &groups,
-                      const Matrix &means) {
-  Matrix left(features.front().residuals().size(), Eigen::Index(features.size()));
+Matrix beside_packing(const Matrix &residuals, const Groups &groups, const Matrix &means) {
+  Matrix left(residuals.rows(), residuals.cols());
   Eigen::Index row = 0;
   for (const auto &[id, runs] : groups) {
     for (Eigen::Index f = 0; f < left.cols(); ++f)
-      left(runs, f) = features[f].residuals()(runs).array() - means(row, f);
+      left(runs, f) = residuals.col(f)(runs).array() - means(row, f);
     ++row;
   }
   return left;
@@ -81,7 +80,15 @@ Scatter shrunk_covariance(const Matrix &samples) {
   return s;
 }
 
-Scatter pooled_scatter(const std::vector<GaussianProcess> &features,
+Matrix residuals_of(const std::vector<GaussianProcess> &features) {
+  const auto runs = features.empty() ? 0 : features.front().residuals().size();
+  Matrix out(runs, Eigen::Index(features.size()));
+  for (std::size_t f = 0; f < features.size(); ++f)
+    out.col(Eigen::Index(f)) = features[f].residuals();
+  return out;
+}
+
+Scatter pooled_scatter(const std::vector<GaussianProcess> &features, const Matrix &residuals,
                        const std::vector<int> &packing) {
   Scatter s;
   const auto n = Eigen::Index(features.size());
@@ -93,7 +100,7 @@ Scatter pooled_scatter(const std::vector<GaussianProcess> &features,
   for (int i = 0; i < int(packing.size()); ++i)
     groups[packing[i]].push_back(i);
   const bool repeated = groups.size() < packing.size();
-  const Matrix means = by_packing(features, groups);
+  const Matrix means = by_packing(residuals, groups);
   Vector between(n), within(n);
   std::vector<double> degrees;
   for (Eigen::Index f = 0; f < n; ++f) {
@@ -103,14 +110,14 @@ Scatter pooled_scatter(const std::vector<GaussianProcess> &features,
   }
   std::sort(degrees.begin(), degrees.end());
   s.degrees_of_freedom = degrees[degrees.size() / 2];
-  const auto add = [&](const Matrix &residuals, const Vector &sd) {
+  const auto add = [&](const Matrix &samples, const Vector &sd) {
     double weight = 0.0;
-    s.covariance += sd.asDiagonal() * shrunk_correlation(residuals, weight) * sd.asDiagonal();
+    s.covariance += sd.asDiagonal() * shrunk_correlation(samples, weight) * sd.asDiagonal();
     s.shrinkage += weight * sd.squaredNorm();
   };
   if (repeated) {
     add(means, between);
-    add(beside_packing(features, groups, means), within);
+    add(beside_packing(residuals, groups, means), within);
   } else {
     add(means, (between.cwiseAbs2() + within.cwiseAbs2()).cwiseSqrt());
   }

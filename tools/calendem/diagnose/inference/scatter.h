@@ -26,9 +26,13 @@ Scatter shrunk_covariance(const Matrix &samples);
 /// with its variances from the emulators' marginal likelihood and the correlations of their
 /// residuals' means by packing, or of what is left beside these. Degrees of freedom by
 /// Satterthwaite from packings and runs, less what the expectation used up; median of features.
-/// The shrinkage is the parts' by their traces.
-Scatter pooled_scatter(const std::vector<GaussianProcess> &features,
+/// The shrinkage is the parts' by their traces. `residuals`: runs x features, of runs that all have;
+/// `packing`: of these runs.
+Scatter pooled_scatter(const std::vector<GaussianProcess> &features, const Matrix &residuals,
                        const std::vector<int> &packing);
+
+/// Of emulators of the same runs: runs x features.
+Matrix residuals_of(const std::vector<GaussianProcess> &features);
 
 /// Degrees of freedom of `known + estimated`, whose second part has `degrees_of_freedom`: divided
 /// by the square of its mean share, trace((known + estimated)^-1 estimated) / n. At most kNormal.
