@@ -58,7 +58,7 @@ TEST(GaussianProcess, SaysHowWrongItIs) {
   double sum = 0.0;
   const Matrix points = (2.0 * sobol_points(3, 20, 9).array() - 1.0).matrix();
   for (int bank = 0; bank < 20; ++bank) {
-    const GaussianProcess g(sample(30, 30, 0.0, 0.4, std::uint64_t(bank + 10)));
+    const GaussianProcess g(sample(30, 30, 0.0, 0.4, std::uint64_t(bank) + 10));
     for (int i = 0; i < 20; ++i) {
       const Mean m = g.at(points.col(i), Vector());
       sum += std::pow(m.mean - curved(points.col(i)), 2) / m.variance / 400.0;
@@ -77,7 +77,7 @@ TEST(GaussianProcess, FewRunsOfAnEffectKnowTheirNoise) {
   double sum = 0.0;
   for (int bank = 0; bank < kBanks; ++bank) {
     Random random(std::uint64_t(bank), 5);
-    const Matrix shares = sobol_points(5, kRuns + 1, std::uint64_t(bank + 1));
+    const Matrix shares = sobol_points(5, kRuns + 1, std::uint64_t(bank) + 1);
     Vector values(kRuns + 1);
     for (int i = 0; i <= kRuns; ++i)
       values[i] = 0.5 * shares(4, i) * (1.0 + 0.3 * shares(0, i)) + random.normal();

@@ -6,7 +6,6 @@
 #include "base/provenance.h"
 #include "base/random.h"
 #include "diagnose/bank/bank_table.h"
-#include "diagnose/bank_points.h"
 #include "diagnose/diagnose.h"
 #include "diagnose/inference/scores.h"
 #include "withheld/make.h"
@@ -28,19 +27,17 @@ constexpr std::uint64_t kPurpose = 0x402, kDrawn = 0x403;
 
 using Point = std::pair<std::string, int>; // effect, base point
 
-/// Runs of the packing's points to the pressures that the bank teaches all effects at, increasing; of
-/// those points that have all.
+/// Runs of the packing's points, by pressure; of those points that have all.
 std::map<Point, std::vector<PressedSamples>> points_of_packing(const BankTable &table,
                                                                int packing) {
-  const std::vector<double> pressures = pressures_learnt(table, true);
   std::map<Point, std::vector<PressedSamples>> out;
-  for (const double pressure : pressures)
+  for (const double pressure : table.spec.pressures)
     for (const BankRow &row : table.rows)
       if (row.point.packing == packing && row.point.effect != kFullCell &&
           std::fabs(row.run.target - pressure) < 1e-6 * pressure)
         out[{row.point.effect, row.point.base_point}].push_back({row.run});
   for (auto it = out.begin(); it != out.end();)
-    it = it->second.size() == pressures.size() ? std::next(it) : out.erase(it);
+    it = it->second.size() == table.spec.pressures.size() ? std::next(it) : out.erase(it);
   return out;
 }
 
@@ -56,7 +53,6 @@ Experiment sample_of(const std::string &folder, const BankTable &table, const Po
                      const std::vector<PressedSamples> &runs) {
   Round round;
   round.bank = table.spec;
-  round.bank.pressures = pressures_learnt(table, true);
   Truth truth;
   const auto &names = table.spec.effects;
   const auto effect = std::uint64_t(std::find(names.begin(), names.end(), point.first) -

@@ -62,8 +62,14 @@ constexpr Number kMoreNumbers[] = {{"broken_fraction", &SimulatedRun::broken_fra
                                    {"inverse_tortuosity", &SimulatedRun::inverse_tortuosity}};
 
 std::string cell(double v) { return std::isfinite(v) ? fmt::format("{:.8g}", v) : ""; }
-/// A nanometre of a displacement is far below its error.
-std::string short_cell(double v) { return std::isfinite(v) ? fmt::format("{:.5g}", v) : ""; }
+/// Nanometres to which displacements are kept: a measured curve is good to about 20, and the slope
+/// of a release is read from differences.
+constexpr int kCurve = 10, kRelease = 1;
+
+/// A displacement v [um] to `nanometres`.
+std::string rounded(double v, int nanometres) {
+  return cell(0.001 * nanometres * std::round(v / (0.001 * nanometres)));
+}
 std::string grid_column(double pressure) {
   return fmt::format("displacement_um_at_{:g}_MPa", pressure);
 }
@@ -163,11 +169,11 @@ std::string write_bank_table(const BankTable &table) {
     for (const Number &n : kMoreNumbers)
       out += "," + cell(row.run.*(n.field));
     for (const double p : grid())
-      out += "," + short_cell(displacement_at(row.run.pressure, row.run.displacement, p));
+      out += "," + rounded(displacement_at(row.run.pressure, row.run.displacement, p), kCurve);
     for (const double share : released())
-      out +=
-          "," + short_cell(displacement_at(row.run.release_pressure, row.run.release_displacement,
-                                           share * row.run.target));
+      out += "," + rounded(displacement_at(row.run.release_pressure, row.run.release_displacement,
+                                           share * row.run.target),
+                           kRelease);
     out += "\n";
   }
   return out;
