@@ -126,9 +126,20 @@ sed 's/^sigma_ln.*/sigma_ln = 0.487/' other.toml >small.toml
 calendem design model/model.json small.toml --porosity 38 --within 3 --pressure 20,25 --confirm 4 --jobs 2 -o confirmed | tee confirmed.log
 grep -q "run 4 times, each with another draw of the material on another packing: it meets the target with" confirmed.log ||
   fail "the proposal was not run"
-grep -q '"confirmed": {' confirmed/design.json || fail "design.json does not hold what was run"
+grep -q '"confirmed": \[' confirmed/design.json || fail "design.json does not hold what was run"
 sed '/<script type="application.json" id="data">/,$d' confirmed/design.html | grep "4 runs: .* %, porosity" >/dev/null || fail "the page does not show what was run"
 grep -q '"tortuosity_through_plane": {' own/prediction.json || fail "runs of their own are not measured"
+
+# So is a gap, under a roll in two passes: simulated and emulated porosity are less than three points apart.
+calendem design model/model.json small.toml --porosity 38 --within 3 --gap 13,14,15 --confirm 4 --passes 2 --jobs 2 -o by_gap | tee by_gap.log
+grep -q "^other: 14.0 um meets the target with" by_gap.log || fail "not the gap is proposed that leaves 38 %"
+awk '/porosity/ { for (k = 1; k < NF; ++k) if ($k == "porosity") p[++n] = $(k + 1) } END { exit !(n == 2 && (p[1] - p[2]) ^ 2 < 9) }' \
+  by_gap.log || fail "the roll leaves another porosity"
+grep -q "run 4 times in 2 passes under the roll" by_gap.log || fail "the gap was not run"
+grep -q '"passes": 2' by_gap/design.json || fail "design.json does not hold the passes"
+grep -q "Which gap gives" by_gap/design.html || fail "the page does not ask for a gap"
+refuses "whole numbers from 1 to 20" design model/model.json small.toml --porosity 38 --gap 13 --confirm 4 --passes 1.5
+refuses "values of --gap one by one" predict model/model.json small.toml --gap 12:14 --runs 4
 
 # A calibration runs its films again: simulated beside emulated.
 cat >pressed.toml <<'END'

@@ -31,7 +31,7 @@ TEST(ByGap, AGapTakesThePressureThatLeadsToIt) {
   const double after = made_porosity(all, 0.0, 80.0), springback = made_springback(all, 80.0),
                solid = made_film_bank().solid_column(film);
   const double gap = solid / ((1.0 - after) * (1.0 + springback));
-  const AtGap at = at_gaps(made_film_bank(), exact(), film, {gap})[0];
+  const AtGap at = at_gaps(under_gaps(made_film_bank(), exact(), film, {gap}))[0];
   EXPECT_NEAR(std::log(at.pressure.median / 80.0), 0.0, 0.1);
   EXPECT_NEAR(at.after.median, after, 0.003);
   EXPECT_NEAR(at.thickness_after.median, gap * (1.0 + springback), 0.05);
@@ -49,15 +49,37 @@ TEST(ByGap, MaterialsDifferInPressureNotInPorosity) {
   stiff.materials[0].parameters = {190.0, 2.4 * 1.5, 480.0}; // the scale of pressure by half more
   c.draws.push_back(stiff);
   const double gap = made_film_bank().solid_column(film) / (1.0 - 0.30);
-  const AtGap at = at_gaps(made_film_bank(), c, film, {gap})[0];
+  const AtGap at = at_gaps(under_gaps(made_film_bank(), c, film, {gap}))[0];
   EXPECT_NEAR(at.pressure.high90 / at.pressure.low90, 1.5, 0.35);
   EXPECT_LT(at.after.high90 - at.after.low90, 0.02);
+}
+
+// A share of 0.3 of pores left, with the springback's error: its interval holds a target as often as its band says.
+TEST(ByGap, ATargetIsMetAsOftenAsTheBandSays) {
+  const Film film = made_film("x", 46.0, 2.0);
+  const double solid = made_film_bank().solid_column(film), gap = solid / (1.0 - 0.28);
+  const GapDraws draws = under_gaps(made_film_bank(), exact(), film, {gap, 1.2 * gap});
+  const AtGap at = at_gaps(draws)[0];
+  const Target target = {0.5 * (at.after.low90 + at.after.high90),
+                         0.5 * (at.after.high90 - at.after.low90)};
+  const auto c = chances_from(draws.gaps, numbers_at_gaps(draws), target);
+  EXPECT_EQ(c[0].at, gap);
+  EXPECT_NEAR(c[0].porosity, 0.9, 0.005);
+  EXPECT_LT(c[1].porosity, 1e-3);
+  Target whole = target;
+  whole.cracked_below = at.cracked.median;
+  EXPECT_NEAR(chances_from(draws.gaps, numbers_at_gaps(draws), whole)[0].all, 0.45, 0.01);
+  const PredictedFilm as_film = film_at_gaps(made_film_bank(), draws);
+  EXPECT_EQ(as_film.after[0].median, at.after.median);
+  EXPECT_NEAR(as_film.under_load[0].median, 0.28, 1e-12);
+  EXPECT_EQ(as_film.pressures[0], at.pressure.median);
 }
 
 TEST(ByGap, PressuresBeyondTheBanksAreReported) {
   const Film film = made_film("x", 46.0, 2.0);
   const double solid = made_film_bank().solid_column(film);
-  const auto at = at_gaps(made_film_bank(), exact(), film, {solid / 0.92, solid / 0.56});
+  const auto at =
+      at_gaps(under_gaps(made_film_bank(), exact(), film, {solid / 0.92, solid / 0.56}));
   EXPECT_EQ(at[0].above, 1.0);
   EXPECT_NEAR(at[0].pressure.median, 300.0, 1e-6);
   EXPECT_EQ(at[1].below, 1.0);
@@ -67,9 +89,9 @@ TEST(ByGap, PressuresBeyondTheBanksAreReported) {
 TEST(ByGap, AGapWithoutPoresOrWithoutTouchIsRefused) {
   const Film film = made_film("x", 46.0, 2.0);
   const double solid = made_film_bank().solid_column(film);
-  EXPECT_THROW(at_gaps(made_film_bank(), exact(), film, {0.99 * solid}), Failure);
-  EXPECT_THROW(at_gaps(made_film_bank(), exact(), film, {1.01 * solid / 0.54}), Failure);
-  EXPECT_THROW(at_gaps(made_film_bank(), exact(), film, {std::nan("")}), Failure);
+  EXPECT_THROW(under_gaps(made_film_bank(), exact(), film, {0.99 * solid}), Failure);
+  EXPECT_THROW(under_gaps(made_film_bank(), exact(), film, {1.01 * solid / 0.54}), Failure);
+  EXPECT_THROW(under_gaps(made_film_bank(), exact(), film, {std::nan("")}), Failure);
 }
 
 } // namespace

@@ -149,9 +149,9 @@ TEST(Pages, AreWholeAndHoldTheirNumbers) {
   design.film = film;
   design.chances = chances(m.bank, m.calibration, film, {50.0, 100.0}, 0.0, target);
   design.predicted = films[0];
-  designs = to_json(m.bank, target, {design});
+  designs = to_json(m.bank, target, SetBy::Pressure, {design});
   designs["provenance"] = json["provenance"];
-  const std::string designed = design_page(target, {design}, designs);
+  const std::string designed = design_page(target, SetBy::Pressure, {design}, designs);
   for (const std::string *text : {&model, &page, &designed}) {
     const std::string bare = without_scripts(*text);
     EXPECT_EQ(bare.find("{{"), std::string::npos);

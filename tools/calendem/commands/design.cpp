@@ -14,23 +14,70 @@ struct DesignOptions : FilmOptions {
   double porosity = 0.0, within = 1.0, cracked_below = 100.0, tortuosity_below = kMostTortuosity;
 };
 
-/// The proposal of a recipe, run.
-void confirm(const AskedFilms &a, const FilmOptions &o, std::size_t recipe, const Target &target,
-             Design &d) {
-  const std::vector<double> pressure = {d.chances[d.best].pressure};
-  const ByRuns own = run_film(a, o, recipe, pressure);
-  d.confirmed = own.predicted;
-  d.confirmed_chance = chances_from(pressure, own.of, target).front();
+/// What is predicted of a film, and the numbers from which its chances follow.
+struct Settled {
+  PredictedFilm predicted;
+  GuessesOf of;
+};
+
+Settled settled(const FilmBank &bank, const GapDraws &draws) {
+  return {film_at_gaps(bank, draws), numbers_at_gaps(draws)};
 }
 
-void say_confirmed(const Design &d) {
-  const Band &after = d.confirmed->after[0], &cracked = d.confirmed->cracked[0];
-  fmt::print("  run {} times, each with another draw of the material on another packing: it meets "
-             "the target with {:.0f} %: porosity {:.1f} % ({:.1f} to {:.1f}), cracked particles "
-             "{:.0f} % ({:.0f} to {:.0f})\n",
-             d.confirmed->runs, kPercent * d.confirmed_chance.all, kPercent * after.median,
-             kPercent * after.low90, kPercent * after.high90, kPercent * cracked.median,
-             kPercent * cracked.low90, kPercent * cracked.high90);
+SetBy set_by(const FilmOptions &o) { return o.gaps.empty() ? SetBy::Pressure : SetBy::Gap; }
+
+/// What a film offers at the pressures or gaps asked for.
+Design design_of(const AskedFilms &a, const FilmOptions &o, const Film &film,
+                 const Target &target) {
+  const FilmBank &bank = a.model.bank;
+  const Calibration &c = a.model.calibration;
+  Design d;
+  d.film = film;
+  if (set_by(o) == SetBy::Gap) {
+    const GapDraws draws = under_gaps(bank, c, film, values_of("--gap", o.gaps, "um"));
+    const Settled s = settled(bank, draws);
+    d.predicted = s.predicted;
+    d.chances = chances_from(draws.gaps, s.of, target);
+  } else {
+    const double error = o.press_percent / kPercent;
+    d.chances = chances(bank, c, film, a.pressures, error, target);
+    d.predicted = predicted(bank, c, film, a.pressures, error);
+  }
+  d.best = best_of(d.chances);
+  return d;
+}
+
+/// The proposal of a recipe, run; under a roll in so many passes.
+Confirmation confirmation(const AskedFilms &a, const FilmOptions &o, std::size_t recipe,
+                          const Target &target, double proposed, int passes) {
+  Confirmation out;
+  out.passes = passes;
+  if (passes > 0) {
+    const GapDraws draws = run_film_at_gaps(a, o, recipe, {proposed}, passes);
+    const Settled s = settled(a.model.bank, draws);
+    out.predicted = s.predicted;
+    out.predicted.runs = int(draws.springback.size());
+    out.chance = chances_from({proposed}, s.of, target).front();
+  } else {
+    const ByRuns own = run_film(a, o, recipe, {proposed});
+    out.predicted = own.predicted;
+    out.chance = chances_from({proposed}, own.of, target).front();
+  }
+  return out;
+}
+
+void say_confirmed(const Confirmation &c) {
+  const Band &after = c.predicted.after[0], &cracked = c.predicted.cracked[0];
+  const std::string passes = c.passes == 0 ? ""
+                                           : fmt::format(" in {} pass{} under the roll", c.passes,
+                                                         c.passes == 1 ? "" : "es");
+  fmt::print(
+      "  run {} times{}, each with another draw of the material on another packing: it meets "
+      "the target with {:.0f} %: porosity {:.1f} % ({:.1f} to {:.1f}), cracked particles "
+      "{:.0f} % ({:.0f} to {:.0f})\n",
+      c.predicted.runs, passes, kPercent * c.chance.all, kPercent * after.median,
+      kPercent * after.low90, kPercent * after.high90, kPercent * cracked.median,
+      kPercent * cracked.low90, kPercent * cracked.high90);
 }
 
 /// Pressing makes no film more porous.
@@ -45,7 +92,10 @@ void check_target(const AskedFilms &a, double porosity) {
 }
 
 /// The answer for a film, in words.
-void say(const Design &d, const Target &target) {
+void say(const Design &d, SetBy by, const Target &target) {
+  const bool gap = by == SetBy::Gap;
+  const char *unit = gap ? "um" : "MPa";
+  const int decimals = gap ? 1 : 0;
   const Chance &best = d.chances[d.best];
   const Band &after = d.predicted.after[d.best], &cracked = d.predicted.cracked[d.best];
   const std::string there = fmt::format(
@@ -53,13 +103,14 @@ void say(const Design &d, const Target &target) {
       kPercent * after.median, kPercent * after.low90, kPercent * after.high90,
       kPercent * cracked.median, kPercent * cracked.low90, kPercent * cracked.high90);
   if (kPercent * best.all < 1.0)
-    fmt::print("{}: no pressure from {:.0f} to {:.0f} MPa meets the target (less than 1 %); at "
-               "{:.0f} MPa: {}\n",
-               d.film.name, d.chances.front().pressure, d.chances.back().pressure, best.pressure,
-               there);
+    fmt::print("{0}: no {1} from {2:.{6}f} to {3:.{6}f} {4} meets the target (less than 1 %); at "
+               "{5:.{6}f} {4}: {7}\n",
+               d.film.name, gap ? "gap" : "pressure", d.chances.front().at, d.chances.back().at,
+               unit, best.at, decimals, there);
   else
-    fmt::print("{}: {:.0f} MPa meets the target with {:.0f} % (assured: {:.0f} %): {}\n",
-               d.film.name, best.pressure, kPercent * best.all, kPercent * best.assured, there);
+    fmt::print("{}: {:.{}f} {} meets the target with {:.0f} % (assured: {:.0f} %): {}\n",
+               d.film.name, best.at, decimals, unit, kPercent * best.all, kPercent * best.assured,
+               there);
   if (target.cracked_below < 1.0)
     fmt::print("  the porosity with {:.0f} %, the cracked particles with {:.0f} %\n",
                kPercent * best.porosity, kPercent * best.cracked);
@@ -68,8 +119,8 @@ void say(const Design &d, const Target &target) {
     fmt::print("  the tortuosity factor with {:.0f} %: {:.2f} ({:.2f} to {:.2f})\n",
                kPercent * best.tortuosity, tau.median, tau.low90, tau.high90);
   }
-  if (d.confirmed)
-    say_confirmed(d);
+  for (const Confirmation &c : d.confirmed)
+    say_confirmed(c);
   for (const std::string &text : d.predicted.beyond)
     fmt::print("  note: {}\n", text);
 }
@@ -82,35 +133,30 @@ void run_design(const DesignOptions &o) {
   check_target(a, o.porosity);
   const Target target = {o.porosity / kPercent, o.within / kPercent, o.cracked_below / kPercent,
                          o.tortuosity_below};
+  const std::vector<int> passes = set_by(o) == SetBy::Gap ? passes_of(o) : std::vector<int>{0};
   std::vector<Design> designs;
-  for (const Film &f : a.films) {
-    Design d;
-    d.film = f;
-    d.chances = chances(a.model.bank, a.model.calibration, f, a.pressures,
-                        o.press_percent / kPercent, target);
-    d.predicted =
-        predicted(a.model.bank, a.model.calibration, f, a.pressures, o.press_percent / kPercent);
-    d.best = best_of(d.chances);
-    designs.push_back(d);
-  }
+  for (const Film &f : a.films)
+    designs.push_back(design_of(a, o, f, target));
   const auto write = [&] {
-    nlohmann::ordered_json json = to_json(a.model.bank, target, designs);
+    nlohmann::ordered_json json = to_json(a.model.bank, target, set_by(o), designs);
     json["provenance"] = provenance(o);
     make_output_folder(o.folder);
     write_file(o.folder + "/design.json", json.dump(1) + "\n");
-    write_file(o.folder + "/design.html", design_page(target, designs, json));
+    write_file(o.folder + "/design.html", design_page(target, set_by(o), designs, json));
   };
   write(); // runs may fail
   MissedRuns missed;
   for (std::size_t k = 0; o.runs > 0 && k < designs.size(); ++k)
-    try {
-      confirm(a, o, k, target, designs[k]);
-      write();
-    } catch (const Failure &f) {
-      missed.add(o.recipes[k], f);
-    }
+    for (const int n : passes)
+      try {
+        Design &d = designs[k];
+        d.confirmed.push_back(confirmation(a, o, k, target, d.chances[d.best].at, n));
+        write();
+      } catch (const Failure &f) {
+        missed.add(o.recipes[k], f);
+      }
   for (const Design &d : designs)
-    say(d, target);
+    say(d, set_by(o), target);
   fmt::print("page: {0}/design.html\ndata: {0}/design.json\n", o.folder);
   missed.stop_if_any();
 }
@@ -120,7 +166,8 @@ void run_design(const DesignOptions &o) {
 void add_design_verb(CLI::App &app) {
   auto o = std::make_shared<DesignOptions>();
   CLI::App *verb = app.add_subcommand(
-      "design", "Choose the pressure that meets a target, with the probability that it does");
+      "design",
+      "Choose the pressure or gap that meets a target, with the probability that it does");
   add_film_options(*verb, *o);
   verb->add_option("--porosity", o->porosity, "wanted total porosity after release [%]")
       ->required()
@@ -134,8 +181,9 @@ void add_design_verb(CLI::App &app) {
       ->check(finite_range(1.0, kMostTortuosity));
   verb->add_option("--pressure", o->pressures, "MPa to choose from: a list or a range");
   add_run_options(*verb, o->runs, o->study, "--confirm",
-                  "so many simulations of each recipe at the pressure proposed, each with another "
-                  "draw of the material on another packing");
+                  "so many simulations of each recipe at the pressure or gap proposed, each with "
+                  "another draw of the material on another packing");
+  add_gap_options(*verb, *o, "--confirm");
   verb->callback([o] { run_design(*o); });
 }
 

@@ -164,6 +164,30 @@ ByRuns run_film(const AskedFilms &a, const FilmOptions &o, std::size_t recipe,
                  pressures, 0.01 * o.press_percent, o.runs, study);
 }
 
+std::vector<int> passes_of(const FilmOptions &o) {
+  constexpr double kMost = 20;
+  std::vector<int> out;
+  for (const double passes : values_of("--passes", o.passes, "numbers of passes")) {
+    if (passes != std::floor(passes) || passes > kMost || o.passes.find(':') != std::string::npos)
+      throw Failure(kBadInput, fmt::format("--passes is '{}'; give whole numbers from 1 to {:g}, "
+                                           "as 1,2,3.",
+                                           o.passes, kMost));
+    out.push_back(int(passes));
+  }
+  return out;
+}
+
+GapDraws run_film_at_gaps(const AskedFilms &a, const FilmOptions &o, std::size_t recipe,
+                          const std::vector<double> &gaps, int passes) {
+  StudyOptions study = o.study;
+  study.folder = fmt::format("{}/runs/{}_passes_{}", o.folder, recipe + 1, passes);
+  fmt::print("{}: {}: {} runs, {} draws of the material at {} gap{}, {} pass{}\n", study.verb,
+             o.recipes[recipe], std::size_t(o.runs) * gaps.size(), o.runs, gaps.size(),
+             gaps.size() == 1 ? "" : "s", passes, passes == 1 ? "" : "es");
+  return runs_at_gaps(a.model.bank, a.model.calibration, read_recipe(o.recipes[recipe]), a.material,
+                      gaps, passes, o.runs, study);
+}
+
 void MissedRuns::add(const std::string &recipe, const Failure &why) {
   texts_.push_back(fmt::format("{}: {}", recipe, why.what()));
   status_ = why.exit_status();
@@ -187,6 +211,19 @@ void add_film_options(CLI::App &verb, FilmOptions &o) {
   verb.add_option("--press-percent", o.press_percent,
                   "standard deviation of the press's pressure [%]; default 0: as asked for")
       ->check(finite_range(0.0, 50.0));
+}
+
+void add_gap_options(CLI::App &verb, FilmOptions &o, const std::string &runs) {
+  verb.add_option("--gap", o.gaps,
+                  "um, instead of a pressure: thickness of the coating under load, without foil; "
+                  "30,32 or 28:36")
+      ->excludes(verb.get_option("--pressure"))
+      ->excludes(verb.get_option("--press-percent"));
+  verb.add_option("--passes", o.passes,
+                  "passes under the roll, with " + runs +
+                      ": 1,2,3; each reduces the film by the same thickness (default 1)")
+      ->needs(verb.get_option("--gap"))
+      ->needs(verb.get_option(runs));
 }
 
 void add_run_options(CLI::App &verb, int &runs, StudyOptions &study, const char *name,

@@ -14,7 +14,7 @@ namespace calendem {
 struct FilmOptions {
   std::string model, folder;
   std::vector<std::string> recipes, vary;
-  std::string pressures = "20:300", material;
+  std::string pressures = "20:300", gaps, passes = "1", material;
   double press_percent = 0.0;
   int runs = 0; ///< of each film's own at each pressure; 0: the bank's emulators
   StudyOptions study;
@@ -24,6 +24,9 @@ void add_film_options(CLI::App &verb, FilmOptions &options);
 /// Of runs of their own; `name`, `what`: of the option that asks for them.
 void add_run_options(CLI::App &verb, int &runs, StudyOptions &study, const char *name,
                      const char *what);
+
+/// --gap instead of --pressure, and --passes with runs of a film's own (`runs`: of that option).
+void add_gap_options(CLI::App &verb, FilmOptions &options, const std::string &runs);
 
 struct AskedFilms {
   Model model;
@@ -46,6 +49,12 @@ nlohmann::ordered_json provenance(const FilmOptions &options);
 /// Of a recipe, by its place in the list.
 ByRuns run_film(const AskedFilms &asked, const FilmOptions &options, std::size_t recipe,
                 const std::vector<double> &pressures);
+
+/// The same at gaps, under a roll.
+GapDraws run_film_at_gaps(const AskedFilms &asked, const FilmOptions &options, std::size_t recipe,
+                          const std::vector<double> &gaps, int passes);
+/// Numbers of passes, ascending. Throws Failure(2).
+std::vector<int> passes_of(const FilmOptions &options);
 
 /// What could not be run of a recipe; the others go on.
 class MissedRuns {

@@ -11,10 +11,6 @@ namespace {
 
 constexpr double kPercent = 100.0;
 
-struct PredictOptions : FilmOptions {
-  std::string gaps;
-};
-
 std::vector<PredictedFilm> by_emulators(const AskedFilms &a, const FilmOptions &o) {
   std::vector<PredictedFilm> films;
   for (const Film &f : a.films)
@@ -23,16 +19,23 @@ std::vector<PredictedFilm> by_emulators(const AskedFilms &a, const FilmOptions &
   return films;
 }
 
-std::vector<PredictedFilm> films_by_runs(const AskedFilms &a, const FilmOptions &o,
-                                         MissedRuns &missed) {
+/// `name`, `text`: of the option that says what is run.
+void check_by_runs(const FilmOptions &o, const char *name, const std::string &text) {
   if (!o.vary.empty())
     throw Failure(kBadInput, "--runs goes with recipes as they are: without --vary.");
+  if (text.find(':') != std::string::npos)
+    throw Failure(kBadInput,
+                  fmt::format("--runs needs values of {} one by one: each is so many "
+                              "simulations. Give {} {}.",
+                              name, name, name == std::string("--gap") ? "52,54" : "80,150"));
+}
+
+std::vector<PredictedFilm> films_by_runs(const AskedFilms &a, const FilmOptions &o,
+                                         MissedRuns &missed) {
+  check_by_runs(o, "--pressure", o.pressures);
   if (o.press_percent > 0.0 && a.pressures.size() < 2)
     throw Failure(kBadInput, "--press-percent with --runs needs the slope between pressures: give "
                              "two or more to --pressure, or leave it out.");
-  if (o.pressures.find(':') != std::string::npos)
-    throw Failure(kBadInput, "--runs needs pressures one by one: each is so many simulations. Give "
-                             "--pressure 80,150.");
   std::vector<PredictedFilm> films;
   for (std::size_t k = 0; k < o.recipes.size(); ++k)
     try {
@@ -58,12 +61,37 @@ void say(const AtGap &at) {
                  kPercent * share, where);
 }
 
-void run_predict_at_gaps(const PredictOptions &o) {
-  const AskedFilms a = asked(o);
+std::vector<GapDraws> films_at_gaps(const AskedFilms &a, const FilmOptions &o, MissedRuns &missed) {
   const std::vector<double> gaps = values_of("--gap", o.gaps, "um");
-  std::vector<std::vector<AtGap>> all;
+  std::vector<GapDraws> out;
   for (const Film &f : a.films)
-    all.push_back(at_gaps(a.model.bank, a.model.calibration, f, gaps));
+    out.push_back(under_gaps(a.model.bank, a.model.calibration, f, gaps));
+  if (o.runs == 0)
+    return out;
+  check_by_runs(o, "--gap", o.gaps);
+  for (const int passes : passes_of(o))
+    for (std::size_t k = 0; k < o.recipes.size(); ++k)
+      try {
+        out.push_back(run_film_at_gaps(a, o, k, gaps, passes));
+        out.back().film.name += fmt::format(", {} pass{}", passes, passes == 1 ? "" : "es");
+      } catch (const Failure &f) {
+        missed.add(o.recipes[k], f);
+      }
+  if (out.empty())
+    missed.stop_if_any();
+  return out;
+}
+
+void run_predict_at_gaps(const FilmOptions &o) {
+  AskedFilms a = o.runs > 0 ? of_model(o) : asked(o);
+  MissedRuns missed;
+  std::vector<std::vector<AtGap>> all;
+  const std::vector<GapDraws> draws = films_at_gaps(a, o, missed);
+  a.films.clear();
+  for (const GapDraws &d : draws) {
+    a.films.push_back(d.film);
+    all.push_back(at_gaps(d));
+  }
   nlohmann::ordered_json json = {{"films", nlohmann::ordered_json::array()}};
   for (std::size_t k = 0; k < all.size(); ++k)
     json["films"].push_back(gap_json(a.model.bank, a.films[k], all[k]));
@@ -81,9 +109,10 @@ void run_predict_at_gaps(const PredictOptions &o) {
       fmt::print("  note: {}\n", text);
   }
   fmt::print("page: {0}/gap.html\ntable: {0}/gap.csv\n", o.folder);
+  missed.stop_if_any();
 }
 
-void run_predict(const PredictOptions &o) {
+void run_predict(const FilmOptions &o) {
   if (!o.gaps.empty()) {
     run_predict_at_gaps(o);
     return;
@@ -115,22 +144,18 @@ void run_predict(const PredictOptions &o) {
 } // namespace
 
 void add_predict_verb(CLI::App &app) {
-  auto o = std::make_shared<PredictOptions>();
+  auto o = std::make_shared<FilmOptions>();
   CLI::App *verb =
       app.add_subcommand("predict", "Predict porosity, springback and cracked particles of a film "
                                     "against pressure, with intervals");
   add_film_options(*verb, *o);
-  CLI::Option *pressure =
-      verb->add_option("--pressure", o->pressures, "MPa: 20,50,80 or a range 20:300 (default)");
-  CLI::Option *gap = verb->add_option("--gap", o->gaps,
-                                      "um, instead of a pressure: thickness of the coating under "
-                                      "load, without foil; 30,32 or 28:36");
-  gap->excludes(pressure);
-  add_run_options(*verb, o->runs, o->study, "--runs",
-                  "so many simulations of each recipe at each pressure, each with another draw of "
-                  "the material, instead of the bank's emulators: for electrodes and pressures "
-                  "that the bank does not have");
-  gap->excludes(verb->get_option("--runs"))->excludes(verb->get_option("--press-percent"));
+  verb->add_option("--pressure", o->pressures, "MPa: 20,50,80 or a range 20:300 (default)");
+  add_run_options(
+      *verb, o->runs, o->study, "--runs",
+      "so many simulations of each recipe at each pressure or gap, each with another draw of "
+      "the material, instead of the bank's emulators: for electrodes and pressures "
+      "that the bank does not have");
+  add_gap_options(*verb, *o, "--runs");
   verb->callback([o] { run_predict(*o); });
 }
 

@@ -79,50 +79,135 @@ Curves curves_of(const FilmBank &bank, const Calibration &c, const Film &film) {
   return out;
 }
 
-AtGap at_gap(const Curves &curves, double gap, double solid) {
+Mixture of_gap(const Guesses &draws, std::size_t gap) {
+  Mixture out;
+  for (const std::vector<Guess> &d : draws)
+    out.of.push_back(d[gap]);
+  return out;
+}
+
+AtGap at_gap(const GapDraws &d, std::size_t k) {
   AtGap out;
-  out.gap = gap;
-  Mixture pressure, springback, cracked, broken, inverse;
-  const double step = curves.logs[1] - curves.logs[0];
-  for (std::size_t d = 0; d < curves.load.size(); ++d) {
-    const Met met = meets(curves.logs, curves.load[d], 1.0 - solid / gap);
-    pressure.of.push_back(met.log_pressure);
-    springback.of.push_back(number_at(curves.springback[d], met, step));
-    cracked.of.push_back(number_at(curves.cracked[d], met, step));
-    if (!curves.broken.empty())
-      broken.of.push_back(number_at(curves.broken[d], met, step));
-    if (!curves.inverse_tortuosity.empty())
-      inverse.of.push_back(number_at(curves.inverse_tortuosity[d], met, step));
-    out.below += met.below / double(curves.load.size());
-    out.above += met.above / double(curves.load.size());
-  }
-  out.pressure = band_of(pressure, curves.logs.front(), curves.logs.back());
-  out.springback = band_of(springback, 0.0, 1.0);
-  out.cracked = band_of(cracked, 0.0, 1.0);
-  if (!broken.of.empty())
-    out.broken = band_of(broken, 0.0, 1.0);
-  if (!inverse.of.empty())
-    out.tortuosity = tortuosity_of(band_of(inverse, 1.0 / kMostTortuosity, 1.0));
+  out.gap = d.gaps[k];
+  out.pressure = band_of(of_gap(d.log_pressure, k), std::log(d.lowest), std::log(d.highest));
+  out.springback = band_of(of_gap(d.springback, k), 0.0, 1.0);
+  out.cracked = band_of(of_gap(d.cracked, k), 0.0, 1.0);
+  if (!d.broken.empty())
+    out.broken = band_of(of_gap(d.broken, k), 0.0, 1.0);
+  if (!d.inverse_tortuosity.empty())
+    out.tortuosity =
+        tortuosity_of(band_of(of_gap(d.inverse_tortuosity, k), 1.0 / kMostTortuosity, 1.0));
+  out.below = d.below[k];
+  out.above = d.above[k];
   for (double Band::*part :
        {&Band::median, &Band::low50, &Band::high50, &Band::low90, &Band::high90}) {
     out.pressure.*part = std::exp(out.pressure.*part);
-    out.thickness_after.*part = gap * (1.0 + out.springback.*part);
-    out.after.*part = 1.0 - solid / out.thickness_after.*part;
+    out.thickness_after.*part = out.gap * (1.0 + out.springback.*part);
+    out.after.*part = 1.0 - d.solid / out.thickness_after.*part;
   }
   return out;
 }
 
+/// Of the film after release, from its springback.
+Guess porosity_left(const Guess &springback, double gap, double solid) {
+  const double thickness = gap * (1.0 + springback.mean),
+               slope = solid * gap / (thickness * thickness);
+  return {1.0 - solid / thickness, slope * slope * springback.variance};
+}
+
 } // namespace
 
-std::vector<AtGap> at_gaps(const FilmBank &bank, const Calibration &c, const Film &film,
-                           const std::vector<double> &gaps) {
-  const double solid = bank.solid_column(film);
+void check_gaps(const Film &film, const std::vector<double> &gaps, double solid, double before) {
   for (const double gap : gaps)
-    check_gap(film, gap, solid, porosity_before(bank, film));
+    check_gap(film, gap, solid, before);
+}
+
+GapDraws under_gaps(const FilmBank &bank, const Calibration &c, const Film &film,
+                    const std::vector<double> &gaps) {
+  GapDraws out;
+  out.film = film;
+  out.gaps = gaps;
+  out.solid = bank.solid_column(film);
+  check_gaps(film, gaps, out.solid, porosity_before(bank, film));
   const Curves curves = curves_of(bank, c, film);
+  out.lowest = std::exp(curves.logs.front());
+  out.highest = std::exp(curves.logs.back());
+  out.below.assign(gaps.size(), 0.0);
+  out.above = out.below;
+  const double step = curves.logs[1] - curves.logs[0], share = 1.0 / double(curves.load.size());
+  for (std::size_t d = 0; d < curves.load.size(); ++d) {
+    std::vector<Met> met;
+    std::vector<Guess> log_pressures;
+    for (std::size_t k = 0; k < gaps.size(); ++k) {
+      met.push_back(meets(curves.logs, curves.load[d], 1.0 - out.solid / gaps[k]));
+      log_pressures.push_back(met[k].log_pressure);
+      out.below[k] += met[k].below * share;
+      out.above[k] += met[k].above * share;
+    }
+    out.log_pressure.push_back(log_pressures);
+    const auto add = [&](const Guesses &of, Guesses &to) {
+      if (of.empty())
+        return;
+      to.emplace_back();
+      for (const Met &m : met)
+        to.back().push_back(number_at(of[d], m, step));
+    };
+    add(curves.springback, out.springback);
+    add(curves.cracked, out.cracked);
+    add(curves.broken, out.broken);
+    add(curves.inverse_tortuosity, out.inverse_tortuosity);
+  }
+  return out;
+}
+
+std::vector<AtGap> at_gaps(const GapDraws &draws) {
   std::vector<AtGap> out;
-  for (const double gap : gaps)
-    out.push_back(at_gap(curves, gap, solid));
+  for (std::size_t k = 0; k < draws.gaps.size(); ++k)
+    out.push_back(at_gap(draws, k));
+  return out;
+}
+
+GuessesOf numbers_at_gaps(const GapDraws &draws) {
+  return [draws](FilmNumber number) -> Guesses {
+    switch (number) {
+    case FilmNumber::PorosityAfter: {
+      Guesses out = draws.springback;
+      for (std::vector<Guess> &d : out)
+        for (std::size_t k = 0; k < d.size(); ++k)
+          d[k] = porosity_left(d[k], draws.gaps[k], draws.solid);
+      return out;
+    }
+    case FilmNumber::Springback:
+      return draws.springback;
+    case FilmNumber::Cracked:
+      return draws.cracked;
+    case FilmNumber::Broken:
+      return draws.broken;
+    case FilmNumber::InverseTortuosity:
+      return draws.inverse_tortuosity;
+    case FilmNumber::LogModulus:
+      return {};
+    }
+    return {};
+  };
+}
+
+PredictedFilm film_at_gaps(const FilmBank &bank, const GapDraws &draws) {
+  PredictedFilm out;
+  out.film = draws.film;
+  out.beyond = bank.beyond(draws.film);
+  for (const AtGap &at : at_gaps(draws)) {
+    out.pressures.push_back(at.pressure.median);
+    const double load = 1.0 - draws.solid / at.gap;
+    out.under_load.push_back({load, load, load, load, load});
+    out.after.push_back(at.after);
+    out.springback.push_back(at.springback);
+    out.cracked.push_back(at.cracked);
+    if (at.broken)
+      out.broken.push_back(*at.broken);
+    if (at.tortuosity)
+      out.tortuosity.push_back(*at.tortuosity);
+  }
   return out;
 }
 

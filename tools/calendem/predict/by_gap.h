@@ -6,6 +6,7 @@
 #define CALENDEM_PREDICT_BY_GAP_H
 
 #include "predict/prediction.h"
+#include <cmath>
 #include <optional>
 
 namespace calendem {
@@ -19,11 +20,31 @@ struct AtGap {
   double below = 0.0, above = 0.0;
 };
 
-/// Per draw the porosity under load falls with pressure; where it meets that of the gap is the
-/// draw's pressure, with the porosity's error over its slope. Throws Failure(2) for a gap that
-/// leaves the film no pores, or does not touch it.
-std::vector<AtGap> at_gaps(const FilmBank &bank, const Calibration &calibration, const Film &film,
-                           const std::vector<double> &gaps);
+/// A film at gaps under each draw: draws x gaps.
+struct GapDraws {
+  Film film;
+  std::vector<double> gaps;                ///< [um]
+  double solid = 0.0;                      ///< thickness without pores [um]
+  double lowest = 0.0, highest = HUGE_VAL; ///< pressures that the bands may hold [MPa]
+  Guesses log_pressure;                    ///< of MPa
+  Guesses springback, cracked, broken, inverse_tortuosity; ///< as FilmNumber; empty: not known
+  /// By gap: the share of draws whose pressure lies below or above the bank's.
+  std::vector<double> below, above;
+};
+
+/// By the bank's emulators. Per draw the porosity under load falls with pressure; where it meets that
+/// of the gap is the draw's pressure, with the porosity's error over its slope. Throws Failure(2) for
+/// a gap that leaves the film no pores, or does not touch it.
+GapDraws under_gaps(const FilmBank &bank, const Calibration &calibration, const Film &film,
+                    const std::vector<double> &gaps);
+/// Throws as under_gaps.
+void check_gaps(const Film &film, const std::vector<double> &gaps, double solid, double before);
+
+std::vector<AtGap> at_gaps(const GapDraws &draws);
+/// The porosity after release follows from gap and springback.
+GuessesOf numbers_at_gaps(const GapDraws &draws);
+/// Its pressures are the medians of those that the gaps take.
+PredictedFilm film_at_gaps(const FilmBank &bank, const GapDraws &draws);
 
 } // namespace calendem
 

@@ -15,12 +15,42 @@ using report::Chart;
 using report::kSeriesColours;
 using report::kSeriesSymbols;
 
-Json to_json(const FilmBank &bank, const Target &t, const std::vector<Design> &designs) {
+namespace {
+
+/// What is chosen, in words and files.
+struct Setting {
+  const char *key, *name, *unit, *axis, *direction;
+  int decimals;
+};
+Setting setting_of(SetBy by) {
+  return by == SetBy::Gap
+             ? Setting{"gap_um", "gap", "µm", "Gap (µm)", "The gap narrows from right to left.", 1}
+             : Setting{"pressure_MPa",
+                       "pressure",
+                       "MPa",
+                       "Pressure (MPa)",
+                       "The pressure rises from right to left.",
+                       0};
+}
+
+Json to_json(const Confirmation &c) {
+  Json out = {{"runs", c.predicted.runs}, {"probability", c.chance.all}};
+  if (c.passes > 0)
+    out["passes"] = c.passes;
+  out["porosity_after_percent"] = band_json(c.predicted.after[0], kPercent);
+  out["cracked_percent"] = band_json(c.predicted.cracked[0], kPercent);
+  return out;
+}
+
+} // namespace
+
+Json to_json(const FilmBank &bank, const Target &t, SetBy by, const std::vector<Design> &designs) {
+  const Setting set = setting_of(by);
   Json out = Json::array();
   for (const Design &d : designs) {
     Json row = film_json(bank, d.film);
     row["beyond"] = d.predicted.beyond;
-    row["best"] = {{"pressure_MPa", d.chances[d.best].pressure},
+    row["best"] = {{set.key, d.chances[d.best].at},
                    {"probability", d.chances[d.best].all},
                    {"assured", d.chances[d.best].assured},
                    {"porosity_after_percent", band_json(d.predicted.after[d.best], kPercent)},
@@ -28,14 +58,13 @@ Json to_json(const FilmBank &bank, const Target &t, const std::vector<Design> &d
                    {"springback_percent", band_json(d.predicted.springback[d.best], kPercent)}};
     if (!d.predicted.tortuosity.empty())
       row["best"]["tortuosity_through_plane"] = band_json(d.predicted.tortuosity[d.best], 1.0);
-    if (d.confirmed)
-      row["confirmed"] = {{"runs", d.confirmed->runs},
-                          {"probability", d.confirmed_chance.all},
-                          {"porosity_after_percent", band_json(d.confirmed->after[0], kPercent)},
-                          {"cracked_percent", band_json(d.confirmed->cracked[0], kPercent)}};
+    if (by == SetBy::Gap)
+      row["best"]["pressure_MPa"] = d.predicted.pressures[d.best];
+    for (const Confirmation &c : d.confirmed)
+      row["confirmed"].push_back(to_json(c));
     row["chances"] = Json::array();
     for (const Chance &c : d.chances)
-      row["chances"].push_back({{"pressure_MPa", c.pressure},
+      row["chances"].push_back({{set.key, c.at},
                                 {"porosity", c.porosity},
                                 {"cracked", c.cracked},
                                 {"tortuosity", c.tortuosity},
@@ -59,38 +88,46 @@ std::string band_text(const Band &b, int decimals, double scale = kPercent) {
                      decimals, scale * b.high90, decimals);
 }
 
-json row_of(const Design &d) {
+std::string confirmed_text(const Confirmation &c) {
+  const std::string passes =
+      c.passes == 0 ? "" : fmt::format(" in {} pass{}", c.passes, c.passes == 1 ? "" : "es");
+  return fmt::format("{} runs{}: {:.0f} %, porosity {}, cracked {}", c.predicted.runs, passes,
+                     kPercent * c.chance.all, band_text(c.predicted.after[0], 1),
+                     band_text(c.predicted.cracked[0], 0));
+}
+
+json row_of(const Design &d, const Setting &set) {
   const Chance &best = d.chances[d.best];
   json row = {{"film", d.film.name},
-              {"pressure", fmt::format("{:.0f}", best.pressure)},
+              {"at", fmt::format("{:.{}f}", best.at, set.decimals)},
               {"probability", fmt::format("{:.0f}", kPercent * best.all)},
               {"assured", fmt::format("{:.0f}", kPercent * best.assured)},
               {"porosity", band_text(d.predicted.after[d.best], 1)},
               {"cracked", band_text(d.predicted.cracked[d.best], 0)}};
   if (!d.predicted.tortuosity.empty())
     row["tortuosity"] = band_text(d.predicted.tortuosity[d.best], 2, 1.0);
-  if (d.confirmed)
-    row["confirmed"] =
-        fmt::format("{} runs: {:.0f} %, porosity {}", d.confirmed->runs,
-                    kPercent * d.confirmed_chance.all, band_text(d.confirmed->after[0], 1));
+  row["confirmed"] = json::array();
+  for (const Confirmation &c : d.confirmed)
+    row["confirmed"].push_back(confirmed_text(c));
   return row;
 }
 
-/// The probability of meeting the target against pressure, and what is assured of it.
-Chart chance_chart(const std::vector<Design> &designs) {
-  Chart chart = chart_of("chance", "Probability of meeting the target", "Probability (%)");
-  chart.note = "Dashed: assured, by which the pressure is chosen.";
+/// The probability of meeting the target, and what is assured of it.
+Chart chance_chart(const std::vector<Design> &designs, const Setting &set) {
+  Chart chart =
+      chart_of("chance", "Probability of meeting the target", "Probability (%)", set.axis);
+  chart.note = fmt::format("Dashed: assured, by which the {} is chosen.", set.name);
   for (std::size_t k = 0; k < designs.size(); ++k) {
-    std::vector<double> pressures, both, assured;
+    std::vector<double> at, both, assured;
     for (const Chance &c : designs[k].chances) {
-      pressures.push_back(c.pressure);
+      at.push_back(c.at);
       both.push_back(kPercent * c.all);
       assured.push_back(kPercent * c.assured);
     }
     const std::string colour = kSeriesColours[k % kSeriesColours.size()];
-    chart.series.push_back(line_of(designs[k].film.name, pressures, both, colour));
+    chart.series.push_back(line_of(designs[k].film.name, at, both, colour));
     chart.series.back().symbol = kSeriesSymbols[k % kSeriesSymbols.size()];
-    chart.series.push_back(line_of("", pressures, assured, colour));
+    chart.series.push_back(line_of("", at, assured, colour));
     chart.series.back().dash = "4 3";
   }
   return chart;
@@ -101,14 +138,13 @@ bool all_have_tortuosity(const std::vector<Design> &designs) {
                       [](const Design &d) { return d.predicted.tortuosity.empty(); });
 }
 
-/// A number against porosity, along the pressure.
-Chart against_porosity(const std::vector<Design> &designs, const char *id, const char *title,
-                       const char *label, const std::vector<Band> PredictedFilm::*bands,
-                       double scale) {
+/// A number against porosity, along the pressures or gaps.
+Chart against_porosity(const std::vector<Design> &designs, const Setting &set, const char *id,
+                       const char *title, const char *label,
+                       const std::vector<Band> PredictedFilm::*bands, double scale) {
   Chart chart = chart_of(id, title, label);
   chart.x_label = "Total porosity after release (%)";
-  chart.note = "The pressure rises from right to left. Porosity: median; the other: median and "
-               "intervals.";
+  chart.note = fmt::format("{} Porosity: median; the other: median and intervals.", set.direction);
   for (std::size_t k = 0; k < designs.size(); ++k) {
     const PredictedFilm &p = designs[k].predicted;
     const std::vector<double> porosity = part_of(p.after, &Band::median, kPercent);
@@ -122,22 +158,26 @@ Chart against_porosity(const std::vector<Design> &designs, const char *id, const
 
 } // namespace
 
-std::string design_page(const Target &t, const std::vector<Design> &designs, const Json &json_of) {
+std::string design_page(const Target &t, SetBy by, const std::vector<Design> &designs,
+                        const Json &json_of) {
+  const Setting set = setting_of(by);
   report::Page page{kDesignHtml, json_of};
-  page.charts = {chance_chart(designs),
-                 against_porosity(designs, "cracks", "Cracks against porosity",
+  page.charts = {chance_chart(designs, set),
+                 against_porosity(designs, set, "cracks", "Cracks against porosity",
                                   "Cracked particles (%)", &PredictedFilm::cracked, kPercent)};
   if (all_have_tortuosity(designs))
-    page.charts.push_back(against_porosity(designs, "tortuosity", "Tortuosity against porosity",
-                                           "Tortuosity factor through the plane",
-                                           &PredictedFilm::tortuosity, 1.0));
+    page.charts.push_back(
+        against_porosity(designs, set, "tortuosity", "Tortuosity against porosity",
+                         "Tortuosity factor through the plane", &PredictedFilm::tortuosity, 1.0));
   json rows = json::array();
   for (const Design &d : designs)
-    rows.push_back(row_of(d));
+    rows.push_back(row_of(d, set));
   page.values = {
       {"rows", rows},
+      {"setting", set.name},
+      {"unit", set.unit},
       {"any_confirmed", std::any_of(designs.begin(), designs.end(),
-                                    [](const Design &d) { return d.confirmed.has_value(); })},
+                                    [](const Design &d) { return !d.confirmed.empty(); })},
       {"any_tortuosity", all_have_tortuosity(designs)},
       {"porosity", fmt::format("{:g}", kPercent * t.porosity)},
       {"within", fmt::format("{:g}", kPercent * t.within)},

@@ -48,18 +48,25 @@ nlohmann::ordered_json to_json(const FilmBank &bank, const std::vector<Predicted
 std::string prediction_page(const Calibration &calibration, const std::vector<PredictedFilm> &films,
                             const nlohmann::ordered_json &json);
 
-/// What a film's pressures offer.
+/// A proposal by runs of its own.
+struct Confirmation {
+  int passes = 0; ///< under a roll; 0: under a platen
+  PredictedFilm predicted;
+  Chance chance;
+};
+
+/// What a film's pressures offer, or its gaps.
 struct Design {
   Film film;
   std::vector<Chance> chances;
-  PredictedFilm predicted;                ///< at the same pressures
-  std::size_t best = 0;                   ///< as best_of
-  std::optional<PredictedFilm> confirmed; ///< by runs of its own at that pressure
-  Chance confirmed_chance;
+  PredictedFilm predicted; ///< at the same pressures or gaps
+  std::size_t best = 0;    ///< as best_of
+  std::vector<Confirmation> confirmed;
 };
-nlohmann::ordered_json to_json(const FilmBank &bank, const Target &target,
+enum class SetBy { Pressure, Gap };
+nlohmann::ordered_json to_json(const FilmBank &bank, const Target &target, SetBy set_by,
                                const std::vector<Design> &designs);
-std::string design_page(const Target &target, const std::vector<Design> &designs,
+std::string design_page(const Target &target, SetBy set_by, const std::vector<Design> &designs,
                         const nlohmann::ordered_json &json);
 
 /// Pressure, porosity and cracked particles of films against the gap: a row for each film and gap

@@ -65,11 +65,12 @@ void add_edges(const std::string &name, const std::vector<double> &x,
   }
 }
 
-report::Chart chart_of(const std::string &id, const std::string &title, const std::string &y) {
+report::Chart chart_of(const std::string &id, const std::string &title, const std::string &y,
+                       const std::string &x) {
   report::Chart c;
   c.id = id;
   c.title = title;
-  c.x_label = "Pressure (MPa)";
+  c.x_label = x;
   c.y_label = y;
   return c;
 }

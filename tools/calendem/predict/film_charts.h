@@ -15,8 +15,9 @@ inline constexpr double kPercent = 100.0;
 /// One part of the bands, times a scale.
 std::vector<double> part_of(const std::vector<Band> &bands, double Band::*part, double scale);
 
-/// Against pressure [MPa].
-report::Chart chart_of(const std::string &id, const std::string &title, const std::string &y);
+/// Against pressure [MPa], unless another axis is given.
+report::Chart chart_of(const std::string &id, const std::string &title, const std::string &y,
+                       const std::string &x = "Pressure (MPa)");
 
 report::Series line_of(const std::string &name, const std::vector<double> &x,
                        const std::vector<double> &y, const std::string &colour);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
 
 namespace calendem {
@@ -38,6 +39,12 @@ OwnRuns usable(const std::vector<Draw> &draws, const std::vector<std::string> &f
   return out;
 }
 
+/// What every draw varies; its pressures are the bank's.
+struct OwnStudy {
+  BankSpec spec;
+  std::vector<BankPoint> points;
+};
+
 } // namespace
 
 std::vector<Draw> some_draws(const Calibration &c, int runs) {
@@ -47,12 +54,13 @@ std::vector<Draw> some_draws(const Calibration &c, int runs) {
   return out;
 }
 
-Study own_runs(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
-               int material, const std::vector<double> &pressures) {
+namespace {
+
+OwnStudy study_of(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
+                  int material) {
   BankSpec spec = bank.spec();
   spec.name = recipe.settings.text("name") + ", by runs";
   spec.recipe_file = recipe.file;
-  spec.pressures = pressures;
   spec.tortuosity = true;
   std::vector<BankParameter> of_material;
   for (const BankParameter &p : spec.parameters)
@@ -79,7 +87,34 @@ Study own_runs(const FilmBank &bank, const std::vector<Draw> &draws, const Recip
       p.also[bank.effects()[std::size_t(a.effect)].name] = four_digits(key_value(bank, a));
     points.push_back(p);
   }
-  return bank_study(spec, points);
+  return {spec, points};
+}
+
+std::string number(double value) { return fmt::format("{:g}", value); }
+
+} // namespace
+
+Study own_runs(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
+               int material, const std::vector<double> &pressures) {
+  OwnStudy of = study_of(bank, draws, recipe, material);
+  of.spec.pressures = pressures;
+  return bank_study(of.spec, of.points);
+}
+
+Study own_runs_at_gaps(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
+                       int material, const std::vector<double> &gaps, int passes) {
+  const Film film = bank.described(recipe);
+  const double before = bank.solid_column(film) / (1.0 - porosity_before(bank, film));
+  const OwnStudy of = study_of(bank, draws, recipe, material);
+  std::vector<Pressing> pressings;
+  for (const double gap : gaps)
+    pressings.push_back(
+        {{"platen.control", "roll_gap"},
+         {"platen.roll_gap_um", number(gap)},
+         {"roll.passes", number(passes)},
+         {"roll.first_gap_um",
+          number(passes > 1 ? four_digits(before - (before - gap) / passes) : 0.0)}});
+  return pressed_study(of.spec, of.points, pressings);
 }
 
 void add_press_error(Guesses &draws, const std::vector<double> &pressures, double pressure_sd) {
@@ -101,14 +136,16 @@ void add_press_error(Guesses &draws, const std::vector<double> &pressures, doubl
 
 namespace {
 
-OwnRuns made(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
-             int material, const std::vector<double> &pressures, const StudyOptions &options) {
-  const Study study = own_runs(bank, draws, recipe, material, pressures);
+bool all_known(const std::vector<Guess> &row) {
+  return std::all_of(row.begin(), row.end(), [](const Guess &g) { return std::isfinite(g.mean); });
+}
+
+OwnRuns made(const Study &study, const std::vector<Draw> &draws, const StudyOptions &options) {
   const OwnRuns own = usable(draws, make_what_runs(study, options, "Draws"));
   if (int(own.draws.size()) < kFewestOwnRuns)
     throw Failure(kSimulationFailed,
                   fmt::format("{}: {} of {} draws have all their runs, {} are needed; see {}/runs.",
-                              recipe.file, own.draws.size(), draws.size(), kFewestOwnRuns,
+                              study.recipe_file, own.draws.size(), draws.size(), kFewestOwnRuns,
                               options.folder));
   return own;
 }
@@ -118,7 +155,8 @@ OwnRuns made(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe 
 ByRuns by_runs(const FilmBank &bank, const Calibration &c, const Recipe &recipe, int material,
                const std::vector<double> &pressures, double pressure_sd, int runs,
                const StudyOptions &options) {
-  const OwnRuns own = made(bank, some_draws(c, runs), recipe, material, pressures, options);
+  const std::vector<Draw> draws = some_draws(c, runs);
+  const OwnRuns own = made(own_runs(bank, draws, recipe, material, pressures), draws, options);
   Film film = bank.described(recipe);
   film.material = material;
   std::map<FilmNumber, Guesses> all;
@@ -130,7 +168,7 @@ ByRuns by_runs(const FilmBank &bank, const Calibration &c, const Recipe &recipe,
           missed_given_data(bank, c, own.draws[d], {film, number, pressures}, false);
       for (std::size_t k = 0; k < pressures.size(); ++k)
         row[k].mean += value_of(number, own.runs[d][k]);
-      if (std::all_of(row.begin(), row.end(), [](const Guess &g) { return std::isfinite(g.mean); }))
+      if (all_known(row))
         all[number].push_back(row); // a release may lack the rows of the modulus
     }
   }
@@ -147,6 +185,88 @@ ByRuns by_runs(const FilmBank &bank, const Calibration &c, const Recipe &recipe,
   out.of = [all](FilmNumber number) { return all.at(number); };
   out.predicted = predicted_from(film, pressures, out.of);
   out.predicted.runs = int(own.draws.size());
+  return out;
+}
+
+namespace {
+
+/// What the model misses of a film at a draw's run: of a number, and of the porosity under load.
+struct MissedOfRun {
+  const FilmBank &bank;
+  const Calibration &calibration;
+  const Draw &draw;
+  const Film &film;
+  double pressure; ///< of the run [MPa]
+
+  Guess of(FilmNumber number) const {
+    return missed_given_data(bank, calibration, draw, {film, number, {pressure}}, false).front();
+  }
+
+  /// The logarithm of the pressure that a gap takes: where the porosity under load misses, it takes
+  /// another, by the slope of the bank's film.
+  Guess log_pressure(const SimulatedRun &run) const {
+    const std::vector<double> &range = bank.spec().pressures;
+    const double at = std::clamp(pressure, range.front() * kStep, range.back() / kStep);
+    const std::vector<Guess> after =
+        bank.at_pressures(FilmNumber::PorosityAfter, film, draw.of(film));
+    const double slope =
+        std::min((bank.at(after, at * kStep).mean - bank.at(after, at / kStep).mean) /
+                     std::log(kStep * kStep),
+                 kFlattest);
+    const Guess left = of(FilmNumber::PorosityAfter), sprung = of(FilmNumber::Springback);
+    const double by_left = 1.0 + value_of(FilmNumber::Springback, run),
+                 by_sprung = 1.0 - run.porosity_after;
+    const double load = by_left * left.mean - by_sprung * sprung.mean,
+                 variance =
+                     by_left * by_left * left.variance + by_sprung * by_sprung * sprung.variance;
+    return {std::log(pressure) - load / slope, variance / (slope * slope)};
+  }
+
+  static constexpr double kStep = 1.1;
+  static constexpr double kFlattest = -0.01; ///< porosity per logarithm of the pressure
+};
+
+} // namespace
+
+GapDraws runs_at_gaps(const FilmBank &bank, const Calibration &c, const Recipe &recipe,
+                      int material, const std::vector<double> &gaps, int passes, int runs,
+                      const StudyOptions &options) {
+  GapDraws out;
+  out.film = bank.described(recipe);
+  out.film.material = material;
+  out.gaps = gaps;
+  out.solid = bank.solid_column(out.film);
+  check_gaps(out.film, gaps, out.solid, porosity_before(bank, out.film));
+  out.lowest = std::numeric_limits<double>::min();
+  out.below.assign(gaps.size(), 0.0);
+  out.above = out.below;
+  const std::vector<Draw> draws = some_draws(c, runs);
+  const OwnRuns own =
+      made(own_runs_at_gaps(bank, draws, recipe, material, gaps, passes), draws, options);
+  for (std::size_t d = 0; d < own.draws.size(); ++d) {
+    std::map<FilmNumber, std::vector<Guess>> rows;
+    std::vector<Guess> log_pressures;
+    for (std::size_t k = 0; k < gaps.size(); ++k) {
+      const SimulatedRun &run = own.runs[d][k];
+      const MissedOfRun missed = {bank, c, own.draws[d], out.film, run.max_pressure};
+      log_pressures.push_back(missed.log_pressure(run));
+      for (const auto number : {FilmNumber::Springback, FilmNumber::Cracked, FilmNumber::Broken,
+                                FilmNumber::InverseTortuosity}) {
+        Guess g = missed.of(number);
+        // from the gap, as the porosity left follows from it
+        g.mean += number == FilmNumber::Springback
+                      ? out.solid / (gaps[k] * (1.0 - run.porosity_after)) - 1.0
+                      : value_of(number, run);
+        rows[number].push_back(g);
+      }
+    }
+    out.log_pressure.push_back(log_pressures);
+    out.springback.push_back(rows[FilmNumber::Springback]);
+    out.cracked.push_back(rows[FilmNumber::Cracked]);
+    out.broken.push_back(rows[FilmNumber::Broken]);
+    if (all_known(rows[FilmNumber::InverseTortuosity]))
+      out.inverse_tortuosity.push_back(rows[FilmNumber::InverseTortuosity]);
+  }
   return out;
 }
 
@@ -199,7 +319,8 @@ std::vector<Confirmed> confirmed_by_runs(const FilmBank &bank, const Calibration
   if (data.empty())
     return out;
   const Film &of = c.films[std::size_t(film)];
-  const OwnRuns own = made(bank, some_draws(c, runs), recipe, of.material, pressures, options);
+  const std::vector<Draw> draws = some_draws(c, runs);
+  const OwnRuns own = made(own_runs(bank, draws, recipe, of.material, pressures), draws, options);
   for (const Datum *d : data)
     out.push_back(
         confirmed_at(bank, of, *d, own,

@@ -4,7 +4,7 @@
 #ifndef CALENDEM_PREDICT_OWN_RUNS_H
 #define CALENDEM_PREDICT_OWN_RUNS_H
 
-#include "predict/prediction.h"
+#include "predict/by_gap.h"
 #include "simulate/study.h"
 
 namespace calendem {
@@ -18,6 +18,11 @@ std::vector<Draw> some_draws(const Calibration &calibration, int runs);
 /// Draw::materials; the bank's case.
 Study own_runs(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
                int material, const std::vector<double> &pressures);
+
+/// The runs under a roll: for each draw one to each gap [um], in `passes` that reduce the film's
+/// thickness in equal steps.
+Study own_runs_at_gaps(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
+                       int material, const std::vector<double> &gaps, int passes);
 
 /// A film by runs of its own.
 struct ByRuns {
@@ -36,6 +41,12 @@ void add_press_error(Guesses &draws, const std::vector<double> &pressures, doubl
 ByRuns by_runs(const FilmBank &bank, const Calibration &calibration, const Recipe &recipe,
                int material, const std::vector<double> &pressures, double pressure_sd, int runs,
                const StudyOptions &options);
+
+/// The same under a roll. What a run is left with, its cracks and its tortuosity are its own, with the
+/// model error at its pressure. Throws as by_runs, and Failure(2) as under_gaps.
+GapDraws runs_at_gaps(const FilmBank &bank, const Calibration &calibration, const Recipe &recipe,
+                      int material, const std::vector<double> &gaps, int passes, int runs,
+                      const StudyOptions &options);
 
 /// A measured film, run again: total porosity after release, 0-1.
 struct Confirmed {

@@ -136,7 +136,7 @@ Band porosity_band(const FilmBank &bank, const Calibration &c, const Film &film,
   return bands_of(draws, 0.0, 1.0).front();
 }
 
-std::vector<Chance> chances_from(const std::vector<double> &pressures, const GuessesOf &of,
+std::vector<Chance> chances_from(const std::vector<double> &settings, const GuessesOf &of,
                                  const Target &target) {
   const Guesses after = of(FilmNumber::PorosityAfter), cracked = of(FilmNumber::Cracked),
                 inverse = of(FilmNumber::InverseTortuosity);
@@ -145,9 +145,9 @@ std::vector<Chance> chances_from(const std::vector<double> &pressures, const Gue
     throw Failure(kBadInput, "the bank has no tortuosities (tortuosity = \"yes\" in its file), so "
                              "that none can be asked for.");
   std::vector<Chance> out;
-  for (std::size_t k = 0; k < pressures.size(); ++k) {
+  for (std::size_t k = 0; k < settings.size(); ++k) {
     Chance chance;
-    chance.pressure = pressures[k];
+    chance.at = settings[k];
     std::vector<double> all;
     const auto n = double(after.size());
     for (std::size_t d = 0; d < after.size(); ++d) {

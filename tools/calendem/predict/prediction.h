@@ -70,9 +70,9 @@ struct Target {
   double tortuosity_below = kMostTortuosity;
 };
 
-/// Probabilities of meeting the target at a pressure.
+/// Probabilities of meeting the target at a pressure [MPa] or gap [um].
 struct Chance {
-  double pressure = 0.0;
+  double at = 0.0;
   double porosity = 0.0, cracked = 0.0, tortuosity = 0.0; ///< of each, mean over the draws
   double all = 0.0;                                       ///< of all together, mean over the draws
   double assured = 0.0; ///< of all together, for kAssured of the draws or more
@@ -81,14 +81,14 @@ struct Chance {
 /// The data leave materials open; this share of them has the assured probability or more.
 constexpr double kAssured = 0.8;
 
-/// Of each pressure to meet the target.
-std::vector<Chance> chances_from(const std::vector<double> &pressures, const GuessesOf &of,
+/// Of each pressure, or gap, to meet the target.
+std::vector<Chance> chances_from(const std::vector<double> &settings, const GuessesOf &of,
                                  const Target &target);
 std::vector<Chance> chances(const FilmBank &bank, const Calibration &calibration, const Film &film,
                             const std::vector<double> &pressures, double pressure_sd,
                             const Target &target);
 
-/// The pressure with the largest assured probability; where none is as much as 1 %, with the largest
+/// The one with the largest assured probability; where none is as much as 1 %, with the largest
 /// mean.
 std::size_t best_of(const std::vector<Chance> &chances);
 

@@ -266,7 +266,6 @@ std::vector<std::string> columns_of(const BankSpec &spec) {
     if (const Effect &e = find_effect(name); !e.instrument)
       for (const std::string &key : e.parameter.keys)
         columns.push_back(e.column(key));
-  columns.push_back("case.platen.max_pressure_MPa");
   return columns;
 }
 
@@ -277,14 +276,13 @@ std::string effect_value(const BankPoint &point, const Effect &effect) {
   return effect.name == point.effect ? fmt::format("{}", point.value) : effect.parameter.off;
 }
 
-std::vector<std::string> row_of(const BankSpec &spec, const BankPoint &point, double pressure) {
+std::vector<std::string> row_of(const BankSpec &spec, const BankPoint &point) {
   std::vector<std::string> row = {fmt::format("{}", point.packing)};
   for (std::size_t k = 0; k < spec.parameters.size(); ++k)
     row.insert(row.end(), spec.parameters[k].keys.size(), fmt::format("{}", point.base[k]));
   for (const std::string &name : spec.effects)
     if (const Effect &e = find_effect(name); !e.instrument)
       row.insert(row.end(), e.parameter.keys.size(), effect_value(point, e));
-  row.push_back(fmt::format("{}", pressure));
   return row;
 }
 
@@ -336,7 +334,8 @@ std::vector<BankPoint> bank_points(const BankSpec &spec) {
   return out;
 }
 
-Study bank_study(const BankSpec &spec, const std::vector<BankPoint> &points) {
+Study pressed_study(const BankSpec &spec, const std::vector<BankPoint> &points,
+                    const std::vector<Pressing> &pressings) {
   Study study;
   study.file = spec.file;
   study.name = spec.name;
@@ -345,11 +344,23 @@ Study bank_study(const BankSpec &spec, const std::vector<BankPoint> &points) {
   study.keep_all = false;
   study.measured = spec.tortuosity;
   study.columns = columns_of(spec);
+  for (const auto &[key, value] : pressings.front())
+    study.columns.push_back("case." + key);
   std::vector<std::vector<std::string>> rows;
   for (const BankPoint &p : points)
-    for (const double pressure : spec.pressures)
-      rows.push_back(row_of(spec, p, pressure));
+    for (const Pressing &pressing : pressings) {
+      rows.push_back(row_of(spec, p));
+      for (const auto &[key, value] : pressing)
+        rows.back().push_back(value);
+    }
   return filled(std::move(study), rows);
+}
+
+Study bank_study(const BankSpec &spec, const std::vector<BankPoint> &points) {
+  std::vector<Pressing> pressings;
+  for (const double pressure : spec.pressures)
+    pressings.push_back({{"platen.max_pressure_MPa", fmt::format("{}", pressure)}});
+  return pressed_study(spec, points, pressings);
 }
 
 std::vector<BankPoint> full_cell_points(const BankSpec &spec) {

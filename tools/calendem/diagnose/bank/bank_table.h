@@ -32,6 +32,14 @@ double prior_value(double low, double high, Spread spread, double share);
 /// fill the priors evenly too, and stand on all packings.
 std::vector<BankPoint> bank_points(const BankSpec &spec);
 
+/// How a film is pressed: keys of the case and their values.
+using Pressing = std::vector<std::pair<std::string, std::string>>;
+
+/// The runs of all points: for each point one per pressing, all of the same keys, in their order.
+/// Throws Failure(2) where values are no values of their keys or contradict each other.
+Study pressed_study(const BankSpec &spec, const std::vector<BankPoint> &points,
+                    const std::vector<Pressing> &pressings);
+
 /// The runs of all points: for each point one per pressure, in their order. Throws Failure(2) where
 /// values are no values of their keys or contradict each other.
 Study bank_study(const BankSpec &spec, const std::vector<BankPoint> &points);
