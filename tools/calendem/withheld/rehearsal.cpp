@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/rehearsal.h"
+#include "base/csv_table.h"
 #include "base/liggghts_job.h"
 #include "base/messages.h"
 #include "base/output_folder.h"
@@ -12,11 +13,13 @@
 #include "withheld/round_file.h"
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <functional>
 #include <iostream>
 #include <map>
 #include <memory>
+#include <mutex>
 
 namespace calendem {
 
@@ -182,39 +185,90 @@ private:
   }
 };
 
+/// A comment at the head of the table: what it was made from. With another its rows are not taken.
+std::string made_from(const RehearsalOptions &o) {
+  return fmt::format("# bank {}, table {}, draws {}, cells {:g}\n", hash_of_file(o.bank),
+                     hash_of_file(o.table), o.draws, o.cells);
+}
+
+/// Rows of a table that was begun, by packing or draw; empty where it is of something else.
+std::map<int, std::vector<Rehearsed>> begun(const std::string &file, const std::string &head) {
+  std::map<int, std::vector<Rehearsed>> out;
+  const std::string text = std::filesystem::is_regular_file(file) ? text_of_file(file) : "";
+  if (text.compare(0, head.size(), head) != 0)
+    return out;
+  const CsvTable t = CsvTable::parse(text);
+  const auto effect = t.texts("effect"), first = t.texts("most_probable"), claim = t.texts("claim");
+  const auto base_point = t.numbers("base_point"), packing = t.numbers("packing"),
+             left_out = t.numbers("left_out"), amplitude = t.numbers("amplitude"),
+             limit = t.numbers("limit_against_none"), its = t.numbers("its_probability"),
+             truths = t.numbers("truths_probability"), unknowns = t.numbers("unknowns_probability"),
+             adequacy = t.numbers("adequacy_p");
+  for (std::size_t k = 0; k < t.rows(); ++k)
+    out[int(packing[k])].push_back({effect[k], int(base_point[k]), int(packing[k]),
+                                    left_out[k] == 1.0, amplitude[k], limit[k], first[k], its[k],
+                                    truths[k], unknowns[k], claim[k], adequacy[k]});
+  return out;
+}
+
+/// Numbers of the packings, or of the draws.
+std::vector<int> parts_of(const RehearsalOptions &o, const BankTable &table) {
+  std::vector<int> out;
+  for (int draw = 1; draw <= o.draws; ++draw)
+    out.push_back(draw);
+  if (o.draws > 0)
+    return out;
+  for (const BankRow &row : table.rows)
+    out.push_back(row.point.packing);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  if (int(out.size()) < kFewestPackings)
+    throw Failure(kBadInput, fmt::format("{} has {} packings; at least {} are needed to leave one "
+                                         "out.",
+                                         o.table, out.size(), kFewestPackings));
+  return out;
+}
+
 } // namespace
 
 void rehearse(const RehearsalOptions &o) {
   const BankTable table = read_bank_table(read_bank_spec(o.bank), o.table);
-  std::vector<int> packings;
-  for (const BankRow &row : table.rows)
-    packings.push_back(row.point.packing);
-  std::sort(packings.begin(), packings.end());
-  packings.erase(std::unique(packings.begin(), packings.end()), packings.end());
-  if (int(packings.size()) < kFewestPackings)
-    throw Failure(kBadInput, fmt::format("{} has {} packings; at least {} are needed to leave one "
-                                         "out.",
-                                         o.table, packings.size(), kFewestPackings));
+  const std::vector<int> numbers = parts_of(o, table);
   make_output_folder(o.folder);
+  const std::string file = o.folder + "/rehearsal.csv", head = made_from(o);
+  std::map<int, std::vector<Rehearsed>> done = begun(file, head);
+  std::vector<int> missing;
+  for (const int number : numbers)
+    if (done.count(number) == 0)
+      missing.push_back(number);
+  if (missing.size() < numbers.size())
+    fmt::print("rehearsal: {} of {} are in {} already\n", numbers.size() - missing.size(),
+               numbers.size(), file);
   const std::unique_ptr<Predicted> predicted =
       o.draws > 0 ? std::make_unique<Predicted>(o, table) : nullptr;
-  std::vector<std::vector<Rehearsed>> parts(predicted ? std::size_t(o.draws) : packings.size());
-  in_parallel(int(parts.size()), o.jobs, [&](int k) {
-    std::vector<Rehearsed> &part = parts[std::size_t(k)];
-    part = predicted ? predicted->of_draw(k + 1) : of_packing(o, table, packings[std::size_t(k)]);
-    fmt::print("rehearsal: {}, {} diagnoses\n",
-               predicted ? fmt::format("draw {}", k + 1)
-                         : fmt::format("packing {} left out", packings[std::size_t(k)]),
+  std::vector<Rehearsed> cases;
+  const auto write = [&] {
+    cases.clear();
+    for (const auto &[number, part] : done)
+      cases.insert(cases.end(), part.begin(), part.end());
+    write_file(file, head + table_of(cases));
+  };
+  std::mutex writing;
+  in_parallel(int(missing.size()), o.jobs, [&](int k) {
+    const int number = missing[std::size_t(k)];
+    const std::vector<Rehearsed> part =
+        predicted ? predicted->of_draw(number) : of_packing(o, table, number);
+    const std::lock_guard<std::mutex> lock(writing);
+    done[number] = part;
+    write();
+    fmt::print("rehearsal: {} {}, {} diagnoses\n", predicted ? "draw" : "left out packing", number,
                part.size());
     std::cout << std::flush;
   });
-  std::vector<Rehearsed> cases;
-  for (const auto &part : parts)
-    cases.insert(cases.end(), part.begin(), part.end());
-  write_file(o.folder + "/rehearsal.csv", table_of(cases));
+  write();
   for (const std::string &line : summary_of(cases))
     fmt::print("{}\n", line);
-  fmt::print("table: {}/rehearsal.csv\n", o.folder);
+  fmt::print("table: {}\n", file);
 }
 
 namespace {
