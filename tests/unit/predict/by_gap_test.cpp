@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/messages.h"
 #include "predict/by_gap.h"
+#include "predict/own_runs.h"
 #include "support/made_coatings.h"
 #include <gtest/gtest.h>
 
@@ -73,6 +74,41 @@ TEST(ByGap, ATargetIsMetAsOftenAsTheBandSays) {
   EXPECT_EQ(as_film.after[0].median, at.after.median);
   EXPECT_NEAR(as_film.under_load[0].median, 0.28, 1e-12);
   EXPECT_EQ(as_film.pressures[0], at.pressure.median);
+}
+
+// Runs that give what the emulators say change nothing; a run that springs back by 0.01 more,
+// with 0.1 more of its particles cracked, adds that.
+TEST(ByGap, RunsToAGapAddWhatTheyDifferBy) {
+  const FilmBank &bank = made_film_bank();
+  const Film film = made_film("x", 46.0, 2.0);
+  const Calibration c = exact();
+  const double gap = bank.solid_column(film) / (1.0 - 0.28);
+  const auto at = [&](FilmNumber number, double pressure) {
+    return bank.at(bank.at_pressures(number, film, c.draws[0].materials[0]), pressure).mean;
+  };
+  const auto load = [&](double p) {
+    return 1.0 - (1.0 - at(FilmNumber::PorosityAfter, p)) * (1.0 + at(FilmNumber::Springback, p));
+  };
+  SimulatedRun run; // where the emulated film reaches the gap
+  double low = 20.0, high = 300.0;
+  while (high - low > 1e-9)
+    (load(0.5 * (low + high)) > 0.28 ? low : high) = 0.5 * (low + high);
+  run.max_pressure = low;
+  run.porosity_after = at(FilmNumber::PorosityAfter, low);
+  run.porosity_at_max = 0.28;
+  run.cracked_fraction = at(FilmNumber::Cracked, low);
+  const GapDraws same = from_runs_at_gaps(bank, c, gaps_of(bank, film, {gap}), c.draws, {{run}}),
+                 emulated = under_gaps(bank, c, film, {gap});
+  EXPECT_NEAR(same.log_pressure[0][0].mean, emulated.log_pressure[0][0].mean, 1e-3);
+  EXPECT_NEAR(same.springback[0][0].mean, emulated.springback[0][0].mean, 1e-4);
+  EXPECT_NEAR(same.cracked[0][0].mean, emulated.cracked[0][0].mean, 1e-3);
+  EXPECT_LT(same.springback[0][0].variance, emulated.springback[0][0].variance); // no emulator's
+  run.porosity_after = 1.0 - 0.72 / (1.01 + at(FilmNumber::Springback, low));
+  run.cracked_fraction += 0.1;
+  const GapDraws more = from_runs_at_gaps(bank, c, gaps_of(bank, film, {gap}), c.draws, {{run}});
+  EXPECT_NEAR(more.springback[0][0].mean, same.springback[0][0].mean + 0.01, 1e-6);
+  EXPECT_NEAR(more.cracked[0][0].mean, same.cracked[0][0].mean + 0.1, 1e-9);
+  EXPECT_EQ(more.log_pressure[0][0].mean, same.log_pressure[0][0].mean);
 }
 
 TEST(ByGap, PressuresBeyondTheBanksAreReported) {

@@ -56,29 +56,6 @@ void check_gap(const Film &film, double gap, double solid, double before) {
                                          gap, film.name, solid / (1.0 - before)));
 }
 
-/// Curves of a film at a grid of pressures: draws x pressures.
-struct Curves {
-  std::vector<double> logs;                                      ///< of the pressures
-  Guesses springback, load, cracked, broken, inverse_tortuosity; ///< empty: not known
-};
-
-Curves curves_of(const FilmBank &bank, const Calibration &c, const Film &film) {
-  Curves out;
-  const std::vector<double> pressures =
-      spread_pressures(bank.spec().pressures.front(), bank.spec().pressures.back(), kGrid);
-  for (const double p : pressures)
-    out.logs.push_back(std::log(p));
-  const auto of = [&](FilmNumber number) {
-    return under_draws(bank, c, {film, number, pressures}, 0.0);
-  };
-  out.springback = of(FilmNumber::Springback);
-  out.cracked = of(FilmNumber::Cracked);
-  out.broken = of(FilmNumber::Broken);
-  out.inverse_tortuosity = of(FilmNumber::InverseTortuosity);
-  out.load = under_load_of(of(FilmNumber::PorosityAfter), out.springback);
-  return out;
-}
-
 Mixture of_gap(const Guesses &draws, std::size_t gap) {
   Mixture out;
   for (const std::vector<Guess> &d : draws)
@@ -117,34 +94,39 @@ Guess porosity_left(const Guess &springback, double gap, double solid) {
 
 } // namespace
 
-void check_gaps(const Film &film, const std::vector<double> &gaps, double solid, double before) {
-  for (const double gap : gaps)
-    check_gap(film, gap, solid, before);
+std::vector<double> pressures_of_curves(const FilmBank &bank) {
+  return spread_pressures(bank.spec().pressures.front(), bank.spec().pressures.back(), kGrid);
 }
 
-GapDraws under_gaps(const FilmBank &bank, const Calibration &c, const Film &film,
-                    const std::vector<double> &gaps) {
-  GapDraws out;
-  out.film = film;
-  out.gaps = gaps;
-  out.solid = bank.solid_column(film);
-  check_gaps(film, gaps, out.solid, porosity_before(bank, film));
-  const Curves curves = curves_of(bank, c, film);
-  out.lowest = std::exp(curves.logs.front());
-  out.highest = std::exp(curves.logs.back());
-  out.below.assign(gaps.size(), 0.0);
-  out.above = out.below;
-  const double step = curves.logs[1] - curves.logs[0], share = 1.0 / double(curves.load.size());
+FilmCurves curves_at(const std::vector<double> &pressures, const GuessesOf &of) {
+  FilmCurves out;
+  out.pressures = pressures;
+  out.springback = of(FilmNumber::Springback);
+  out.cracked = of(FilmNumber::Cracked);
+  out.broken = of(FilmNumber::Broken);
+  out.inverse_tortuosity = of(FilmNumber::InverseTortuosity);
+  out.load = under_load_of(of(FilmNumber::PorosityAfter), out.springback);
+  return out;
+}
+
+void add_met(const FilmCurves &curves, const std::vector<std::vector<double>> &porosities,
+             GapDraws &draws) {
+  std::vector<double> logs;
+  for (const double p : curves.pressures)
+    logs.push_back(std::log(p));
+  draws.below.assign(draws.gaps.size(), 0.0);
+  draws.above = draws.below;
+  const double step = logs[1] - logs[0], share = 1.0 / double(curves.load.size());
   for (std::size_t d = 0; d < curves.load.size(); ++d) {
     std::vector<Met> met;
     std::vector<Guess> log_pressures;
-    for (std::size_t k = 0; k < gaps.size(); ++k) {
-      met.push_back(meets(curves.logs, curves.load[d], 1.0 - out.solid / gaps[k]));
+    for (std::size_t k = 0; k < draws.gaps.size(); ++k) {
+      met.push_back(meets(logs, curves.load[d], porosities[d][k]));
       log_pressures.push_back(met[k].log_pressure);
-      out.below[k] += met[k].below * share;
-      out.above[k] += met[k].above * share;
+      draws.below[k] += met[k].below * share;
+      draws.above[k] += met[k].above * share;
     }
-    out.log_pressure.push_back(log_pressures);
+    draws.log_pressure.push_back(log_pressures);
     const auto add = [&](const Guesses &of, Guesses &to) {
       if (of.empty())
         return;
@@ -152,11 +134,37 @@ GapDraws under_gaps(const FilmBank &bank, const Calibration &c, const Film &film
       for (const Met &m : met)
         to.back().push_back(number_at(of[d], m, step));
     };
-    add(curves.springback, out.springback);
-    add(curves.cracked, out.cracked);
-    add(curves.broken, out.broken);
-    add(curves.inverse_tortuosity, out.inverse_tortuosity);
+    add(curves.springback, draws.springback);
+    add(curves.cracked, draws.cracked);
+    add(curves.broken, draws.broken);
+    add(curves.inverse_tortuosity, draws.inverse_tortuosity);
   }
+}
+
+GapDraws gaps_of(const FilmBank &bank, const Film &film, const std::vector<double> &gaps) {
+  GapDraws out;
+  out.film = film;
+  out.gaps = gaps;
+  out.solid = bank.solid_column(film);
+  const double before = porosity_before(bank, film);
+  for (const double gap : gaps)
+    check_gap(film, gap, out.solid, before);
+  out.lowest = bank.spec().pressures.front();
+  out.highest = bank.spec().pressures.back();
+  return out;
+}
+
+GapDraws under_gaps(const FilmBank &bank, const Calibration &c, const Film &film,
+                    const std::vector<double> &gaps) {
+  GapDraws out = gaps_of(bank, film, gaps);
+  const std::vector<double> pressures = pressures_of_curves(bank);
+  const FilmCurves curves = curves_at(pressures, [&](FilmNumber number) {
+    return under_draws(bank, c, {film, number, pressures}, 0.0);
+  });
+  std::vector<double> porosities;
+  for (const double gap : gaps)
+    porosities.push_back(1.0 - out.solid / gap);
+  add_met(curves, std::vector<std::vector<double>>(curves.load.size(), porosities), out);
   return out;
 }
 

@@ -6,7 +6,6 @@
 #define CALENDEM_PREDICT_BY_GAP_H
 
 #include "predict/prediction.h"
-#include <cmath>
 #include <optional>
 
 namespace calendem {
@@ -23,22 +22,37 @@ struct AtGap {
 /// A film at gaps under each draw: draws x gaps.
 struct GapDraws {
   Film film;
-  std::vector<double> gaps;                ///< [um]
-  double solid = 0.0;                      ///< thickness without pores [um]
-  double lowest = 0.0, highest = HUGE_VAL; ///< pressures that the bands may hold [MPa]
-  Guesses log_pressure;                    ///< of MPa
+  std::vector<double> gaps;           ///< [um]
+  double solid = 0.0;                 ///< thickness without pores [um]
+  double lowest = 0.0, highest = 0.0; ///< pressures that the bands may hold [MPa]
+  Guesses log_pressure;               ///< of MPa
   Guesses springback, cracked, broken, inverse_tortuosity; ///< as FilmNumber; empty: not known
   /// By gap: the share of draws whose pressure lies below or above the bank's.
   std::vector<double> below, above;
 };
+
+/// A film against pressure under each draw: draws x pressures at equal ratios.
+struct FilmCurves {
+  std::vector<double> pressures;                           ///< [MPa]
+  Guesses load;                                            ///< porosity under load
+  Guesses springback, cracked, broken, inverse_tortuosity; ///< as FilmNumber; empty: not known
+};
+FilmCurves curves_at(const std::vector<double> &pressures, const GuessesOf &of);
+/// The pressures of such curves.
+std::vector<double> pressures_of_curves(const FilmBank &bank);
+
+/// Adds the log pressure at which each draw's porosity under load meets `porosities` (draws x gaps),
+/// and the other numbers there.
+void add_met(const FilmCurves &curves, const std::vector<std::vector<double>> &porosities,
+             GapDraws &draws);
 
 /// By the bank's emulators. Per draw the porosity under load falls with pressure; where it meets that
 /// of the gap is the draw's pressure, with the porosity's error over its slope. Throws Failure(2) for
 /// a gap that leaves the film no pores, or does not touch it.
 GapDraws under_gaps(const FilmBank &bank, const Calibration &calibration, const Film &film,
                     const std::vector<double> &gaps);
-/// Throws as under_gaps.
-void check_gaps(const Film &film, const std::vector<double> &gaps, double solid, double before);
+/// Without draws yet. Throws as under_gaps.
+GapDraws gaps_of(const FilmBank &bank, const Film &film, const std::vector<double> &gaps);
 
 std::vector<AtGap> at_gaps(const GapDraws &draws);
 /// The porosity after release follows from gap and springback.

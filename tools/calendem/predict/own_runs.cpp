@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <map>
 
 namespace calendem {
@@ -190,84 +189,80 @@ ByRuns by_runs(const FilmBank &bank, const Calibration &c, const Recipe &recipe,
 
 namespace {
 
-/// What the model misses of a film at a draw's run: of a number, and of the porosity under load.
-struct MissedOfRun {
-  const FilmBank &bank;
-  const Calibration &calibration;
-  const Draw &draw;
-  const Film &film;
-  double pressure; ///< of the run [MPa]
+/// What the emulators say of a film under a draw.
+double emulated(const FilmBank &bank, const Draw &draw, const Film &film, FilmNumber number,
+                double pressure) {
+  return bank.at(bank.at_pressures(number, film, draw.of(film)), pressure).mean;
+}
 
-  Guess of(FilmNumber number) const {
-    return missed_given_data(bank, calibration, draw, {film, number, {pressure}}, false).front();
+/// The same of the porosity under load.
+double emulated_load(const FilmBank &bank, const Draw &draw, const Film &film, double pressure) {
+  return 1.0 - (1.0 - emulated(bank, draw, film, FilmNumber::PorosityAfter, pressure)) *
+                   (1.0 + emulated(bank, draw, film, FilmNumber::Springback, pressure));
+}
+
+/// Emulated means with the model error of runs.
+Guesses emulated_and_missed(const FilmBank &bank, const Calibration &c,
+                            const std::vector<Draw> &draws, const Wanted &wanted) {
+  Guesses out;
+  if (!bank.knows(wanted.number))
+    return out;
+  for (const Draw &draw : draws) {
+    const std::vector<Guess> curve =
+        bank.at_pressures(wanted.number, wanted.film, draw.of(wanted.film));
+    out.push_back(missed_given_data(bank, c, draw, wanted, false));
+    for (std::size_t k = 0; k < wanted.pressures.size(); ++k)
+      out.back()[k].mean += bank.at(curve, wanted.pressures[k]).mean;
   }
-
-  /// The logarithm of the pressure that a gap takes: where the porosity under load misses, it takes
-  /// another, by the slope of the bank's film.
-  Guess log_pressure(const SimulatedRun &run) const {
-    const std::vector<double> &range = bank.spec().pressures;
-    const double at = std::clamp(pressure, range.front() * kStep, range.back() / kStep);
-    const std::vector<Guess> after =
-        bank.at_pressures(FilmNumber::PorosityAfter, film, draw.of(film));
-    const double slope =
-        std::min((bank.at(after, at * kStep).mean - bank.at(after, at / kStep).mean) /
-                     std::log(kStep * kStep),
-                 kFlattest);
-    const Guess left = of(FilmNumber::PorosityAfter), sprung = of(FilmNumber::Springback);
-    const double by_left = 1.0 + value_of(FilmNumber::Springback, run),
-                 by_sprung = 1.0 - run.porosity_after;
-    const double load = by_left * left.mean - by_sprung * sprung.mean,
-                 variance =
-                     by_left * by_left * left.variance + by_sprung * by_sprung * sprung.variance;
-    return {std::log(pressure) - load / slope, variance / (slope * slope)};
-  }
-
-  static constexpr double kStep = 1.1;
-  static constexpr double kFlattest = -0.01; ///< porosity per logarithm of the pressure
-};
+  return out;
+}
 
 } // namespace
+
+GapDraws from_runs_at_gaps(const FilmBank &bank, const Calibration &c, GapDraws at,
+                           const std::vector<Draw> &draws,
+                           const std::vector<std::vector<SimulatedRun>> &runs) {
+  const Film &film = at.film;
+  std::vector<std::vector<double>> porosities;
+  for (std::size_t d = 0; d < draws.size(); ++d) {
+    porosities.emplace_back();
+    for (const SimulatedRun &run : runs[d])
+      porosities.back().push_back(emulated_load(bank, draws[d], film, run.max_pressure));
+  }
+  const std::vector<double> pressures = pressures_of_curves(bank);
+  const FilmCurves curves = curves_at(pressures, [&](FilmNumber number) {
+    return emulated_and_missed(bank, c, draws, {film, number, pressures});
+  });
+  add_met(curves, porosities, at);
+  const auto add_run = [&](FilmNumber number, Guesses &to, std::size_t d, std::size_t k) {
+    const SimulatedRun &run = runs[d][k];
+    const double of_run =
+        number == FilmNumber::Springback // from the gap: the porosity left follows
+            ? at.solid / (at.gaps[k] * (1.0 - run.porosity_after)) - 1.0
+            : value_of(number, run);
+    if (!to.empty())
+      to[d][k].mean += of_run - emulated(bank, draws[d], film, number, run.max_pressure);
+  };
+  for (std::size_t d = 0; d < draws.size(); ++d)
+    for (std::size_t k = 0; k < at.gaps.size(); ++k) {
+      add_run(FilmNumber::Springback, at.springback, d, k);
+      add_run(FilmNumber::Cracked, at.cracked, d, k);
+      add_run(FilmNumber::Broken, at.broken, d, k);
+      add_run(FilmNumber::InverseTortuosity, at.inverse_tortuosity, d, k);
+    }
+  return at;
+}
 
 GapDraws runs_at_gaps(const FilmBank &bank, const Calibration &c, const Recipe &recipe,
                       int material, const std::vector<double> &gaps, int passes, int runs,
                       const StudyOptions &options) {
-  GapDraws out;
-  out.film = bank.described(recipe);
-  out.film.material = material;
-  out.gaps = gaps;
-  out.solid = bank.solid_column(out.film);
-  check_gaps(out.film, gaps, out.solid, porosity_before(bank, out.film));
-  out.lowest = std::numeric_limits<double>::min();
-  out.below.assign(gaps.size(), 0.0);
-  out.above = out.below;
+  Film film = bank.described(recipe);
+  film.material = material;
+  const GapDraws at = gaps_of(bank, film, gaps);
   const std::vector<Draw> draws = some_draws(c, runs);
   const OwnRuns own =
       made(own_runs_at_gaps(bank, draws, recipe, material, gaps, passes), draws, options);
-  for (std::size_t d = 0; d < own.draws.size(); ++d) {
-    std::map<FilmNumber, std::vector<Guess>> rows;
-    std::vector<Guess> log_pressures;
-    for (std::size_t k = 0; k < gaps.size(); ++k) {
-      const SimulatedRun &run = own.runs[d][k];
-      const MissedOfRun missed = {bank, c, own.draws[d], out.film, run.max_pressure};
-      log_pressures.push_back(missed.log_pressure(run));
-      for (const auto number : {FilmNumber::Springback, FilmNumber::Cracked, FilmNumber::Broken,
-                                FilmNumber::InverseTortuosity}) {
-        Guess g = missed.of(number);
-        // from the gap, as the porosity left follows from it
-        g.mean += number == FilmNumber::Springback
-                      ? out.solid / (gaps[k] * (1.0 - run.porosity_after)) - 1.0
-                      : value_of(number, run);
-        rows[number].push_back(g);
-      }
-    }
-    out.log_pressure.push_back(log_pressures);
-    out.springback.push_back(rows[FilmNumber::Springback]);
-    out.cracked.push_back(rows[FilmNumber::Cracked]);
-    out.broken.push_back(rows[FilmNumber::Broken]);
-    if (all_known(rows[FilmNumber::InverseTortuosity]))
-      out.inverse_tortuosity.push_back(rows[FilmNumber::InverseTortuosity]);
-  }
-  return out;
+  return from_runs_at_gaps(bank, c, at, own.draws, own.runs);
 }
 
 namespace {

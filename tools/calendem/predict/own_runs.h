@@ -42,8 +42,13 @@ ByRuns by_runs(const FilmBank &bank, const Calibration &calibration, const Recip
                int material, const std::vector<double> &pressures, double pressure_sd, int runs,
                const StudyOptions &options);
 
-/// The same under a roll. What a run is left with, its cracks and its tortuosity are its own, with the
-/// model error at its pressure. Throws as by_runs, and Failure(2) as under_gaps.
+/// Gaps by runs to them, draws x gaps. The model error changes the pressure that a gap takes: the
+/// emulators tell what that changes in the run's springback, cracks and tortuosity.
+GapDraws from_runs_at_gaps(const FilmBank &bank, const Calibration &calibration, GapDraws at,
+                           const std::vector<Draw> &draws,
+                           const std::vector<std::vector<SimulatedRun>> &runs);
+
+/// Makes these runs under a roll. Throws as by_runs, and Failure(2) as under_gaps.
 GapDraws runs_at_gaps(const FilmBank &bank, const Calibration &calibration, const Recipe &recipe,
                       int material, const std::vector<double> &gaps, int passes, int runs,
                       const StudyOptions &options);
