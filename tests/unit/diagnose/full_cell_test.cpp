@@ -76,6 +76,30 @@ TEST(FullCell, AnotherElectrodeIsShiftedByAllOfTheDifference) {
   EXPECT_NE(reported.at(0).find("of another electrode"), std::string::npos);
 }
 
+// A film of 25 um and 44 % pores, for which the bank's of 27 um and 48 % stand: a dial that shows 5 um less shows 30 %
+// there and 36.8 % on the bank's.
+TEST(FullCell, AnotherElectrodesDialIsReadOnItsOwnFilm) {
+  Films f(6.0);
+  f.bank.spec.full_cell.other_electrode = true;
+  for (BankRow &row : f.bank.rows) {
+    const bool other = row.point.effect == kFullCell;
+    row.run.thickness_after = other ? 25.0 : 27.0;
+    row.run.porosity_after = other ? 0.44 : 0.48;
+    row.run.solid_column = other ? 14.0 : 14.04;
+    row.run.pressure = {10.0, 20.0};
+    row.run.displacement = other ? std::vector<double>{1.0, 2.0} : std::vector<double>{1.5, 2.75};
+  }
+  const OtherFilm other(f.bank);
+  const SimulatedRun shown =
+      shown_with(find_effect("thickness_zero"), -5.0, other(f.bank.rows[0].run));
+  EXPECT_NEAR(shown.porosity_after, 1.0 - 14.0 / 20.0, 1e-12);
+  EXPECT_NEAR(shown.thickness_after, 20.0, 1e-12);
+  EXPECT_NEAR(other(f.bank.rows[0].run).displacement[1], 2.0, 1e-12);
+  EXPECT_NEAR(film_ratio(f.experiment, f.bank) * solid_thickness_um(f.experiment, 6.0), 14.0, 1e-9);
+  f.bank.spec.full_cell.other_electrode = false;
+  EXPECT_EQ(OtherFilm(f.bank)(f.bank.rows[0].run).porosity_after, 0.48);
+}
+
 // A condition that the full cell was not run for has no value: as it is, it would be another film's.
 TEST(FullCell, WhatTheFullCellWasNotRunForIsNotKnown) {
   std::vector<std::string> reported;

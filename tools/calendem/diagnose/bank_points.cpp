@@ -141,14 +141,47 @@ Vector values_of(const std::vector<CoveredCondition> &all, const PointRuns &runs
   return Eigen::Map<Vector>(values.data(), Eigen::Index(values.size()));
 }
 
+OtherFilm::OtherFilm(const BankTable &bank) : pressures_(pressures_of(kFullCell, bank)) {
+  std::map<int, PointRuns> other;
+  for (const BankRow &row : bank.rows)
+    if (row.point.effect == kFullCell && bank.spec.full_cell.other_electrode)
+      other[row.point.base_point].push_back(&row);
+  const Points points = points_of_cell(bank);
+  for (const auto &[number, runs] : other)
+    if (const auto base = points.find({"", number}); base != points.end())
+      pairs_.emplace_back(base->second, runs);
+}
+
+SimulatedRun OtherFilm::operator()(const SimulatedRun &run) const {
+  if (pairs_.empty())
+    return run;
+  CoveredCondition at;
+  at.pressure = std::clamp(run.target, pressures_.front(), pressures_.back());
+  at.runs = beside(at.pressure, pressures_);
+  std::vector<std::pair<SimulatedRun, SimulatedRun>> pairs;
+  for (const auto &[here, there] : pairs_) {
+    const auto a = run_at(here, at, as_it_is), b = run_at(there, at, as_it_is);
+    if (a && b)
+      pairs.emplace_back(*a, *b);
+  }
+  return with_mean_change(run, pairs);
+}
+
 double film_ratio(const Experiment &experiment, const BankTable &bank) {
   double sum = 0.0;
   int n = 0;
-  for (const auto &[key, runs] : points_of_cell(bank))
-    if (key.first.empty()) {
-      sum += runs.front()->run.solid_column;
-      ++n;
-    }
+  const auto add = [&](const BankRow &row) {
+    sum += row.run.solid_column;
+    ++n;
+  };
+  if (bank.spec.full_cell.other_electrode)
+    for (const BankRow &row : bank.rows)
+      if (row.point.effect == kFullCell)
+        add(row);
+  if (n == 0)
+    for (const auto &[key, runs] : points_of_cell(bank))
+      if (key.first.empty())
+        add(*runs.front());
   return sum / n / solid_thickness_um(experiment, experiment.recipe.loading);
 }
 

@@ -81,7 +81,20 @@ std::vector<double> runs_for(const std::vector<CoveredCondition> &all);
 inference::Vector values_of(const std::vector<CoveredCondition> &all, const PointRuns &runs,
                             const Shows &see);
 
-/// How thick the bank's films are beside the experiment's, without pores: mean of the base points.
+/// The bank's films as those of another electrode: a run with what that electrode's runs differ by on
+/// average, at the run's pressure. As they are if the bank stands for no other electrode.
+class OtherFilm {
+public:
+  explicit OtherFilm(const BankTable &bank); ///< must outlive it
+  SimulatedRun operator()(const SimulatedRun &run) const;
+
+private:
+  std::vector<std::pair<PointRuns, PointRuns>> pairs_; ///< of the bank, of the electrode
+  std::vector<double> pressures_;
+};
+
+/// How thick the bank's films are beside the experiment's, without pores: mean of the base points,
+/// or of the runs of the electrode that the bank stands for.
 /// What a run's loading differs from that is a base parameter, not a film of another recipe. NaN
 /// without base points.
 double film_ratio(const Experiment &experiment, const BankTable &bank);

@@ -34,7 +34,8 @@ inference::BankRun bank_run(const PointRuns &runs, const Vector &values) {
   return out;
 }
 
-void add_instrument(const Effect &effect, std::uint64_t seed, double film,
+/// On the sample's film, which another electrode's is: the less porous, the more a micrometre is.
+void add_instrument(const Effect &effect, std::uint64_t seed, double film, const OtherFilm &other,
                     const std::vector<CoveredCondition> &all, const std::vector<PointRuns> &points,
                     inference::Bank &bank) {
   const inference::Parameter p = inference_effect(effect).parameters.front();
@@ -45,8 +46,11 @@ void add_instrument(const Effect &effect, std::uint64_t seed, double film,
           p.prior.value(inference::normal_quantile(shares(0, Eigen::Index(k))));
       const double value = effect.parameter.value(amplitude);
       const double on_film = value * film; // micrometres do not grow with a film
-      const auto see = [&](const SimulatedRun &r) { return shown_with(effect, on_film, r); };
-      inference::BankRun run = bank_run(points[k], values_of(all, points[k], see));
+      const auto see = [&](const SimulatedRun &r) { return shown_with(effect, on_film, other(r)); };
+      const auto as_it_is = [](const SimulatedRun &r) { return r; };
+      inference::BankRun run =
+          bank_run(points[k], values_of(all, points[k], as_it_is) + values_of(all, points[k], see) -
+                                  values_of(all, points[k], other));
       run.effect = effect.name;
       run.amplitudes = Vector::Constant(1, amplitude);
       bank.runs.push_back(run);
@@ -252,8 +256,9 @@ std::vector<PointRuns> complete(std::vector<PointRuns> points,
   return kept;
 }
 
-void fill_bank(double film, const BankTable &table, const std::vector<CoveredCondition> &all,
-               const std::vector<PointRuns> &points, inference::Bank &bank) {
+void fill_bank(double film, const OtherFilm &other, const BankTable &table,
+               const std::vector<CoveredCondition> &all, const std::vector<PointRuns> &points,
+               inference::Bank &bank) {
   for (const BankParameter &p : table.spec.parameters)
     bank.base.push_back({p.name, prior_of(p.spread, p.low, p.high), false});
   const auto as_it_is = [](const SimulatedRun &r) { return r; };
@@ -264,7 +269,7 @@ void fill_bank(double film, const BankTable &table, const std::vector<CoveredCon
     const Effect effect = effect_of(table.spec, table.spec.effects[k]);
     bank.effects.push_back(inference_effect(effect));
     if (effect.instrument)
-      add_instrument(effect, table.spec.seed + 100 + k, film, all, points, bank);
+      add_instrument(effect, table.spec.seed + 100 + k, film, other, all, points, bank);
   }
 }
 
@@ -303,7 +308,7 @@ ExperimentData data_of(const Experiment &experiment, const BankTable &as_given,
     all.insert(all.end(), f.of.begin(), f.of.end());
   const std::vector<PointRuns> points =
       enough(complete(all_points, now, data.not_said), table.spec, data.not_said);
-  fill_bank(film_ratio(experiment, full_cell), table, all, points, data.bank);
+  fill_bank(film_ratio(experiment, full_cell), OtherFilm(full_cell), table, all, points, data.bank);
   data.terms = error_terms(experiment, table.spec, now, points);
   for (const CoveredCondition &c : all)
     data.specimens.emplace(c.condition.id, inference::Specimen{c.condition.specimen, c.specimens});

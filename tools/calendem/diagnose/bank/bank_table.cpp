@@ -247,6 +247,46 @@ SimulatedRun shown_with(const Effect &effect, double value, const SimulatedRun &
   return out;
 }
 
+namespace {
+
+/// Adds to `displacement`, at `pressures`, what curves of `pairs` differ by on average.
+void add_mean_change(const std::vector<double> &pressures,
+                     const std::vector<std::pair<SimulatedRun, SimulatedRun>> &pairs,
+                     std::vector<double> SimulatedRun::*pressure,
+                     std::vector<double> SimulatedRun::*displacement, std::vector<double> &out) {
+  const auto at = [&](const SimulatedRun &run, double p) {
+    return displacement_at(run.*pressure, run.*displacement, p);
+  };
+  double last = 0.0;
+  for (std::size_t k = 0; k < pressures.size(); ++k) {
+    double change = 0.0;
+    for (const auto &[first, second] : pairs)
+      change += (at(second, pressures[k]) - at(first, pressures[k])) / double(pairs.size());
+    if (std::isfinite(change))
+      last = change;
+    out[k] += last;
+  }
+}
+
+} // namespace
+
+SimulatedRun with_mean_change(const SimulatedRun &run,
+                              const std::vector<std::pair<SimulatedRun, SimulatedRun>> &pairs) {
+  SimulatedRun out = run;
+  if (pairs.empty())
+    return out;
+  for (const Number &n : kNumbers)
+    for (const auto &[first, second] : pairs)
+      out.*(n.field) += (second.*(n.field) - first.*(n.field)) / double(pairs.size());
+  out.target = run.target;
+  out.max_pressure = run.max_pressure;
+  add_mean_change(run.pressure, pairs, &SimulatedRun::pressure, &SimulatedRun::displacement,
+                  out.displacement);
+  add_mean_change(run.release_pressure, pairs, &SimulatedRun::release_pressure,
+                  &SimulatedRun::release_displacement, out.release_displacement);
+  return out;
+}
+
 SimulatedRun between_runs(const SimulatedRun &lower, const SimulatedRun &upper, double pressure) {
   const auto share_in = [&](double (*of)(double)) {
     return (of(pressure) - of(lower.target)) / (of(upper.target) - of(lower.target));

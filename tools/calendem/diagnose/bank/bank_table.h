@@ -75,6 +75,11 @@ bool has_release(const BankTable &table);
 /// The run as another press would show it; `value` is of the instrument effect's key.
 SimulatedRun shown_with(const Effect &effect, double value, const SimulatedRun &run);
 
+/// The run with what the second of each pair of runs differs by from the first, on average: numbers, and
+/// displacements at its own pressures; a curve that ends before keeps its last difference.
+SimulatedRun with_mean_change(const SimulatedRun &run,
+                              const std::vector<std::pair<SimulatedRun, SimulatedRun>> &pairs);
+
 /// The run to a maximum pressure p between those of two runs of the same point, its release at equal
 /// shares; the loading is that of the run that goes further. Linear in ln p: 150 MPa from 80 and 300
 /// is off by 0.40 points of porosity after release (root mean square of the shipped bank's 96 base
