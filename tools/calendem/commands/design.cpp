@@ -38,6 +38,11 @@ Design design_of(const AskedFilms &a, const FilmOptions &o, const Film &film,
     const Settled s = settled(bank, draws);
     d.predicted = s.predicted;
     d.chances = chances_from(draws.gaps, s.of, target);
+    d.best = best_of(d.chances);
+    if (const double outside = draws.below[d.best] + draws.above[d.best]; outside >= 0.01)
+      d.predicted.beyond.push_back(fmt::format("with {:.0f} % the gap takes a pressure outside the "
+                                               "bank's; cracks and springback are those at its end",
+                                               kPercent * outside));
   } else {
     const double error = o.press_percent / kPercent;
     d.chances = chances(bank, c, film, a.pressures, error, target);

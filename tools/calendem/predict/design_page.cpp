@@ -91,7 +91,7 @@ std::string band_text(const Band &b, int decimals, double scale = kPercent) {
 std::string confirmed_text(const Confirmation &c) {
   const std::string passes =
       c.passes == 0 ? "" : fmt::format(" in {} pass{}", c.passes, c.passes == 1 ? "" : "es");
-  return fmt::format("{} runs{}: {:.0f} %, porosity {}, cracked {}", c.predicted.runs, passes,
+  return fmt::format("{} runs{}: {:.0f} %, porosity {} %, cracked {} %", c.predicted.runs, passes,
                      kPercent * c.chance.all, band_text(c.predicted.after[0], 1),
                      band_text(c.predicted.cracked[0], 0));
 }
