@@ -89,7 +89,8 @@ TEST(Rehearsal, DrawnSamplesAreWhatTheBankPredicts) {
   const auto effect = one.texts("effect");
   const auto left_out = one.numbers("left_out"), amplitude = one.numbers("amplitude");
   for (std::size_t k = 0; k < one.rows(); ++k) {
-    EXPECT_EQ(one.numbers("packing")[k], double(k / 7 + 1));
+    const std::size_t draw = k / 7 + 1;
+    EXPECT_EQ(one.numbers("packing")[k], double(draw));
     EXPECT_EQ(effect[k].empty(), k % 7 == 0);
     EXPECT_EQ(left_out[k], k % 7 != 0 && k % 7 % 2 == 0 ? 1.0 : 0.0);
     if (left_out[k] == 1.0) {

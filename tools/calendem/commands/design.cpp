@@ -47,8 +47,8 @@ Design design_of(const AskedFilms &a, const FilmOptions &o, const Film &film,
     const double error = o.press_percent / kPercent;
     d.chances = chances(bank, c, film, a.pressures, error, target);
     d.predicted = predicted(bank, c, film, a.pressures, error);
+    d.best = best_of(d.chances);
   }
-  d.best = best_of(d.chances);
   return d;
 }
 

@@ -250,6 +250,10 @@ GapDraws from_runs_at_gaps(const FilmBank &bank, const Calibration &c, GapDraws 
       add_run(FilmNumber::Broken, at.broken, d, k);
       add_run(FilmNumber::InverseTortuosity, at.inverse_tortuosity, d, k);
     }
+  for (Guesses *of : {&at.broken, &at.inverse_tortuosity}) // a run may lack them
+    of->erase(std::remove_if(of->begin(), of->end(),
+                             [](const std::vector<Guess> &row) { return !all_known(row); }),
+              of->end());
   return at;
 }
 
