@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "diagnose/bank_points.h"
+#include "diagnose/sample_film.h"
 #include "support/test_folder.h"
 #include <cmath>
 #include <fstream>

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
-#include <optional>
 
 namespace calendem {
 
@@ -18,9 +17,6 @@ const BankRow *run_to(double pressure, const PointRuns &runs) {
   return nullptr;
 }
 
-namespace {
-
-/// The point's run to a condition's pressure; `see` is how its press shows it.
 std::optional<SimulatedRun> run_at(const PointRuns &runs, const CoveredCondition &c,
                                    const Shows &see) {
   if (c.runs.empty())
@@ -30,6 +26,18 @@ std::optional<SimulatedRun> run_at(const PointRuns &runs, const CoveredCondition
     return std::nullopt;
   return see(lower == upper ? lower->run : between_runs(lower->run, upper->run, c.pressure));
 }
+
+std::vector<double> pressures_of(const std::string &effect, const BankTable &table) {
+  std::vector<double> out;
+  for (const BankRow &row : table.rows)
+    if (row.point.effect == effect)
+      out.push_back(row.run.target);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end(), same_pressure), out.end());
+  return out;
+}
+
+namespace {
 
 SimulatedRun as_it_is(const SimulatedRun &run) { return run; }
 
@@ -45,17 +53,6 @@ Points points_of_cell(const BankTable &table) {
     std::sort(runs.begin(), runs.end(),
               [](const BankRow *a, const BankRow *b) { return a->run.target < b->run.target; });
   return points;
-}
-
-/// To which any of them was run, increasing.
-std::vector<double> pressures_of(const std::string &effect, const BankTable &table) {
-  std::vector<double> out;
-  for (const BankRow &row : table.rows)
-    if (row.point.effect == effect)
-      out.push_back(row.run.target);
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end(), same_pressure), out.end());
-  return out;
 }
 
 bool went_to(double pressure, const Points &points, const std::string &effect, int base_point) {
@@ -139,50 +136,6 @@ Vector values_of(const std::vector<CoveredCondition> &all, const PointRuns &runs
       values.push_back(run ? o.simulated(*run) : NAN);
   }
   return Eigen::Map<Vector>(values.data(), Eigen::Index(values.size()));
-}
-
-OtherFilm::OtherFilm(const BankTable &bank) : pressures_(pressures_of(kFullCell, bank)) {
-  std::map<int, PointRuns> other;
-  for (const BankRow &row : bank.rows)
-    if (row.point.effect == kFullCell && bank.spec.full_cell.other_electrode)
-      other[row.point.base_point].push_back(&row);
-  const Points points = points_of_cell(bank);
-  for (const auto &[number, runs] : other)
-    if (const auto base = points.find({"", number}); base != points.end())
-      pairs_.emplace_back(base->second, runs);
-}
-
-SimulatedRun OtherFilm::operator()(const SimulatedRun &run) const {
-  if (pairs_.empty())
-    return run;
-  CoveredCondition at;
-  at.pressure = std::clamp(run.target, pressures_.front(), pressures_.back());
-  at.runs = beside(at.pressure, pressures_);
-  std::vector<std::pair<SimulatedRun, SimulatedRun>> pairs;
-  for (const auto &[here, there] : pairs_) {
-    const auto a = run_at(here, at, as_it_is), b = run_at(there, at, as_it_is);
-    if (a && b)
-      pairs.emplace_back(*a, *b);
-  }
-  return with_mean_change(run, pairs);
-}
-
-double film_ratio(const Experiment &experiment, const BankTable &bank) {
-  double sum = 0.0;
-  int n = 0;
-  const auto add = [&](const BankRow &row) {
-    sum += row.run.solid_column;
-    ++n;
-  };
-  if (bank.spec.full_cell.other_electrode)
-    for (const BankRow &row : bank.rows)
-      if (row.point.effect == kFullCell)
-        add(row);
-  if (n == 0)
-    for (const auto &[key, runs] : points_of_cell(bank))
-      if (key.first.empty())
-        add(*runs.front());
-  return sum / n / solid_thickness_um(experiment, experiment.recipe.loading);
 }
 
 Vector mean_of_base(const std::vector<CoveredCondition> &all, const std::vector<PointRuns> &points,
@@ -352,70 +305,6 @@ std::vector<inference::PointNoise> point_noise_of(const Experiment &e, const Ban
         c.condition.id, given, c.observables.size(), kFewestRows));
   }
   return out;
-}
-
-namespace {
-
-/// Of one observable: the mean of its changes, and what each is off it, so that the sum of their
-/// squares is the variance of a further one about the mean.
-void set_change(const std::vector<Vector> &changes, Eigen::Index observable, double &mean,
-                Matrix &off) {
-  double sum = 0.0, n = 0.0;
-  for (const Vector &c : changes)
-    if (std::isfinite(c[observable])) {
-      sum += c[observable];
-      n += 1.0;
-    }
-  mean = n < 2.0 ? NAN : sum / n;
-  if (n < 2.0)
-    return;
-  for (std::size_t k = 0; k < changes.size(); ++k)
-    if (const double change = changes[k][observable]; std::isfinite(change))
-      off(observable, Eigen::Index(k)) = std::sqrt((1.0 + 1.0 / n) / (n - 1.0)) * (change - mean);
-}
-
-} // namespace
-
-FullCellChange full_cell_change(const Experiment &e, const BankTable &bank,
-                                const std::vector<CoveredCondition> &all,
-                                std::vector<std::string> &not_said) {
-  std::map<int, std::map<std::string, PointRuns>> runs;
-  for (const BankRow &row : bank.rows)
-    if (row.point.effect.empty() || row.point.effect == kFullCell)
-      runs[row.point.base_point][row.point.effect].push_back(&row);
-  const std::vector<double> pressures = pressures_of(kFullCell, bank);
-  std::vector<CoveredCondition> here = all;
-  for (CoveredCondition &c : here)
-    c.runs = beside(c.pressure, pressures);
-  std::vector<Vector> changes;
-  for (auto &[point, of] : runs)
-    if (!of[kFullCell].empty() && !of[""].empty())
-      changes.push_back(values_of(here, of[kFullCell], as_it_is) -
-                        values_of(here, of[""], as_it_is));
-  if (changes.size() < 2)
-    return {};
-  const double small = read_recipe(bank.spec.recipe_file).loading,
-               full = read_recipe(bank.spec.full_cell.recipe_file).loading;
-  const bool other = bank.spec.full_cell.other_electrode;
-  if (small == full && !other)
-    return {};
-  const double share =
-      other ? 1.0 : (1.0 / small - 1.0 / e.recipe.loading) / (1.0 / small - 1.0 / full);
-  Vector mean = Vector::Zero(changes[0].size());
-  Matrix off = Matrix::Zero(mean.size(), Eigen::Index(changes.size()));
-  for (Eigen::Index i = 0; i < mean.size() && share != 0.0; ++i)
-    set_change(changes, i, mean[i], off);
-  if (other)
-    not_said.push_back(fmt::format(
-        "The bank's runs are of another electrode: shifted by what {} runs of this one differ by; "
-        "how well that is known counts as uncertainty. Effects are taken to do the same on both.",
-        changes.size()));
-  else if (share != 0.0)
-    not_said.push_back(fmt::format(
-        "The bank's cell carries {:g} mg/cm2, the sample {:g}: its runs are shifted by {:.0f} % of "
-        "what {} runs of {:g} mg/cm2 differ by; how well that is known counts as uncertainty.",
-        small, e.recipe.loading, 100.0 * share, changes.size(), full));
-  return {share * mean, share * share * off * off.transpose()};
 }
 
 } // namespace calendem

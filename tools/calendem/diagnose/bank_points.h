@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A bank's table by points: what each point's runs give for the conditions of an experiment, how
-// rough a measured curve is beside them, and what the bank's small cell lacks to the sample's film.
+// A bank's table by points: what each point's runs give for the conditions of an experiment, and how
+// rough a measured curve is beside them.
 #ifndef CALENDEM_DIAGNOSE_BANK_POINTS_H
 #define CALENDEM_DIAGNOSE_BANK_POINTS_H
 
@@ -9,6 +9,8 @@
 #include "diagnose/inference/numerics.h"
 #include "diagnose/inference/problem.h"
 #include <cmath>
+#include <functional>
+#include <optional>
 
 namespace calendem {
 
@@ -76,28 +78,17 @@ const BankRow *run_to(double pressure, const PointRuns &runs);
 /// Pressures of the runs that the conditions need, increasing.
 std::vector<double> runs_for(const std::vector<CoveredCondition> &all);
 
+/// To which points of the effect were run, increasing.
+std::vector<double> pressures_of(const std::string &effect, const BankTable &table);
+
+/// The point's run to a condition's pressure, as a press shows it; none: it has not the runs.
+std::optional<SimulatedRun> run_at(const PointRuns &runs, const CoveredCondition &condition,
+                                   const Shows &see);
+
 /// Values of all observables at one point; NaN where it has no run for the condition, or the run
 /// does not have it. A pressure between two runs' is interpolated.
 inference::Vector values_of(const std::vector<CoveredCondition> &all, const PointRuns &runs,
                             const Shows &see);
-
-/// The bank's films as those of another electrode: a run with what that electrode's runs differ by on
-/// average, at the run's pressure. As they are if the bank stands for no other electrode.
-class OtherFilm {
-public:
-  explicit OtherFilm(const BankTable &bank); ///< must outlive it
-  SimulatedRun operator()(const SimulatedRun &run) const;
-
-private:
-  std::vector<std::pair<PointRuns, PointRuns>> pairs_; ///< of the bank, of the electrode
-  std::vector<double> pressures_;
-};
-
-/// How thick the bank's films are beside the experiment's, without pores: mean of the base points,
-/// or of the runs of the electrode that the bank stands for.
-/// What a run's loading differs from that is a base parameter, not a film of another recipe. NaN
-/// without base points.
-double film_ratio(const Experiment &experiment, const BankTable &bank);
 
 /// A derivative of each observable, mean of the base model's points; 0 where it has none.
 inference::Vector mean_of_base(const std::vector<CoveredCondition> &all,
@@ -119,20 +110,6 @@ inference::Vector by_pressure(const std::vector<CoveredCondition> &all,
 std::vector<inference::PointNoise> point_noise_of(const Experiment &experiment,
                                                   const BankTable &table, double cells,
                                                   std::vector<std::string> &not_said);
-
-struct FullCellChange {
-  inference::Vector change;     ///< of all observables; empty: none
-  inference::Matrix covariance; ///< of the change at other parameters
-};
-
-/// Mean of runs of the same parameters on the full cell less those on the bank's, and what a
-/// further one would scatter about it. A film is more porous at its faces, in layers that do not
-/// grow with it: the change goes with 1 / loading, and is 0 for a sample of the bank's own loading.
-/// None with fewer than two points; NaN for what fewer than two of them have. What is done is
-/// reported in `not_said`.
-FullCellChange full_cell_change(const Experiment &experiment, const BankTable &bank,
-                                const std::vector<CoveredCondition> &all,
-                                std::vector<std::string> &not_said);
 
 } // namespace calendem
 

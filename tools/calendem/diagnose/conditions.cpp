@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "diagnose/bank_points.h"
 #include "diagnose/rerun.h"
+#include "diagnose/sample_film.h"
 #include <algorithm>
 #include <boost/random/chi_squared_distribution.hpp>
 #include <boost/random/mersenne_twister.hpp>

@@ -2,7 +2,7 @@
 #include "diagnose/next_runs.h"
 #include "base/case.h"
 #include "base/run_folder.h"
-#include "diagnose/bank_points.h"
+#include "diagnose/sample_film.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
