@@ -29,7 +29,7 @@ MissedRuns confirm(const FilmBank &bank, const Calibration &c, const CalibrateOp
   MissedRuns missed;
   std::vector<Confirmed> all;
   for (std::size_t k = 0; k < recipes.size(); ++k)
-    try {
+    missed.attempt(o.experiments[k], [&] {
       StudyOptions study = o.study;
       study.folder = fmt::format("{}/runs/{}", o.folder, k + 1);
       fmt::print("calibrate: {}: {} draws of the material are run on packings of their own\n",
@@ -37,9 +37,7 @@ MissedRuns confirm(const FilmBank &bank, const Calibration &c, const CalibrateOp
       for (const Confirmed &row : confirmed_by_runs(bank, c, int(k), recipes[k], o.runs, study))
         all.push_back(row);
       write(all);
-    } catch (const Failure &f) {
-      missed.add(o.experiments[k], f);
-    }
+    });
   if (!all.empty())
     fmt::print("run again: porosity after release, %\n");
   for (const Confirmed &r : all)

@@ -61,7 +61,6 @@ Confirmation confirmation(const AskedFilms &a, const FilmOptions &o, std::size_t
     const GapDraws draws = run_film_at_gaps(a, o, recipe, {proposed}, passes);
     const Settled s = settled(a.model.bank, draws);
     out.predicted = s.predicted;
-    out.predicted.runs = int(draws.springback.size());
     out.chance = chances_from({proposed}, s.of, target).front();
   } else {
     const ByRuns own = run_film(a, o, recipe, {proposed});
@@ -153,13 +152,11 @@ void run_design(const DesignOptions &o) {
   MissedRuns missed;
   for (std::size_t k = 0; o.runs > 0 && k < designs.size(); ++k)
     for (const int n : passes)
-      try {
+      missed.attempt(o.recipes[k], [&] {
         Design &d = designs[k];
         d.confirmed.push_back(confirmation(a, o, k, target, d.chances[d.best].at, n));
         write();
-      } catch (const Failure &f) {
-        missed.add(o.recipes[k], f);
-      }
+      });
   for (const Design &d : designs)
     say(d, set_by(o), target);
   fmt::print("page: {0}/design.html\ndata: {0}/design.json\n", o.folder);

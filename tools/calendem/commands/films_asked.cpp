@@ -188,9 +188,13 @@ GapDraws run_film_at_gaps(const AskedFilms &a, const FilmOptions &o, std::size_t
                       gaps, passes, o.runs, study);
 }
 
-void MissedRuns::add(const std::string &recipe, const Failure &why) {
-  texts_.push_back(fmt::format("{}: {}", recipe, why.what()));
-  status_ = why.exit_status();
+void MissedRuns::attempt(const std::string &recipe, const std::function<void()> &work) {
+  try {
+    work();
+  } catch (const Failure &why) {
+    texts_.push_back(fmt::format("{}: {}", recipe, why.what()));
+    status_ = why.exit_status();
+  }
 }
 
 void MissedRuns::stop_if_any() const {

@@ -8,6 +8,7 @@
 #include "predict/files.h"
 #include "predict/prediction.h"
 #include <CLI/CLI.hpp>
+#include <functional>
 
 namespace calendem {
 
@@ -59,7 +60,8 @@ std::vector<int> passes_of(const FilmOptions &options);
 /// What could not be run of a recipe; the others go on.
 class MissedRuns {
 public:
-  void add(const std::string &recipe, const Failure &why);
+  /// Does the work of a recipe; keeps why it failed.
+  void attempt(const std::string &recipe, const std::function<void()> &work);
   /// After all that there is was written.
   void stop_if_any() const;
 

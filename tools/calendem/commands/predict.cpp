@@ -38,11 +38,8 @@ std::vector<PredictedFilm> films_by_runs(const AskedFilms &a, const FilmOptions 
                              "two or more to --pressure, or leave it out.");
   std::vector<PredictedFilm> films;
   for (std::size_t k = 0; k < o.recipes.size(); ++k)
-    try {
-      films.push_back(run_film(a, o, k, a.pressures).predicted);
-    } catch (const Failure &f) {
-      missed.add(o.recipes[k], f);
-    }
+    missed.attempt(o.recipes[k],
+                   [&] { films.push_back(run_film(a, o, k, a.pressures).predicted); });
   if (films.empty())
     missed.stop_if_any();
   return films;
@@ -71,12 +68,10 @@ std::vector<GapDraws> films_at_gaps(const AskedFilms &a, const FilmOptions &o, M
   check_by_runs(o, "--gap", o.gaps);
   for (const int passes : passes_of(o))
     for (std::size_t k = 0; k < o.recipes.size(); ++k)
-      try {
+      missed.attempt(o.recipes[k], [&] {
         out.push_back(run_film_at_gaps(a, o, k, gaps, passes));
         out.back().film.name += fmt::format(", {} pass{}", passes, passes == 1 ? "" : "es");
-      } catch (const Failure &f) {
-        missed.add(o.recipes[k], f);
-      }
+      });
   if (out.empty())
     missed.stop_if_any();
   return out;

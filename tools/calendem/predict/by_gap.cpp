@@ -76,6 +76,7 @@ AtGap at_gap(const GapDraws &d, std::size_t k) {
         tortuosity_of(band_of(of_gap(d.inverse_tortuosity, k), 1.0 / kMostTortuosity, 1.0));
   out.below = d.below[k];
   out.above = d.above[k];
+  out.runs = d.runs;
   for (double Band::*part :
        {&Band::median, &Band::low50, &Band::high50, &Band::low90, &Band::high90}) {
     out.pressure.*part = std::exp(out.pressure.*part);
@@ -204,6 +205,7 @@ PredictedFilm film_at_gaps(const FilmBank &bank, const GapDraws &draws) {
   PredictedFilm out;
   out.film = draws.film;
   out.beyond = bank.beyond(draws.film);
+  out.runs = draws.runs;
   for (const AtGap &at : at_gaps(draws)) {
     out.pressures.push_back(at.pressure.median);
     const double load = 1.0 - draws.solid / at.gap;

@@ -17,6 +17,7 @@ struct AtGap {
   std::optional<Band> broken, tortuosity; ///< as the bank has them
   /// Probability that the pressure lies below or above the bank's; its bands end there.
   double below = 0.0, above = 0.0;
+  int runs = 0; ///< of its own; 0: by the bank's emulators
 };
 
 /// A film at gaps under each draw: draws x gaps.
@@ -29,6 +30,7 @@ struct GapDraws {
   Guesses springback, cracked, broken, inverse_tortuosity; ///< as FilmNumber; empty: not known
   /// By gap: the share of draws whose pressure lies below or above the bank's.
   std::vector<double> below, above;
+  int runs = 0; ///< of its own at each gap; 0: by the bank's emulators
 };
 
 /// A film against pressure under each draw: draws x pressures at equal ratios.

@@ -169,11 +169,16 @@ std::string design_page(const Target &t, SetBy by, const std::vector<Design> &de
     page.charts.push_back(
         against_porosity(designs, set, "tortuosity", "Tortuosity against porosity",
                          "Tortuosity factor through the plane", &PredictedFilm::tortuosity, 1.0));
-  json rows = json::array();
-  for (const Design &d : designs)
+  json rows = json::array(), notes = json::array();
+  for (const Design &d : designs) {
     rows.push_back(row_of(d, set));
+    for (const std::string &text : d.predicted.beyond)
+      notes.push_back(d.film.name + ": " + text + ".");
+  }
   page.values = {
       {"rows", rows},
+      {"notes", notes},
+      {"any_notes", !notes.empty()},
       {"setting", set.name},
       {"unit", set.unit},
       {"any_confirmed", std::any_of(designs.begin(), designs.end(),

@@ -21,6 +21,8 @@ Json gap_json(const FilmBank &bank, const Film &film, const std::vector<AtGap> &
   const FilmSheet sheet = sheet_of({film}, {at});
   Json out = film_json(bank, film);
   out["beyond"] = bank.beyond(film);
+  const int runs = at.empty() ? 0 : at.front().runs;
+  out["by"] = runs == 0 ? Json("emulators") : Json{{"runs", runs}};
   out["predicted"] = rows_json(sheet, sheet.films[0]);
   return out;
 }
@@ -31,6 +33,13 @@ std::string gap_page(const std::vector<Film> &films, const std::vector<std::vect
   report::Page page{kPredictionHtml, json_of};
   page.charts = charts_of(sheet);
   json basis = json::array();
+  for (std::size_t f = 0; f < films.size(); ++f)
+    if (!at[f].empty() && at[f].front().runs > 0)
+      basis.push_back(
+          fmt::format("{}: from {} simulations under a roll at each gap, each with another draw of "
+                      "the material and "
+                      "on another packing. The emulators tell only what the model error changes.",
+                      films[f].name, at[f].front().runs));
   for (std::size_t f = 0; f < films.size(); ++f)
     for (const AtGap &row : at[f])
       if (std::max(row.below, row.above) >= 0.01)
@@ -46,7 +55,7 @@ std::string gap_page(const std::vector<Film> &films, const std::vector<std::vect
       "under load: the gap to be set is smaller by that much.");
   basis.push_back(
       "The porosity after release follows from gap and springback alone; the pressure that "
-      "it takes, from the bank. Springback was not measured on these films: these "
+      "it takes, from the porosity under load. Springback was not measured on these films: these "
       "intervals are valid only if the model is right.");
   page.values = {{"title", "Prediction at a gap"},
                  {"subtitle",

@@ -250,6 +250,17 @@ GapDraws from_runs_at_gaps(const FilmBank &bank, const Calibration &c, GapDraws 
       add_run(FilmNumber::Broken, at.broken, d, k);
       add_run(FilmNumber::InverseTortuosity, at.inverse_tortuosity, d, k);
     }
+  const double share = 1.0 / double(draws.size());
+  for (std::size_t k = 0; k < at.gaps.size(); ++k) { // no emulator says what these take
+    double below = 0.0, above = 0.0;
+    for (const std::vector<SimulatedRun> &of : runs) {
+      below += of[k].max_pressure < at.lowest ? share : 0.0;
+      above += of[k].max_pressure > at.highest ? share : 0.0;
+    }
+    at.below[k] = std::max(at.below[k], below);
+    at.above[k] = std::max(at.above[k], above);
+  }
+  at.runs = int(draws.size());
   for (Guesses *of : {&at.broken, &at.inverse_tortuosity}) // a run may lack them
     of->erase(std::remove_if(of->begin(), of->end(),
                              [](const std::vector<Guess> &row) { return !all_known(row); }),

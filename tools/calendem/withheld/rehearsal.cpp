@@ -187,8 +187,9 @@ private:
 
 /// A comment at the head of the table: what it was made from. With another its rows are not taken.
 std::string made_from(const RehearsalOptions &o) {
-  return fmt::format("# bank {}, table {}, draws {}, cells {:g}\n", hash_of_file(o.bank),
-                     hash_of_file(o.table), o.draws, o.cells);
+  return fmt::format("# program {}, bank {}, table {}, draws {}, cells {:g}\n",
+                     hash_of_file(this_program()), hash_of_file(o.bank), hash_of_file(o.table),
+                     o.draws, o.cells);
 }
 
 /// Rows of a table that was begun, by packing or draw; empty where it is of something else.

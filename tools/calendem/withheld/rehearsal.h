@@ -40,7 +40,7 @@ std::string table_of(const std::vector<Rehearsed> &cases);
 std::vector<std::string> summary_of(const std::vector<Rehearsed> &cases);
 
 /// Writes samples/ and rehearsal.csv (after every packing) into the folder and prints the summary.
-/// Rows that a folder has from the same bank and table are not made again. Every effect is
+/// Rows that a folder has from the same program, bank and table are not made again. Every effect is
 /// diagnosed twice: with all effects, and without itself. Throws Failure(2) for a bank without its
 /// table, or of fewer than three packings.
 /// Drawn samples have base parameters and amplitudes from their priors and errors as the model

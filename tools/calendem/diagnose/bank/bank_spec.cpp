@@ -344,8 +344,9 @@ Study pressed_study(const BankSpec &spec, const std::vector<BankPoint> &points,
   study.keep_all = false;
   study.measured = spec.tortuosity;
   study.columns = columns_of(spec);
-  for (const auto &[key, value] : pressings.front())
-    study.columns.push_back("case." + key);
+  if (!pressings.empty())
+    for (const auto &[key, value] : pressings.front())
+      study.columns.push_back("case." + key);
   std::vector<std::vector<std::string>> rows;
   for (const BankPoint &p : points)
     for (const Pressing &pressing : pressings) {
