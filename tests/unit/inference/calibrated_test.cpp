@@ -66,8 +66,8 @@ Vector outside(const LinearWorld &world, bool alike, double amplitude, Random &r
 }
 
 // As many worlds as the priors say have no cause, one of the table's effects, or a cause outside the
-// table: of these a quarter too small to be seen, 0.6 that depart from something known, the rest of
-// any direction. The bound is the gate of the sealed rounds, 0.05, beyond chance.
+// table: of these 0.4 too small to be seen, 0.48 that depart from something known, the rest of any
+// direction. The bound is the gate of the sealed rounds, 0.05, beyond chance.
 class Calibrated : public testing::TestWithParam<double> {};
 
 TEST_P(Calibrated, ProbabilitiesOfTheUnknownAndOfTheNamed) {
@@ -86,7 +86,7 @@ TEST_P(Calibrated, ProbabilitiesOfTheUnknownAndOfTheNamed) {
       mean += random.normal() * world.sensitivity.col(j);
     const double amplitude = world.amplitude + world.spread * random.normal();
     const double kind = random.uniform(), place = random.uniform();
-    const bool hidden = kind >= 0.75, seen = hidden && place >= 0.25;
+    const bool hidden = kind >= 0.75, seen = hidden && place >= 0.4;
     std::string truth = hidden ? "unknown" : "none";
     if (kind >= 0.4 && !hidden) {
       const int effect = int(random.uniform() * kEffects);
@@ -94,7 +94,7 @@ TEST_P(Calibrated, ProbabilitiesOfTheUnknownAndOfTheNamed) {
       mean += amplitude * world.signatures.col(effect);
     }
     if (seen)
-      mean += outside(world, place < 0.85, amplitude, random);
+      mean += outside(world, place < 0.88, amplitude, random);
     const Which found = which(world.problem(world.draw(mean, world.covariance, random)), settings);
     unknown.add(found.of("unknown").probability, hidden);
     if (seen || !hidden)

@@ -87,8 +87,8 @@ TEST(Which, TheUnknownIsCalibratedWhereMuchOfItIsTooSmallToBeSeen) {
         random);
     const bool acts = random.uniform() < 0.5;
     const double of_place = random.uniform(), size = kUnknownSize.value(random.normal());
-    if (acts && of_place > 0.25) {
-      const int only = of_place > 0.625 ? -1 : int(random.uniform() * 8);
+    if (acts && of_place > 0.4) {
+      const int only = of_place > 0.7 ? -1 : int(random.uniform() * 8);
       for (Eigen::Index f = 0; f < 8; ++f)
         mean[f] += only < 0 || only == f
                        ? size * std::sqrt(world.covariance(f, f)) * random.normal()

@@ -146,7 +146,7 @@ TEST(HandedOut, APressMayShowTooMuchPressureSpringBackLateAndDrift) {
   Truth truth = draw_truths(round, "secret")[0];
   truth.pressure_error = 0.0;
   truth.hidden = {"pressure_offset", "frame_hysteresis", "drift"};
-  EXPECT_NEAR(truth_study(round, {truth}).runs[1].settings.number("platen.max_pressure_MPa"),
+  EXPECT_NEAR(truth_runs(round, {truth}).study.runs[1].settings.number("platen.max_pressure_MPa"),
               50 - find_hidden("pressure_offset")->pressure_offset_MPa, 1e-9);
   const Experiment e = handed(round, truth, 1);
   std::ifstream in(e.conditions[1].curve);

@@ -58,9 +58,11 @@ TEST(Scores, AnswersByHandGetTheNumbersThatCanBeCounted) {
   const std::vector<Metric> m = metrics_of(round_by_hand());
   EXPECT_DOUBLE_EQ(named(m, "where").value, 2.0 * 2 / (3 + 4));
   // most probable: three nulls with 0.9, one friction for none with 0.9; singles 0.9, 0.8 right, two
-  // of 0.6 wrong
+  // of 0.6 wrong; four nulls count 0.4, four singles 0.35
+  const double null = 0.4 / 4, single = 0.35 / 4;
   EXPECT_NEAR(named(m, "expected calibration error").value,
-              (std::fabs(5 * 0.9 - 4) + 0.2 + 1.2) / 8, 1e-12);
+              (std::fabs(0.9 * (4 * null + single) - 3 * null - single) + 1.4 * single) / 0.75,
+              1e-12);
   EXPECT_DOUBLE_EQ(named(m, "which, top-1, effects").value, 0.5);
   EXPECT_DOUBLE_EQ(named(m, "which, top-2, effects").value, 0.75);
   EXPECT_DOUBLE_EQ(named(m, "wrong share").value, 0.25); // of 4 claims that name something

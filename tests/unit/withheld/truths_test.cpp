@@ -55,7 +55,7 @@ TEST(Truths, TheSecretDecidesAllDraws) {
 TEST(Truths, RunsHaveTheTruthsSettings) {
   const Round round = round_of(kRound);
   const std::vector<Truth> truths = draw_truths(round, "secret");
-  const Study study = truth_study(round, truths);
+  const Study study = truth_runs(round, truths).study;
   ASSERT_EQ(study.runs.size(), 3 * 2 * truths.size());
   for (std::size_t t = 0; t < truths.size(); ++t) {
     const Settings &s = study.runs[6 * t + 5].settings;
@@ -85,7 +85,7 @@ TEST(Truths, NumbersOfSamplesComeInTurn) {
   }
   // two nulls, three amplitudes of each effect, then a block in each line of the file
   EXPECT_EQ(samples, (std::vector<int>{2, 10, 2, 10, 2, 10, 2, 10, 2, 2, 2, 2, 10}));
-  const Study study = truth_study(round, truths);
+  const Study study = truth_runs(round, truths).study;
   ASSERT_EQ(study.runs.size(), runs);
   EXPECT_EQ(study.runs.back().recipe.seed, truths.back().packings.back());
   text.replace(text.find("[2, 10]"), 7, "[]");
@@ -98,7 +98,7 @@ TEST(Truths, APressureCanHaveDiscsOfItsOwn) {
   text.insert(text.find("samples"), "specimens = \"one for each pressure\"\n");
   const Round round = round_of(text);
   const std::vector<Truth> truths = draw_truths(round, "secret");
-  const Study study = truth_study(round, truths);
+  const Study study = truth_runs(round, truths).study;
   std::set<unsigned long> packings;
   for (const StudyRun &run : study.runs)
     packings.insert(run.recipe.seed);
@@ -132,13 +132,35 @@ TEST(Truths, WithoutItsCauseATruthKeepsItsSamplesPressAndNumerics) {
   EXPECT_EQ(all.back().packings, truths[truths.size() - 2].packings); // larger_cell + friction
 }
 
+// One run without a cause serves a null and all causes on its samples.
+TEST(Truths, SharedSamplesAreRunOnceWithoutACause) {
+  std::string text = kRound;
+  text.insert(text.find("samples"), "shared_samples = \"yes\"\npaired_runs = \"yes\"\n");
+  const Round round = round_of(text);
+  const std::vector<Truth> truths = draw_truths(round, "secret");
+  for (std::size_t k = 2; k < truths.size(); ++k) {
+    const Truth &t = truths[k], &null = truths[k % 2];
+    EXPECT_EQ(t.set, k % 2);
+    EXPECT_EQ(t.packings, null.packings);
+    EXPECT_EQ(t.base, null.base);
+    EXPECT_EQ(t.pressure_error, null.pressure_error * t.understated);
+  }
+  // nulls, effects, cohesion, the pair, noise and two of other numerics, of which one has a cause
+  const TruthRuns runs = truth_runs(round, with_pairs(round, truths));
+  EXPECT_EQ(runs.study.runs.size(), 6u * (2 + 2 * 3 + 1 + 1 + 1 + 2 + 1));
+  ASSERT_EQ(runs.of_truths.size(), 6u * (truths.size() + 9));
+  for (std::size_t k = 0; k < 6; ++k) // the companion of the first effect is the first null
+    EXPECT_EQ(runs.of_truths[6 * truths.size() + k], runs.of_truths[k]);
+  EXPECT_NE(runs.of_truths[6 * 2], runs.of_truths[0]);
+}
+
 TEST(Truths, RepeatsAreOtherSpecimens) {
   for (const char *kind : {"one for all pressures", "one for each pressure"}) {
     std::string text = kRound;
     text.insert(text.find("samples"), std::string("repeats = 2\nspecimens = \"") + kind + "\"\n");
     const Round round = round_of(text);
     const std::vector<Truth> truths = draw_truths(round, "secret");
-    const Study study = truth_study(round, {truths[0]});
+    const Study study = truth_runs(round, {truths[0]}).study;
     ASSERT_EQ(study.runs.size(), 2u * 3 * 2);
     std::set<unsigned long> first, second;
     for (std::size_t k = 0; k < 12; ++k)

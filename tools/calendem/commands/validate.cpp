@@ -68,8 +68,8 @@ std::string name_after_check(const std::string &file) {
   }
   case FileKind::Round: {
     const Round round = read_round(file);
-    const Study study = truth_study(round, with_pairs(round, draw_truths(round, "any")));
-    return fmt::format("withheld round of {} runs", study.runs.size());
+    const TruthRuns runs = truth_runs(round, with_pairs(round, draw_truths(round, "any")));
+    return fmt::format("withheld round of {} runs", runs.study.runs.size());
   }
   case FileKind::Case:
     read_case(file);

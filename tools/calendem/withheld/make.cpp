@@ -40,7 +40,7 @@ std::string secret_of(const MakeOptions &o) {
   return secret;
 }
 
-/// What the press shows of each truth; empty where a run is not usable.
+/// What the press shows of each truth, whose runs follow each other in `folders`; empty where one is not usable.
 std::vector<std::vector<PressedSamples>> shown_runs(const std::vector<std::string> &folders,
                                                     const Round &round,
                                                     const std::vector<Truth> &truths) {
@@ -139,7 +139,7 @@ void seal_round(const std::string &folder, const Round &round,
       }
     }
     t["id"] = id;
-    t["point"] = cases[k].truth;
+    t["point"] = pressed.truth.set;
     t["noise_draw"] = cases[k].draw;
     t["handed_out_sha256"] = sha256_of_case(here);
     const std::string salt = derived(secret, "salt of " + id);
@@ -168,16 +168,20 @@ void make_round(const MakeOptions &given) {
   const std::string secret = secret_of(o);
   const std::vector<Truth> truths = draw_truths(round, secret);
   const std::vector<Truth> all = with_pairs(round, truths);
-  const Study study = truth_study(round, all);
+  const TruthRuns runs = truth_runs(round, all);
   fmt::print(
       "withheld: {} truths, with what is run beside them {}; {} runs, {} for each pressure\n",
-      truths.size(), all.size(), study.runs.size(),
-      study.runs.size() / round.bank.pressures.size());
+      truths.size(), all.size(), runs.study.runs.size(),
+      runs.study.runs.size() / round.bank.pressures.size());
   StudyOptions options;
   options.folder = o.folder + "/sealed/study";
   options.liggghts = o.liggghts;
   options.jobs = o.jobs;
-  const auto shown = shown_runs(make_what_runs(study, options, "Truths"), round, all);
+  const std::vector<std::string> made = make_what_runs(runs.study, options, "Truths");
+  std::vector<std::string> folders;
+  for (const std::size_t k : runs.of_truths)
+    folders.push_back(made[k]);
+  const auto shown = shown_runs(folders, round, all);
   std::vector<PressedTruth> pressed;
   auto pair = shown.begin() + std::ptrdiff_t(truths.size());
   for (std::size_t k = 0; k < truths.size(); ++k) {

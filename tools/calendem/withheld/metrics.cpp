@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/inference/scores.h"
+#include "diagnose/inference/which.h"
 #include "withheld/round_file.h"
 #include "withheld/score.h"
 #include <algorithm>
@@ -108,18 +109,27 @@ double auroc_of_unknown(const Cases &cases) {
 
 double calibration_error_of(const Cases &cases) {
   constexpr int kBins = 10;
-  double stated[kBins] = {}, right[kBins] = {};
+  const inference::Priors priors;
+  const auto kind = [](const ScoredCase *c) {
+    return c->truth == "none" ? 0 : c->truth == "unknown" ? 1 : 2;
+  };
+  double of_kind[3] = {}, stated[kBins] = {}, right[kBins] = {}, all = 0.0;
+  for (const ScoredCase *c : cases)
+    of_kind[kind(c)] += 1.0;
+  const double prior[3] = {priors.none, priors.unknown, 1.0 - priors.none - priors.unknown};
   for (const ScoredCase *c : cases) {
     const std::string first = c->ranked(0);
     const double p = first.empty() ? 0.0 : c->probability.at(first);
     const int bin = std::min(kBins - 1, int(p * kBins));
-    stated[bin] += p;
-    right[bin] += first == c->truth;
+    const double weight = prior[kind(c)] / of_kind[kind(c)];
+    stated[bin] += weight * p;
+    right[bin] += weight * (first == c->truth);
+    all += weight;
   }
   double sum = 0.0;
   for (int k = 0; k < kBins; ++k)
     sum += std::fabs(stated[k] - right[k]);
-  return sum / double(cases.size());
+  return sum / all;
 }
 
 double localisation_f1_of(const Cases &cases) {

@@ -19,8 +19,8 @@ public:
 
   void read_head(const toml::table &t, Round &out) {
     report_unknown(t, {"name", "bank", "null_packings", "null_draws", "amplitudes", "samples",
-                       "specimens", "paired_runs", "open", "pairs", "faults", "other_numerics",
-                       "interventions", "interventions_on", "repeats"});
+                       "specimens", "shared_samples", "paired_runs", "open", "pairs", "faults",
+                       "other_numerics", "interventions", "interventions_on", "repeats"});
     out.name = text(t, {"name", "", "withheld", 0, 0, "", "for reports", "", true});
     if (const std::string bank = path(t, {"bank", "", "", 0, 0, "", "bank (TOML)", "", true});
         !bank.empty())
@@ -37,6 +37,9 @@ public:
                                           std::string(kOne) + "|" + kEach}) == kEach;
     out.paired_runs = text(t, {"paired_runs", "", "no", 0, 0, "",
                                "truths run without their effects too", "no|yes"}) == "yes";
+    out.shared_samples =
+        text(t, {"shared_samples", "", "no", 0, 0, "",
+                 "truths with a cause on the samples of the nulls", "no|yes"}) == "yes";
     if (out.null_draws < out.null_packings)
       mistakes_.add(line_of(t), fmt::format("null_draws is {}, null_packings {}: every packing "
                                             "needs a draw.",
@@ -216,6 +219,36 @@ const std::vector<HiddenChange> &hidden_changes() {
       shown("frame_hysteresis", "the frame springs back late", &HiddenChange::release_shift_um,
             0.3),
       shown("drift", "the displacement drifts while it is recorded", &HiddenChange::drift_um, 0.4),
+      scaled("strong_in_shear", "bonds are stronger in shear than in tension",
+             {"case.bond.shear_strength_MPa"}, 2.5),
+      scaled("thick_bonds", "bonds of 1.3 of the primaries' radius", {"case.bond.radius_ratio"},
+             1.3),
+      set("close_fragments", "separated primaries touch at the spacing of their lattice",
+          {{"case.bond.contact_diameter", "lattice"}}),
+      scaled("soft_platen", "a roll with a cover of polymer",
+             {"case.material.platen.youngs_modulus_GPa"}, 0.003),
+      scaled("wide_sizes", "secondary particles of more different sizes",
+             {"recipe.particles.sigma_ln"}, 1.4),
+      set("no_fines", "a powder without fine particles", {{"recipe.particles.min_um", "3"}}),
+      set("no_coarse", "a powder without large particles", {{"recipe.particles.max_um", "5"}}),
+      scaled("looser_coating", "an initial porosity higher than the recipe says",
+             {"recipe.coating.porosity_total_percent"}, 1.06),
+      set("less_binder", "half the carbon and binder that the recipe says",
+          {{"recipe.composition.am_weight_percent", "98"},
+           {"recipe.composition.carbon_weight_percent", "1"},
+           {"recipe.composition.binder_weight_percent", "1"}}),
+      scaled("porous_binder", "more nanopores than the recipe says",
+             {"recipe.cbd.nanoporosity_percent"}, 1.2),
+      scaled("small_binder", "smaller spheres of carbon-binder domain", {"recipe.cbd.diameter_um"},
+             0.8),
+      scaled("light_powder", "active material of closed pores, lighter than the recipe says",
+             {"recipe.density.am_g_cm3"}, 0.93),
+      shown("short_displacement", "displacements shown are 6 % too small",
+            &HiddenChange::displacement_factor, 0.94),
+      shown("pressure_shown_low", "the press shows 4 MPa too little",
+            &HiddenChange::pressure_offset_MPa, -4.0),
+      shown("release_slip", "the displacement slips when the release begins",
+            &HiddenChange::release_shift_um, -0.3),
       numerics(scaled("finer_primaries", "bodies of smaller primaries on a closer lattice",
                       {"recipe.particles.primary_diameter_um", "recipe.particles.lattice_um"},
                       0.88)),

@@ -8,6 +8,8 @@
 //   null_draws = 100                 # of noise, over these packings
 //   samples = 4                      # of one truth, each as large as the bank's cell; their means
 //                                    # are handed out. [2, 2, 10]: truths get these in turn
+//   shared_samples = "yes"           # truths with a cause are pressed on the samples of the nulls, in turn, by their
+//                                    # press and with their base parameters: one run without a cause serves them all
 //   repeats = 4                      # specimens at each pressure, each of samples of its own
 //   amplitudes = 3                   # truths of every effect of the bank, each in its own part of
 //                                    # the prior
@@ -46,6 +48,8 @@ struct Round {
   int null_packings = 12, null_draws = 100, amplitudes = 3, repeats = 1;
   std::vector<int> samples = {1};      ///< truths get these in turn
   bool disc_for_each_pressure = false; ///< as on a press: packings of its own for each pressure
+  bool shared_samples =
+      false; ///< truths with a cause are pressed on the samples of the nulls, in turn
   bool paired_runs = false; ///< truths are run without their effects too: their gap is known then
   /// Each a list of names: effects of the bank, hidden changes, "noise".
   std::vector<std::vector<std::string>> open, pairs, faults, other_numerics;

@@ -113,7 +113,8 @@ double log_score_of(const Cases &cases);
 /// Against always giving the round's own frequencies: the best that knows nothing of the data.
 double brier_skill_of(const Cases &cases);
 /// Expected calibration error: mean over cases of |how often the most probable hypothesis is right -
-/// its mean probability| in tenths of that probability.
+/// its mean probability| in tenths of that probability. Nulls, unknowns and the rest count together as much as their
+/// priors: a probability is right only for the mixture for which it is stated.
 double calibration_error_of(const Cases &cases);
 /// Of the places reported against the true ones, all cases together: 2 common / (reported + true).
 double localisation_f1_of(const Cases &cases);

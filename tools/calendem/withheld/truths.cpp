@@ -12,6 +12,8 @@
 namespace calendem {
 namespace {
 
+constexpr char kNull[] = "null";
+
 /// Draws one truth after the other.
 class Drawing {
 public:
@@ -21,12 +23,9 @@ public:
   /// `turn`: whose turn it is to be given its number of samples.
   Truth truth(const std::string &block, const std::vector<std::string> &names, std::size_t turn,
               double low = 0.0, double high = 1.0) {
-    Truth t;
+    const bool shares = round_.shared_samples && !sets_.empty() && block != kNull;
+    Truth t = shares ? sets_[drawn_++ % sets_.size()] : samples_drawn(turn);
     t.block = block;
-    t.samples = round_.samples[turn % round_.samples.size()];
-    t.packings = packings(t.samples);
-    for (const BankParameter &p : round_.bank.parameters)
-      t.base.push_back(prior_value(p.low, p.high, p.spread, random_.uniform()));
     for (const std::string &name : names)
       if (name == "noise")
         t.understated =
@@ -38,7 +37,12 @@ public:
         t.hidden.push_back(name);
       else
         t.effects.emplace_back(name, value(effect_of(round_.bank, name).parameter, low, high));
-    t.pressure_error = 0.01 * round_.noise.pressure_percent * t.understated * random_.normal();
+    if (shares)
+      t.pressure_error *= t.understated;
+    else
+      t.pressure_error = 0.01 * round_.noise.pressure_percent * t.understated * random_.normal();
+    if (block == kNull)
+      sets_.push_back(t);
     return t;
   }
 
@@ -54,6 +58,17 @@ public:
 private:
   const Round &round_;
   Random random_;
+  std::vector<Truth> sets_; ///< the nulls
+  std::size_t drawn_ = 0;   ///< truths beside them
+
+  Truth samples_drawn(std::size_t turn) {
+    Truth t;
+    t.samples = round_.samples[turn % round_.samples.size()];
+    t.packings = packings(t.samples);
+    for (const BankParameter &p : round_.bank.parameters)
+      t.base.push_back(prior_value(p.low, p.high, p.spread, random_.uniform()));
+    return t;
+  }
 
   double value(const EffectParameter &p, double low, double high) {
     return prior_value(p.low, p.high, p.spread, low + (high - low) * random_.uniform());
@@ -153,7 +168,7 @@ std::vector<Truth> draw_truths(const Round &round, const std::string &secret) {
   Drawing drawing(round, secret);
   std::vector<Truth> out;
   for (int k = 0; k < round.null_packings; ++k) {
-    out.push_back(drawing.truth("null", {}, std::size_t(k)));
+    out.push_back(drawing.truth(kNull, {}, std::size_t(k)));
     out.back().draws = round.null_draws / round.null_packings +
                        (k < round.null_draws % round.null_packings ? 1 : 0);
   }
@@ -170,9 +185,13 @@ std::vector<Truth> draw_truths(const Round &round, const std::string &secret) {
   add("fault", round.faults);
   add("other", round.other_numerics);
   add(kIntervention, round.interventions);
-  for (Truth &t : out)
+  const std::size_t sets = round.shared_samples ? std::size_t(round.null_packings) : 0;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    Truth &t = out[k];
+    t.set = k < sets || sets == 0 ? k : (k - sets) % sets;
     if (t.block == kIntervention)
       t.packings_before = round.same_specimens_after ? t.packings : drawing.packings(t.samples);
+  }
   return out;
 }
 
@@ -180,8 +199,9 @@ std::size_t runs_of(const Round &round, const Truth &t) {
   return std::size_t(round.repeats) * std::size_t(t.samples) * round.bank.pressures.size();
 }
 
-Study truth_study(const Round &round, const std::vector<Truth> &truths) {
-  Study study;
+TruthRuns truth_runs(const Round &round, const std::vector<Truth> &truths) {
+  TruthRuns out;
+  Study &study = out.study;
   study.file = round.file;
   study.name = round.name;
   study.recipe_file = round.bank.recipe_file;
@@ -192,6 +212,7 @@ Study truth_study(const Round &round, const std::vector<Truth> &truths) {
     study.columns.push_back(key);
   study.columns.insert(study.columns.end(), {"recipe.seed", "case.platen.max_pressure_MPa"});
   std::vector<std::vector<std::string>> rows;
+  std::map<std::vector<std::string>, std::size_t> known;
   for (const Truth &t : truths) {
     std::vector<std::string> changed;
     for (const auto &[key, value] : changed_keys(round, t, usual))
@@ -201,17 +222,21 @@ Study truth_study(const Round &round, const std::vector<Truth> &truths) {
     for (const std::string &name : t.hidden)
       offset += find_hidden(name)->pressure_offset_MPa;
     for (std::size_t k = 0; k < runs_of(round, t); ++k) {
-      rows.push_back(changed);
-      rows.back().push_back(
+      std::vector<std::string> row = changed;
+      row.push_back(
           fmt::format("{}", t.packings[round.disc_for_each_pressure ? k : k / pressures.size()]));
-      rows.back().push_back(fmt::format(
+      row.push_back(fmt::format(
           "{:.6g}", pressures[k % pressures.size()] * (1.0 + t.pressure_error) - offset));
+      const auto [at, is_new] = known.emplace(row, rows.size());
+      out.of_truths.push_back(at->second);
+      if (is_new)
+        rows.push_back(row);
     }
   }
   Mistakes mistakes(round.file, 20);
   add_runs(study, rows, mistakes);
   mistakes.stop_if_any();
-  return study;
+  return out;
 }
 
 nlohmann::json to_json(const Truth &t, const BankSpec &bank) {

@@ -26,6 +26,7 @@ struct Truth {
   std::vector<double> base;    ///< of the bank's parameters
   double pressure_error = 0.0; ///< true over stated pressure, less 1
   int draws = 1;               ///< of noise
+  std::size_t set = 0;         ///< truths of one set share their samples, press and base parameters
 };
 
 /// The same samples under the same press without effects and hidden changes of the physics.
@@ -43,13 +44,18 @@ std::string right_answer(const Truth &truth, const BankSpec &bank);
 /// All truths of the round, the same for the same secret. Base parameters are drawn from their
 /// priors, or intervals could not be judged; the k-th of n amplitudes from the k-th n-th of its
 /// prior. Numbers of samples come in turn in every block; among single effects each effect starts
-/// with another, or an amplitude would always have the same.
+/// with another, or an amplitude would always have the same. In a round of shared samples all else than the cause is that of
+/// the nulls, in turn; numerics and understated errors are the truth's own.
 std::vector<Truth> draw_truths(const Round &round, const std::string &secret);
 
 /// The runs of a truth, and of all: for each repeat and sample, one per pressure of the bank. Throws Failure(2) where
 /// values contradict each other.
 std::size_t runs_of(const Round &round, const Truth &truth);
-Study truth_study(const Round &round, const std::vector<Truth> &truths);
+struct TruthRuns {
+  Study study;
+  std::vector<std::size_t> of_truths; ///< number of the run in the study; alike runs are one
+};
+TruthRuns truth_runs(const Round &round, const std::vector<Truth> &truths);
 
 nlohmann::json to_json(const Truth &truth, const BankSpec &bank);
 

@@ -92,10 +92,10 @@ struct Which {
 /// Without the determinant an amplitude whose emulators are uncertain would grow until anything
 /// fits. Nothing is lost to recalibration because the priors count as data. Claim: see `why`; effects by how probable it is that they act,
 /// alone or in pairs.
-/// The unknown acts like a known effect or pair, but for half of the signature's length (0.6 of its
-/// prior, shared as among the known); or is too small to be seen (0.25); or sits everywhere (0.06),
-/// in one stage, one observable of it, one block or one truncation residual (0.06 in equal parts),
-/// or beside a known effect (0.03 in equal parts for all effects, the best of which are computed). Its evidence is the mean over
+/// The unknown acts like a known effect or pair, but for half of the signature's length (0.48 of its
+/// prior, shared as among the known); or is too small to be seen (0.4); or sits everywhere (0.048),
+/// in one stage, one observable of it, one block or one truncation residual (0.048 in equal parts),
+/// or beside a known effect (0.024 in equal parts for all effects, the best of which are computed). Its evidence is the mean over
 /// these (3/4), and (1/4) that of the known ones times 0.1 p^-0.9, p of the best that predicts:
 /// where something unknown acts that is how p is distributed, where not it is uniform.
 Which which(const Problem &problem, const WhichSettings &settings);
