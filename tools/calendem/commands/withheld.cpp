@@ -19,6 +19,11 @@ void add_make(CLI::App &app) {
   verb->add_option("ROUND", o->round_file, "round (TOML)")->required();
   verb->add_option("-o,--output", o->folder, "folder for sealed/ and handed_out/")->required();
   verb->add_option("--jobs", o->jobs, "runs at a time")->check(CLI::Range(1, 4096));
+  verb->add_option(
+          "--sets", o->sets,
+          "only so many sets of shared samples, which are in random order: a round that is too "
+          "long stays a sample of itself; default: all")
+      ->check(CLI::Range(1, 1000));
   verb->add_option("--seed", o->seed,
                    "truths that can be drawn again (for tests, not sealed); default: a secret from "
                    "the system, kept in sealed/");

@@ -13,6 +13,7 @@ namespace calendem {
 struct MakeOptions {
   std::string round_file, folder, liggghts;
   int jobs = 1;
+  int sets = 0; ///< only the first so many sets of samples, which are in random order; 0: all
   std::optional<std::uint64_t> seed; ///< truths that can be drawn again: for tests, not sealed
 };
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
+#include <numeric>
 
 namespace calendem {
 namespace {
@@ -74,6 +75,16 @@ private:
     return prior_value(p.low, p.high, p.spread, low + (high - low) * random_.uniform());
   }
 };
+
+/// 0 to n - 1 (Fisher and Yates).
+std::vector<std::size_t> in_random_order(std::size_t n, const std::string &secret) {
+  std::vector<std::size_t> out(n);
+  std::iota(out.begin(), out.end(), 0);
+  Random random(derived_seed(secret, "sets"), 0);
+  for (std::size_t k = n; k > 1; --k)
+    std::swap(out[k - 1], out[std::size_t(random.uniform() * double(k))]);
+  return out;
+}
 
 /// Keys that the truth changes beyond the bank's own, with their values; all but the packing.
 std::map<std::string, std::string> changed_keys(const Round &round, const Truth &t,
@@ -185,10 +196,11 @@ std::vector<Truth> draw_truths(const Round &round, const std::string &secret) {
   add("fault", round.faults);
   add("other", round.other_numerics);
   add(kIntervention, round.interventions);
-  const std::size_t sets = round.shared_samples ? std::size_t(round.null_packings) : 0;
+  const std::size_t sets = round.shared_samples ? std::size_t(round.null_packings) : out.size();
+  const std::vector<std::size_t> order = in_random_order(sets, secret);
   for (std::size_t k = 0; k < out.size(); ++k) {
     Truth &t = out[k];
-    t.set = k < sets || sets == 0 ? k : (k - sets) % sets;
+    t.set = order[k % sets];
     if (t.block == kIntervention)
       t.packings_before = round.same_specimens_after ? t.packings : drawing.packings(t.samples);
   }

@@ -26,7 +26,8 @@ struct Truth {
   std::vector<double> base;    ///< of the bank's parameters
   double pressure_error = 0.0; ///< true over stated pressure, less 1
   int draws = 1;               ///< of noise
-  std::size_t set = 0;         ///< truths of one set share their samples, press and base parameters
+  std::size_t set =
+      0; ///< truths of one set share samples, press and base parameters; in random order
 };
 
 /// The same samples under the same press without effects and hidden changes of the physics.
