@@ -137,10 +137,10 @@ TEST(ShrinkPart, LabelImagesStandBesideTheModels) {
                              {"without", {"p150: no frame"}}};
   const json images = shrink_part(gap)["images"], row = images["rows"][0];
   EXPECT_EQ(row["name"], "macro porosity, image after, %");
-  EXPECT_EQ(row["measured"], "20");
-  EXPECT_EQ(row["before"], "22");
+  EXPECT_EQ(row["measured"], "20.00");
+  EXPECT_EQ(row["before"], "22.00");
   EXPECT_EQ(row["before_off"], "+3.6");
-  EXPECT_EQ(row["after"], "20.5");
+  EXPECT_EQ(row["after"], "20.50");
   EXPECT_EQ(row["after_off"], "–"); // no deviation is known
   EXPECT_EQ(images["without"][0], "p150: no frame");
 }

@@ -57,7 +57,7 @@ void expect_parts(const Json &gap, const std::vector<std::string> &parts) {
 TEST(ClaimInWords, EveryClaimSaysWhatItMeansAndWhatToDo) {
   Json nothing = claimed("none");
   expect_parts(nothing, {"nothing to see", "Nothing that these data could show",
-                         "acts with a probability of 29 %", "not excluded", "limit no effect"});
+                         "that nothing acts is 29 %", "not excluded", "limit no effect"});
   nothing["which"]["effects"] = Json::array({fitted("friction", "material.am.friction")});
   expect_parts(nothing, {"friction: material.am.friction below 0.45 (95 %). Others"});
   expect_parts(claimed("noise"), {"explained", "Explained by errors larger than stated",

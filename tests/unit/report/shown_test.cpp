@@ -22,6 +22,19 @@ TEST(Shown, WritesPowersOfTenForPeople) {
   EXPECT_EQ(shown(0.041, "{:.2g}"), "0.041");
 }
 
+TEST(Shown, ValuesHaveTheDecimalsOfTheirError) {
+  const auto both = [](double value, double error) {
+    const std::string format = format_by_error(error);
+    return shown(value, format.c_str()) + " ± " + shown(error, format.c_str());
+  };
+  EXPECT_EQ(both(27.75, 2.46), "27.8 ± 2.5");
+  EXPECT_EQ(both(27.75, 0.23), "27.75 ± 0.23");
+  EXPECT_EQ(both(27.75, 0.0998), "27.75 ± 0.10");
+  EXPECT_EQ(both(-312.4, 25.0), "−312 ± 25");
+  EXPECT_EQ(both(27.756, 0.0), "27.76 ± 0");
+  EXPECT_EQ(format_by_error(nullptr), "{:.4g}");
+}
+
 TEST(Shown, NumbersSideBySideHaveTheSameDecimals) {
   EXPECT_EQ(shown_alike({30.04, 28.0, 32.2}), (Texts{"30.0", "28.0", "32.2"}));
   EXPECT_EQ(shown_alike({4.5, 2.1, 11.0}), (Texts{"4.5", "2.1", "11.0"}));

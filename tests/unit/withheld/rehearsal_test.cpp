@@ -2,6 +2,7 @@
 // A bank asked about itself.
 #include "base/csv_table.h"
 #include "base/messages.h"
+#include "base/output_folder.h"
 #include "base/provenance.h"
 #include "diagnose/bank/bank_table.h"
 #include "support/test_folder.h"
@@ -126,6 +127,21 @@ TEST(Rehearsal, TwoPackingsAreTooFew) {
   } catch (const Failure &f) {
     EXPECT_EQ(f.exit_status(), kBadInput);
     EXPECT_NE(std::string(f.what()).find("has 2 packings"), std::string::npos) << f.what();
+  }
+}
+
+// Each writes the whole table: of two at a time one would lose its rows.
+TEST(Rehearsal, TwoAtATimeNeedTwoFolders) {
+  const auto folder = calendem_test::test_folder();
+  const RehearsalOptions o = part_of_shipped(7, folder);
+  std::filesystem::create_directories(o.folder);
+  const FolderLock other(o.folder);
+  try {
+    rehearse(o);
+    FAIL();
+  } catch (const Failure &f) {
+    EXPECT_EQ(f.exit_status(), kBadInput);
+    EXPECT_NE(std::string(f.what()).find("another run is writing"), std::string::npos) << f.what();
   }
 }
 

@@ -37,6 +37,14 @@ std::string shown(const nlohmann::json &number, const char *format) {
   return text;
 }
 
+std::string format_by_error(const nlohmann::json &error) {
+  const double sd = error.is_number() ? std::fabs(error.get<double>()) : 0.0;
+  if (!std::isfinite(sd) || sd < 1e-6 || sd >= 1e6)
+    return "{:.4g}";
+  const int rounded = place_of(sd * 1.005); // 0.0996 is shown as 0.10
+  return fmt::format("{{:.{}f}}", std::max(0, 1 - rounded));
+}
+
 std::vector<std::string> shown_alike(const std::vector<double> &numbers) {
   int most = 0, least = 0; // places of the first digits
   bool any = false;

@@ -13,6 +13,9 @@ namespace calendem {
 /// exponent ("4.1·10⁻⁸"); a dash where it is none.
 std::string shown(const nlohmann::json &number, const char *format);
 
+/// The format with the decimals that give an error two digits: 27.8 ± 2.5, 27.75 ± 0.23; four digits where it is none.
+std::string format_by_error(const nlohmann::json &error);
+
 /// Numbers that stand side by side, all with the decimals that give the largest three digits: "28.0",
 /// "32.2". If less than two digits of another were left, each has three of its own.
 std::vector<std::string> shown_alike(const std::vector<double> &numbers);

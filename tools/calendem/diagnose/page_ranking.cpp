@@ -42,15 +42,16 @@ json strip(const json &r, bool has_best) {
   const auto px = [&](double off) {
     return fmt::format("{:.1f}", kMargin + kHalf + off / reach * kHalf);
   };
+  const std::string digits = format_by_error(r["sd_measurement"]);
   const auto wide = [&](double length) { return fmt::format("{:.1f}", length / reach * kHalf); };
   return {{"condition", r["condition"]},
           {"name", r["name"]},
           {"unit", shown_unit(r["unit"])},
           {"stage", r["stage"]},
-          {"measured", shown(r["measured"], "{:.4g}")},
-          {"sd", shown(r["sd_measurement"], "{:.2g}")},
-          {"base", shown(r["base"], "{:.4g}")},
-          {"best", has_best ? shown(r["best"], "{:.4g}") : ""},
+          {"measured", shown(r["measured"], digits.c_str())},
+          {"sd", shown(r["sd_measurement"], digits.c_str())},
+          {"base", shown(r["base"], digits.c_str())},
+          {"best", has_best ? shown(r["best"], digits.c_str()) : ""},
           {"middle", px(0.0)},
           {"low1", px(-sd)},
           {"low2", px(-2.0 * sd)},

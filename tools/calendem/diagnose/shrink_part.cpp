@@ -69,12 +69,13 @@ json observable_of(const json &o) {
     const double by = (number(o, key) - number(o, "measured")) / sd;
     return std::isfinite(by) ? shown(by, "{:+.1f}") : "–";
   };
+  const std::string digits = format_by_error(o["sd"]);
   return {{"condition", o["condition"]},
           {"name", o["name"]},
-          {"measured", shown(o["measured"], "{:.4g}")},
-          {"sd", shown(o["sd"], "{:.2g}")},
-          {"before", shown(o["before"], "{:.4g}")},
-          {"after", shown(o.value("after", json()), "{:.4g}")},
+          {"measured", shown(o["measured"], digits.c_str())},
+          {"sd", shown(o["sd"], digits.c_str())},
+          {"before", shown(o["before"], digits.c_str())},
+          {"after", shown(o.value("after", json()), digits.c_str())},
           {"before_off", off("before")},
           {"after_off", off("after")}};
 }
@@ -83,12 +84,13 @@ json image_row(const json &row) {
   const auto of = [&](const char *role, const char *key, const char *format) {
     return row.contains(role) ? shown(row[role].value(key, json()), format) : "–";
   };
+  const std::string digits = format_by_error(row["sd"]);
   return {{"condition", row["condition"]},
           {"name", fmt::format("{}, {}", row["name"].get<std::string>(), shown_unit(row["unit"]))},
-          {"measured", shown(row["measured"], "{:.4g}")},
-          {"sd", shown(row["sd"], "{:.2g}")},
-          {"before", of("before", "mean", "{:.4g}")},
-          {"after", of("after", "mean", "{:.4g}")},
+          {"measured", shown(row["measured"], digits.c_str())},
+          {"sd", shown(row["sd"], digits.c_str())},
+          {"before", of("before", "mean", digits.c_str())},
+          {"after", of("after", "mean", digits.c_str())},
           {"before_off", of("before", "off", "{:+.1f}")},
           {"after_off", of("after", "off", "{:+.1f}")}};
 }

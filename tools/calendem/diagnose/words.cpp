@@ -75,21 +75,22 @@ std::string what_is_left(const Json &which) {
 }
 
 Words none(const Json &gap) {
-  return {"Nothing that these data could show",
-          fmt::format(
-              "With its parameters recalibrated the base model fits all that was measured. "
-              "No effect acts with a probability of {}; one too small to be seen, or hidden in the "
-              "recalibrated parameters, is not excluded.",
-              percent(gap["which"]["probability"]["none"])),
-          {"Use the recalibrated parameters with their 95 % ranges over all explanations, below: "
-           "part of each may be a hidden cause.",
-           what_is_left(gap["which"])}};
+  return {
+      "Nothing that these data could show",
+      fmt::format(
+          "With its parameters recalibrated the base model fits all that was measured. "
+          "The probability that nothing acts is {}; an effect too small to be seen, or hidden in "
+          "the recalibrated parameters, is not excluded.",
+          percent(gap["which"]["probability"]["none"])),
+      {"Use the recalibrated parameters with their 95 % ranges over all explanations, below: "
+       "part of each may be a hidden cause.",
+       what_is_left(gap["which"])}};
 }
 
 Words nothing_changed(const Json &gap) {
   return {"Nothing that these data could show",
-          fmt::format("Before and after agree within their errors. No effect acts with a "
-                      "probability of {}; one too small to be seen is not excluded.",
+          fmt::format("Before and after agree within their errors. The probability that nothing "
+                      "changed is {}; a change too small to be seen is not excluded.",
                       percent(gap["which"]["probability"]["none"])),
           {what_is_left(gap["which"])}};
 }

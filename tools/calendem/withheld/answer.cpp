@@ -214,6 +214,7 @@ void answer_round(const AnswerOptions &given) {
   check_handed_out(o.handed_out);
   Answering answering(o);
   make_output_folder(o.folder);
+  const FolderLock lock(o.folder);
   in_parallel(answering.cases(), o.jobs, [&](int k) { answering.answer(k); });
   for (int k = 0; k < answering.cases() && o.rerun_packings > 0 && stop_requested() == 0; ++k)
     answering.run_again(k);

@@ -186,6 +186,7 @@ void make_round(const MakeOptions &given) {
                               "would be handed out too. Give a recipe that stands alone.",
                               round.bank.recipe_file));
   make_output_folder(o.folder);
+  const FolderLock lock(o.folder);
   fs::create_directories(o.folder + "/sealed");
   fs::permissions(o.folder + "/sealed", fs::perms::owner_all);
   const std::string secret = secret_of(o);

@@ -236,6 +236,7 @@ void rehearse(const RehearsalOptions &o) {
   const BankTable table = read_bank_table(read_bank_spec(o.bank), o.table);
   const std::vector<int> numbers = parts_of(o, table);
   make_output_folder(o.folder);
+  const FolderLock lock(o.folder);
   const std::string file = o.folder + "/rehearsal.csv", head = made_from(o);
   std::map<int, std::vector<Rehearsed>> done = begun(file, head);
   std::vector<int> missing;
