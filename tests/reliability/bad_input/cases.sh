@@ -296,6 +296,10 @@ curve_in_other_units() { # of an experiment: mm, Pa, another separator, stages t
   curve() { printf '%b' "$1" >"$work/curve.csv"; }
   curve 'displacement_um,pressure_MPa\n0,0\n0.02,150\n'
   refused experiment.toml ":8: '" "displacement_um goes to 0.02; the film of the recipe is 76.6 um thick"
+  curve 'displacement_um,pressure_MPa\n0,0\n20000,150\n'
+  refused experiment.toml ":8: '" "displacement_um goes to 20000; the film of the recipe is 76.6 um thick"
+  curve 'displacement_um,pressure_MPa\n0,0\n100,150\n' # a press that gives way
+  expect 0 calendem validate "$work/experiment.toml"
   curve 'displacement_um,pressure_MPa\n0,0\n20,1.5e8\n'
   refused experiment.toml ":8: '" "pressure_MPa goes to 1.5e+08, max_pressure_MPa is 150"
   curve 'displacement_um;pressure_MPa\n0;0\n20,1;150\n'

@@ -267,6 +267,7 @@ void check_units(const std::string &path, const CsvTable &table, const Experimen
                  const Condition &c, int line, Mistakes &mistakes) {
   constexpr double kOff = 3.0;        // factor between the curve's largest pressure and the stated
   constexpr double kLeastWay = 0.005; // of the film's thickness
+  constexpr double kMostWay = 10.0;   // a press that gives way moves farther than the film is thick
   const auto largest = [&](const char *column) {
     const std::vector<double> v = table.numbers(column);
     return *std::max_element(v.begin(), v.end());
@@ -280,7 +281,7 @@ void check_units(const std::string &path, const CsvTable &table, const Experimen
   if (e.recipe.file.empty()) // it has mistakes of its own
     return;
   const double film = e.recipe.thickness();
-  if (d >= film || d < kLeastWay * film)
+  if (d >= kMostWay * film || d < kLeastWay * film)
     mistakes.add(line,
                  fmt::format("'{}': displacement_um goes to {:g}; the film of the recipe is "
                              "{:.1f} um thick. Is the column in um, counted from first touch?",
