@@ -5,7 +5,7 @@ set -euo pipefail
 bin=$1 work=$2
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 fail() { echo "FAILED: $*" >&2; exit 1; }
-names() { find "$1" -mindepth 1 -maxdepth 1 -printf '%f\n' | LC_ALL=C sort | paste -sd,; } # FOLDER
+names() { find "$1" -mindepth 1 -maxdepth 1 ! -name .lock -printf '%f\n' | LC_ALL=C sort | paste -sd,; } # FOLDER
 refused() { # STATUS TEXT COMMAND...: that exit status and these words
   local status=0 want=$1 text=$2
   shift 2
@@ -108,7 +108,7 @@ cp "$work/before.csv" "$work/round/handed_out/$changed/before/p30.csv"
 
 # The same command makes nothing again, and hands out the same.
 make_round >"$work/again.log"
-grep -q "28 runs, 28 of them done already" "$work/again.log" || fail "runs were made twice"
+grep -q "24 runs, 24 of them done already" "$work/again.log" || fail "runs were made twice"
 diff -r "$work/round/handed_out" "$work/given/copy" || fail "another round was handed out"
 
 sed -i 's/"claim": "[a-z]*/&!/' "$work/answers/002/gap.json"

@@ -154,6 +154,32 @@ TEST(Truths, SharedSamplesAreRunOnceWithoutACause) {
   EXPECT_NE(runs.of_truths[6 * 2], runs.of_truths[0]);
 }
 
+// A round that takes too long is cut down to some of its sets, each with its null first.
+TEST(Truths, ARoundOfSharedSamplesCanBeCutDownToSets) {
+  std::string text = kRound;
+  text.insert(text.find("samples"), "shared_samples = \"yes\"\n");
+  const Round round = round_of(text);
+  const std::vector<Truth> all = truths_of_sets(round, "secret", 0),
+                           one = truths_of_sets(round, "secret", 1);
+  EXPECT_EQ(all.size(), draw_truths(round, "secret").size());
+  ASSERT_LT(one.size(), all.size());
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    EXPECT_EQ(all[k].set, k < one.size() ? 0u : 1u);
+    EXPECT_EQ(all[k].block == "null", k == 0 || k == one.size());
+    if (k < one.size())
+      EXPECT_EQ(to_json(one[k], round.bank), to_json(all[k], round.bank));
+  }
+  const auto first = [&](const std::string &secret) {
+    const std::vector<Truth> truths = draw_truths(round, secret);
+    return truths[0].set;
+  };
+  std::set<std::size_t> which;
+  for (int k = 0; k < 20; ++k) // all alike once in 2^19
+    which.insert(first(std::to_string(k)));
+  EXPECT_EQ(which.size(), 2u);
+  EXPECT_THROW(truths_of_sets(round_of(kRound), "secret", 1), Failure);
+}
+
 TEST(Truths, RepeatsAreOtherSpecimens) {
   for (const char *kind : {"one for all pressures", "one for each pressure"}) {
     std::string text = kRound;

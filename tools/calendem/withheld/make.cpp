@@ -153,29 +153,6 @@ void seal_round(const std::string &folder, const Round &round,
              cases.size(), std::count_if(truths.begin(), truths.end(), usable), folder);
 }
 
-namespace {
-
-/// Set after set, so that a round that was stopped has whole sets.
-std::vector<Truth> chosen_truths(const MakeOptions &o, const Round &round,
-                                 const std::string &secret) {
-  std::vector<Truth> out = draw_truths(round, secret);
-  if (!round.shared_samples && o.sets > 0)
-    throw Failure(kBadInput,
-                  fmt::format("--sets {} needs a round of shared samples: {} has no sets.", o.sets,
-                              round.file));
-  if (!round.shared_samples)
-    return out;
-  std::stable_sort(out.begin(), out.end(),
-                   [](const Truth &a, const Truth &b) { return a.set < b.set; });
-  if (o.sets > 0)
-    out.erase(std::remove_if(out.begin(), out.end(),
-                             [&](const Truth &t) { return t.set >= std::size_t(o.sets); }),
-              out.end());
-  return out;
-}
-
-} // namespace
-
 void make_round(const MakeOptions &given) {
   MakeOptions o = given;
   o.folder = fs::absolute(o.folder).lexically_normal().string();
@@ -190,7 +167,7 @@ void make_round(const MakeOptions &given) {
   fs::create_directories(o.folder + "/sealed");
   fs::permissions(o.folder + "/sealed", fs::perms::owner_all);
   const std::string secret = secret_of(o);
-  const std::vector<Truth> truths = chosen_truths(o, round, secret);
+  const std::vector<Truth> truths = truths_of_sets(round, secret, o.sets);
   const std::vector<Truth> all = with_pairs(round, truths);
   const TruthRuns runs = truth_runs(round, all);
   fmt::print(

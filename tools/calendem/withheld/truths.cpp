@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/truths.h"
 #include "base/case.h"
+#include "base/messages.h"
 #include "base/random.h"
 #include "diagnose/bank/bank_table.h"
 #include "withheld/round_file.h"
@@ -204,6 +205,23 @@ std::vector<Truth> draw_truths(const Round &round, const std::string &secret) {
     if (t.block == kIntervention)
       t.packings_before = round.same_specimens_after ? t.packings : drawing.packings(t.samples);
   }
+  return out;
+}
+
+std::vector<Truth> truths_of_sets(const Round &round, const std::string &secret, int sets) {
+  if (!round.shared_samples && sets > 0)
+    throw Failure(kBadInput,
+                  fmt::format("--sets {} needs a round of shared samples: {} has no sets.", sets,
+                              round.file));
+  std::vector<Truth> out = draw_truths(round, secret);
+  if (!round.shared_samples)
+    return out;
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Truth &a, const Truth &b) { return a.set < b.set; });
+  if (sets > 0)
+    out.erase(std::remove_if(out.begin(), out.end(),
+                             [&](const Truth &t) { return t.set >= std::size_t(sets); }),
+              out.end());
   return out;
 }
 

@@ -49,6 +49,10 @@ std::string right_answer(const Truth &truth, const BankSpec &bank);
 /// the nulls, in turn; numerics and understated errors are the truth's own.
 std::vector<Truth> draw_truths(const Round &round, const std::string &secret);
 
+/// The same set after set, so that a round that was stopped has whole sets; only the first so many, 0: all. Throws
+/// Failure(2) if that is asked of a round without sets.
+std::vector<Truth> truths_of_sets(const Round &round, const std::string &secret, int sets);
+
 /// The runs of a truth, and of all: for each repeat and sample, one per pressure of the bank. Throws Failure(2) where
 /// values contradict each other.
 std::size_t runs_of(const Round &round, const Truth &truth);
