@@ -122,7 +122,8 @@ void seal_round(const std::string &folder, const Round &round,
     fs::remove_all(old);
   for (std::size_t k = 0; k < cases.size(); ++k) {
     const PressedTruth &pressed = truths[std::size_t(cases[k].truth)];
-    const std::string id = fmt::format("{:03}", k + 1), here = folder + "/handed_out/" + id;
+    const std::string id = fmt::format("{:03}", k + 1),
+                      here = fmt::format("{}/handed_out/{}", folder, id);
     const std::uint64_t noise = derived_seed(secret, "noise of " + id);
     const bool intervention = pressed.truth.block == kIntervention;
     if (intervention)
