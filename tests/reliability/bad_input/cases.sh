@@ -297,7 +297,7 @@ curve_in_other_units() { # of an experiment: mm, Pa, another separator, stages t
   curve 'displacement_um,pressure_MPa\n0,0\n0.02,150\n'
   refused experiment.toml ":8: '" "displacement_um goes to 0.02; the film of the recipe is 76.6 um thick"
   curve 'displacement_um,pressure_MPa\n0,0\n20000,150\n'
-  refused experiment.toml ":8: '" "displacement_um goes to 20000; the film of the recipe is 76.6 um thick"
+  refused experiment.toml ":8: '" "displacement_um goes to 20000; the film of the recipe is 76.6 um thick, allowed is 0.383 to 766.2"
   curve 'displacement_um,pressure_MPa\n0,0\n100,150\n' # a press that gives way
   expect 0 calendem validate "$work/experiment.toml"
   curve 'displacement_um,pressure_MPa\n0,0\n20,1.5e8\n'

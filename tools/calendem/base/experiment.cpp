@@ -284,8 +284,9 @@ void check_units(const std::string &path, const CsvTable &table, const Experimen
   if (d >= kMostWay * film || d < kLeastWay * film)
     mistakes.add(line,
                  fmt::format("'{}': displacement_um goes to {:g}; the film of the recipe is "
-                             "{:.1f} um thick. Is the column in um, counted from first touch?",
-                             path, d, film));
+                             "{:.1f} um thick, allowed is {:.3g} to {:.4g}. Is the column in um, "
+                             "counted from first touch?",
+                             path, d, film, kLeastWay * film, kMostWay * film));
 }
 
 } // namespace
