@@ -99,7 +99,8 @@ inline std::vector<Key> base_settings() {
       {"roll.line_load_tolerance", "", "0.02", 1e-3, 0.5, "",
        "allowed relative deviation from the line load"},
       {"roll.line_speed_m_min", "line_speed_m_min", "0.5", 1e-3, 1000, "m/min",
-       "speed of the web; only used to report the ratio of simulated to real speed"},
+       "speed of the web; only used to report the ratio of simulated to real speed and the time in "
+       "the last nip"},
       {"roll.slip", "roll_slip", "0", 0, 0.1, "",
        "relative speed of the roll's surface ahead of the web"},
       {"roll.passes", "roll_passes", "1", 1, 20, "", "number of passes under the roll", "", false,

@@ -35,6 +35,11 @@ inline double made_collapse(double yield, double pressure) {
   return 0.03 * std::log(300.0 / yield) * std::exp(-pressure / 60.0);
 }
 
+/// What collapse from `yield` [MPa] on leaves of a nanoporosity of one half.
+inline double made_nanoporosity(double yield, double pressure) {
+  return pressure > yield ? 0.27 + 0.23 * std::exp(-(pressure - yield) / 100.0) : 0.5;
+}
+
 /// GPa.
 inline double made_modulus(const std::vector<double> &p) { return 0.01 * p[0]; }
 
@@ -52,6 +57,8 @@ inline SimulatedRun made_coating(const BankPoint &point, double target) {
   r.cracked_fraction = made_cracked(point.base, target);
   r.broken_fraction = 0.3 * r.cracked_fraction;
   r.inverse_tortuosity = made_inverse(r.porosity_after);
+  if (point.effect == "cbd_collapse")
+    r.cbd_nanoporosity = made_nanoporosity(point.value, target);
   r.solid_column = 12.0;
   r.thickness_at_max = 12.0 / (1.0 - r.porosity_at_max);
   for (const double share : {0.25, 0.5, 0.75, 0.95}) { // linear: a modulus of made_modulus

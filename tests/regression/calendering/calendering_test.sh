@@ -349,6 +349,11 @@ EOF
     grep -q '"significant": true' "$work/other_gap/gap.json" || fail "the film of before passed for that of after"
     (cat "$work/case.toml" && printf '\n[imposed]\ncbd_nanoporosity_until_MPa = 40\n') >"$work/imposed.toml"
     "$bin/calendem" run "$work/imposed.toml" -o "$work/imposed" --ranks 1 --force
+    # Frames hold radii as floats, 1e-7 of them: nanoporosities of 50 and, beyond 40 MPa, 27 % to 1e-6.
+    for of in run:0.5 imposed:0.27; do
+      nano=$(number cbd_nanoporosity_after "$work/${of%:*}/summary.json")
+      holds "($nano - ${of#*:}) ^ 2 < 1e-12" "${of%:*}: the nanoporosity after is $nano instead of ${of#*:}"
+    done
     "$bin/calendem" compare "$work/own.toml" "$work/imposed" -o "$work/imposed_gap"
     grep -q 'CBD is imposed, not predicted: from 50 to 27 % at 40 MPa' "$work/imposed_gap/gap.html" ||
       fail "the page does not say that nanoporosity was imposed" ;;

@@ -7,7 +7,7 @@ fail() { echo "FAILED: $*" >&2; exit 1; }
 rm -rf "$work"
 mkdir -p "$work"
 cd "$work"
-films=("$cases/paper/experiment.toml" "$cases/real/artistic_96/experiment.toml")
+films=("$cases/paper/experiment_with_nanopores.toml" "$cases/real/artistic_96/experiment.toml")
 calendem() { "$bin/calendem" "$@"; }
 
 calendem calibrate "${films[@]}" -o model --bank "$cases/coatings/bank.toml" | tee calibrate.log

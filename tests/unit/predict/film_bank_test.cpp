@@ -104,6 +104,30 @@ FilmBank of_unknown_nanopores() {
   return FilmBank(table);
 }
 
+// Only collapse changes it; a domain that begins with fewer pores loses the same share of those that it can lose.
+TEST(FilmBank, NanoporesAreWhatCollapseLeaves) {
+  const FilmBank bank = of_unknown_nanopores();
+  ASSERT_TRUE(bank.knows(FilmNumber::CbdNanoporosity));
+  EXPECT_FALSE(made_film_bank().knows(FilmNumber::CbdNanoporosity));
+  EXPECT_FALSE(bank.quality(FilmNumber::CbdNanoporosity).empty());
+  const Film film = made_film("x", 48.0, 3.0);
+  const double amplitude = find_effect("cbd_collapse").parameter.amplitude(30.0);
+  const auto left = [&](double points, const std::vector<Acting> &effects, std::size_t pressure) {
+    return bank
+        .at_pressures(FilmNumber::CbdNanoporosity, film, {{190.0, 2.4, 480.0, points}, effects})
+        .at(pressure)
+        .mean;
+  };
+  for (std::size_t p = 0; p < bank.spec().pressures.size(); ++p) {
+    EXPECT_EQ(left(0.0, {}, p), 0.5);
+    EXPECT_EQ(left(-10.0, {}, p), 0.4);
+    EXPECT_NEAR(left(0.0, {{0, amplitude}}, p), made_nanoporosity(30.0, bank.spec().pressures[p]),
+                0.04);
+    EXPECT_NEAR(0.4 - left(-10.0, {{0, amplitude}}, p),
+                (0.5 - left(0.0, {{0, amplitude}}, p)) * 13.0 / 23.0, 0.02);
+  }
+}
+
 // A film of 92 : 4 : 4 with 48 % pores whose CBD has 40 % nanopores is as thick, and has as much of CBD with its
 // nanopores, as one with half of CBD nanopores and 5/6 of the solid CBD.
 TEST(FilmBank, FewerNanoporesAreLessOfTheBanksCbd) {

@@ -36,15 +36,15 @@ const std::vector<Key> &head_keys() {
   static const std::vector<Key> keys = {
       {"name", "", "", 0, 0, "", "name for reports", "", true},
       {"electrode", "", "", 0, 0, "", "recipe of the electrode before calendering", "", true},
-      {"sample_diameter_mm", "", "0", 1e-3, 1000, "mm", "diameter of the punched disc"},
-      {"foil_thickness_um", "", "0", 1, 100, "um", "thickness of the current collector"},
-      {"foil_density_g_cm3", "", "0", 0.5, 20, "g/cm3",
+      {"sample_diameter_mm", "", "-", 1e-3, 1000, "mm", "diameter of the punched disc"},
+      {"foil_thickness_um", "", "-", 1, 100, "um", "thickness of the current collector"},
+      {"foil_density_g_cm3", "", "-", 0.5, 20, "g/cm3",
        "density of the current collector; aluminium 2.70, copper 8.96"},
       {"labels_pore", "", "0", -1e9, 1e9, "", "label of pores in the label images", "", false,
        true},
       {"labels_cbd", "", "-", -1e9, 1e9, "",
        "label of CBD in the label images; if not given, all solid is AM", "", false, true},
-      {"labels_voxel_um", "", "0", 1e-3, 10, "um",
+      {"labels_voxel_um", "", "-", 1e-3, 10, "um",
        "voxel size of the label images, if it differs from that in the files"},
       {"measured_on", "", "press", 0, 0, "",
        "simulation: the data come from a run like those of the bank, so that its numerics are no "
@@ -111,6 +111,10 @@ const std::vector<Quantity> &quantities() {
       {{"cracked_bodies_fraction", "", "-", 0, 1, "fraction",
         "fraction of secondary particles that are cracked"},
        &Condition::cracked_bodies_fraction},
+      {{"cbd_nanoporosity_after_percent", "", "-", 1, 90, "%",
+        "nanoporosity of the carbon-binder domain after calendering; calibrate learns from it, the "
+        "other verbs do not compare it"},
+       &Condition::cbd_nanoporosity_after_percent},
   };
   return list;
 }
@@ -131,10 +135,9 @@ std::string list_of_experiment_keys() {
   std::vector<Key> measured;
   for (const Quantity &q : quantities())
     measured.push_back(q.key);
-  rows(
-      "[[condition]], a number or { value, sd } or { value, sd_relative }; mass and thickness also "
-      "includes_foil (default: a mass does, a thickness does not)",
-      measured);
+  rows("[[condition]], a number or { value, sd } or { value, sd_relative }; mass_mg and "
+       "thickness_after_um also includes_foil (default: a mass does, a thickness does not)",
+       measured);
   return text;
 }
 

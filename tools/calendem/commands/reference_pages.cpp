@@ -106,7 +106,8 @@ std::string case_page() {
       "`case.toml` with every default filled in.\n\n"
       "Keys under `[effects...]` switch on physics that the base model leaves out: see "
       "[Effects](effects.md).\nThe input scripts have the same settings, by the names in "
-      "`input_scripts/common/defaults.in`.",
+      "`input_scripts/common/defaults.in`, except a line load and\nits tolerance, and the "
+      "thickness zero.",
       tables(case_keys()));
 }
 
@@ -127,7 +128,8 @@ std::string film_page() {
       keys.push_back(key);
   return page("Keys of a film",
               "The recipe of a film that `calendem dry` makes by simulating slurry and drying has "
-              "the keys of a\n[recipe](recipe.md) and these.",
+              "the keys of a\n[recipe](recipe.md) except `[structure]` and "
+              "`[effects.cbd_gradient]`, and these.",
               tables(keys));
 }
 
@@ -158,8 +160,9 @@ std::string experiment_page() {
                   "\n## `[[condition]]`\n\nOne table for each sample or pressure.\n\n" +
                   rows(condition_keys()) +
                   "\n### Measured values of a condition\n\nA number, `{ value, sd }` or "
-                  "`{ value, sd_relative }`. Mass and thickness also take `includes_foil`:\n"
-                  "a mass includes the foil unless it says otherwise, a thickness does not.\n\n" +
+                  "`{ value, sd_relative }`. `mass_mg` and `thickness_after_um` also take\n"
+                  "`includes_foil`: a mass includes the foil unless it says otherwise, a thickness "
+                  "does not.\n\n" +
                   rows(measured));
 }
 
@@ -203,12 +206,15 @@ std::string effects_page() {
   }
   return page(
       "Effects",
-      "Effects are physics that the base model leaves out. Each is off by default, has a law of "
-      "its own in\n`src_plugin/physics`, and is switched on by a key of the [case](case.md) or "
-      "of the [recipe](recipe.md).\n`calendem effects NAME` prints the same. Equations are in "
+      "Effects are physics that the base model leaves out. Each is off by default, has its law in "
+      "`src_plugin/physics`,\nand is switched on by a key of the [case](case.md) or of the "
+      "[recipe](recipe.md).\n`calendem effects NAME` prints the same. Equations are in "
       "[How the model works](../model/effects.md).\n\n"
-      "A contact follows one law, so only one of the effects on the same pair of phases can be "
-      "on. The prior is that\nof the diagnosis; a key may have values outside it.",
+      "A contact follows one law. Of the effects with a contact law (the plasticities, "
+      "`cbd_viscoelasticity`, the confinements,\n`collector_indentation`) only one kind of law can "
+      "act on the same pair of phases. Friction, collapse and bridges combine\nwith them; collapse "
+      "and bridges exclude each other. The prior is that of the diagnosis; a key may have values "
+      "outside it.",
       list + sections);
 }
 

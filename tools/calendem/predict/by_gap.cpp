@@ -195,6 +195,7 @@ GuessesOf numbers_at_gaps(const GapDraws &draws) {
     case FilmNumber::InverseTortuosity:
       return draws.inverse_tortuosity;
     case FilmNumber::LogModulus:
+    case FilmNumber::CbdNanoporosity:
       return {};
     }
     return {};

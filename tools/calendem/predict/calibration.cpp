@@ -15,7 +15,7 @@ using inference::Vector;
 namespace {
 
 constexpr double kUsualPressureSd = 0.1; // where an experiment gives none
-constexpr double kUsualPorositySd = 0.01, kUsualCrackedSd = 0.1;
+constexpr double kUsualPorositySd = 0.01, kUsualCrackedSd = 0.1, kUsualNanoporositySd = 0.1;
 
 void add_datum(const Condition &c, FilmNumber number, const Measured &value, double per_cent,
                double usual_sd, Calibration &to) {
@@ -65,11 +65,19 @@ void add_experiment(const Experiment &experiment, const FilmBank &bank, Calibrat
                 to);
     if (c.cracked_bodies_fraction)
       add_datum(c, FilmNumber::Cracked, *c.cracked_bodies_fraction, 1.0, kUsualCrackedSd, to);
+    if (c.cbd_nanoporosity_after_percent && bank.knows(FilmNumber::CbdNanoporosity))
+      add_datum(c, FilmNumber::CbdNanoporosity, *c.cbd_nanoporosity_after_percent, 0.01,
+                kUsualNanoporositySd, to);
+    else if (c.cbd_nanoporosity_after_percent)
+      not_said.push_back(fmt::format("{}, {}: the bank's runs do not say how porous the "
+                                     "carbon-binder domain is: left out.",
+                                     experiment.name, c.id));
   }
   if (to.data.size() == before)
     throw Failure(kBadInput,
                   fmt::format("{}: no condition with max_pressure_MPa within the bank's pressures "
-                              "has porosity_after_percent or cracked_bodies_fraction.",
+                              "has porosity_after_percent, cracked_bodies_fraction or "
+                              "cbd_nanoporosity_after_percent.",
                               experiment.name));
 }
 
@@ -102,6 +110,7 @@ double error_covariance(const ModelError &e, const Draw &draw, const Spot &a, co
   case FilmNumber::LogModulus:
   case FilmNumber::Broken:
   case FilmNumber::InverseTortuosity:
+  case FilmNumber::CbdNanoporosity:
     return 0.0;
   }
   return 0.0;

@@ -25,6 +25,8 @@ constexpr std::size_t kFewestPressures = 4; // of the monotone cubic
 // The effect that closes nanopores, and how many it leaves.
 constexpr const char *kCollapse = "cbd_collapse",
                      *kFloor = "effects.cbd_collapse.floor_nanoporosity";
+// Numbers that the base model has emulators of; the next one, nanoporosity, only collapse has.
+constexpr int kByBase = int(FilmNumber::CbdNanoporosity);
 constexpr double kBeyond = 0.05; // standard deviation per unit of ln p beyond the bank's pressures
 
 bool is_recipe(const BankParameter &p) { return p.keys.front().rfind("recipe.", 0) == 0; }
@@ -59,6 +61,8 @@ double value_of(FilmNumber number, const SimulatedRun &run) {
     return run.broken_fraction;
   case FilmNumber::InverseTortuosity:
     return run.inverse_tortuosity;
+  case FilmNumber::CbdNanoporosity:
+    return run.cbd_nanoporosity;
   }
   return NAN;
 }
@@ -102,14 +106,15 @@ Vector values_of(FilmNumber number, const BankSpec &spec, const PointRuns &runs)
   return out;
 }
 
-/// Points of one effect, their inputs and their differences from the base points.
+/// Points of one effect, their inputs and their differences from the base points; in nanoporosity,
+/// which stays what it is without an effect, from `nanoporosity`.
 struct Learnt {
   Training training;
   std::array<inference::Matrix, kFilmNumbers> values; ///< pressures x points
 };
 
 Learnt learnt_of(const BankSpec &spec, const std::vector<PointRuns> &points,
-                 const std::string &effect) {
+                 const std::string &effect, double nanoporosity) {
   std::map<int, const PointRuns *> base;
   std::vector<const PointRuns *> of;
   for (const PointRuns &p : points) {
@@ -139,7 +144,9 @@ Learnt learnt_of(const BankSpec &spec, const std::vector<PointRuns> &points,
     for (int number = 0; number < kFilmNumbers; ++number) {
       auto column = out.values[std::size_t(number)].col(k);
       column = values_of(FilmNumber(number), spec, *of[std::size_t(k)]);
-      if (extra > 0)
+      if (extra > 0 && FilmNumber(number) == FilmNumber::CbdNanoporosity)
+        column.array() -= nanoporosity;
+      else if (extra > 0)
         column -= values_of(FilmNumber(number), spec, *base.at(point.base_point));
     }
   }
@@ -149,7 +156,8 @@ Learnt learnt_of(const BankSpec &spec, const std::vector<PointRuns> &points,
 /// Tables of earlier versions lack these.
 bool may_be_missing(int number) {
   return FilmNumber(number) == FilmNumber::Broken ||
-         FilmNumber(number) == FilmNumber::InverseTortuosity;
+         FilmNumber(number) == FilmNumber::InverseTortuosity ||
+         FilmNumber(number) == FilmNumber::CbdNanoporosity;
 }
 
 /// Empty for a number that may be missing and is.
@@ -186,30 +194,42 @@ emulators_of(const Learnt &learnt, int number, const std::vector<inference::Gaus
 void FilmBank::learn(const BankTable &table) {
   std::vector<std::string> ignored;
   const std::vector<PointRuns> points = points_of(table, spec_.pressures, ignored);
-  const Learnt base = learnt_of(spec_, points, "");
+  const Learnt base = learnt_of(spec_, points, "", recipe_.nanoporosity);
   if (base.training.packing.size() < std::size_t(inference::kFewestRuns))
     throw Failure(kBadInput,
                   fmt::format("{}: the table has {} whole points of the base model; at "
                               "least {} are needed.",
                               spec_.file, base.training.packing.size(), inference::kFewestRuns));
-  for (int number = 0; number < kFilmNumbers; ++number)
-    base_[std::size_t(number)] = emulators_of(base, number, nullptr);
+  for (int number = 0; number < kByBase; ++number)
+    base_[std::size_t(number)] = calendem::emulators_of(base, number, nullptr);
   for (const std::string &name : spec_.effects) {
-    const Learnt with = learnt_of(spec_, points, name);
+    const Learnt with = learnt_of(spec_, points, name, recipe_.nanoporosity);
     if (find_effect(name).instrument ||
         with.training.packing.size() < std::size_t(inference::kFewestRuns))
       continue;
     effects_.push_back(inference_effect(effect_of(spec_, name)).parameters.front());
     effects_.back().name = name;
     with_.emplace_back();
-    for (int number = 0; number < kFilmNumbers; ++number)
+    for (int number = 0; number < kByBase; ++number)
       if (knows(FilmNumber(number)))
-        with_.back()[std::size_t(number)] = emulators_of(with, number, &base_[std::size_t(number)]);
+        with_.back()[std::size_t(number)] =
+            calendem::emulators_of(with, number, &base_[std::size_t(number)]);
+    if (name == kCollapse)
+      with_.back()[kByBase] = calendem::emulators_of(with, kByBase, nullptr);
   }
-  for (int number = 0; number < kFilmNumbers; ++number)
+  for (int number = 0; number < kByBase; ++number)
     for (const auto &of_effect : with_)
       if (of_effect[std::size_t(number)].empty())
         forget(FilmNumber(number));
+}
+
+const FilmBank::Emulators *FilmBank::emulators_of(FilmNumber number) const {
+  const Emulators *of = &base_[std::size_t(number)];
+  if (number == FilmNumber::CbdNanoporosity)
+    for (const auto &effect : with_)
+      if (!effect[kByBase].empty())
+        of = &effect[kByBase];
+  return of->empty() ? nullptr : of;
 }
 
 /// A number that the base model's runs have and an effect's, or the full cell's, lack.
@@ -255,7 +275,7 @@ void FilmBank::learn_full_cell(const BankTable &table) {
                                          spec_.file));
   const Recipe recipe = read_recipe(spec_.full_cell.recipe_file);
   const Film film = film_of(recipe);
-  for (int number = 0; number < kFilmNumbers; ++number) {
+  for (int number = 0; number < kByBase; ++number) {
     if (!knows(FilmNumber(number)))
       continue;
     std::vector<std::map<int, double>> changes(spec_.pressures.size()); // by base point
@@ -351,9 +371,14 @@ std::vector<Guess> FilmBank::at_pressures(FilmNumber number, const Film &film,
   const double share = full_cell_share(film);
   std::vector<Guess> out;
   for (std::size_t p = 0; p < spec_.pressures.size(); ++p) {
-    const inference::Mean base = base_[n][p].at(x, Vector());
-    Guess g = {base.mean, base.variance};
+    Guess g = {nanoporosity(film, material), 0.0}; // where nothing changes it
+    if (number != FilmNumber::CbdNanoporosity) {
+      const inference::Mean base = base_[n][p].at(x, Vector());
+      g = {base.mean, base.variance};
+    }
     for (const Acting &a : material.effects) {
+      if (with_[std::size_t(a.effect)][n].empty())
+        continue;
       const inference::Parameter &q = effects_[std::size_t(a.effect)];
       Vector with(x.size() + 1), strength(1);
       with << x, q.input(a.amplitude);
@@ -363,7 +388,7 @@ std::vector<Guess> FilmBank::at_pressures(FilmNumber number, const Film &film,
       g.mean += of * more.mean;
       g.variance += of * of * more.variance;
     }
-    if (share != 0.0)
+    if (share != 0.0 && !full_cell_[n].change.empty())
       g.mean += share * full_cell_[n].change[p];
     if (number == FilmNumber::PorosityAfter)
       g = {1.0 - as.solids * (1.0 - g.mean), as.solids * as.solids * g.variance};
@@ -392,8 +417,9 @@ Guess FilmBank::at(const std::vector<Guess> &curve, double pressure) const {
 
 std::vector<inference::Quality> FilmBank::quality(FilmNumber number) const {
   std::vector<inference::Quality> out;
-  for (const inference::GaussianProcess &g : base_[std::size_t(number)])
-    out.push_back(g.left_out());
+  if (const Emulators *of = emulators_of(number))
+    for (const inference::GaussianProcess &g : *of)
+      out.push_back(g.left_out());
   return out;
 }
 

@@ -21,9 +21,10 @@ enum class FilmNumber {
   LogModulus,
   Broken, ///< share of the bonds, after release
   /// 1 / tortuosity factor of the macro pores through the plane, after release; 0: no path.
-  InverseTortuosity
+  InverseTortuosity,
+  CbdNanoporosity ///< of the carbon-binder domain, after release
 };
-constexpr int kFilmNumbers = 6;
+constexpr int kFilmNumbers = 7;
 
 /// Of the porosity before calendering, where a bank's films differ in it.
 inline constexpr const char *kPorosityKey = "recipe.coating.porosity_total_percent";
@@ -81,8 +82,8 @@ public:
   Film described(const Recipe &recipe) const;
   /// Its thickness without pores [um].
   double solid_column(const Film &film) const;
-  /// Its table has the number; broken bonds and tortuosity may be missing.
-  bool knows(FilmNumber number) const { return !base_[std::size_t(number)].empty(); }
+  /// Its table has the number; broken bonds, tortuosity and nanoporosity may be missing.
+  bool knows(FilmNumber number) const { return emulators_of(number) != nullptr; }
   /// In what a film lies beyond the bank, in words.
   std::vector<std::string> beyond(const Film &film) const;
   bool covers(double pressure) const;
@@ -133,6 +134,8 @@ private:
   void learn(const BankTable &table);
   void learn_full_cell(const BankTable &table);
   void forget(FilmNumber number);
+  /// Those of the base model; of the nanoporosity, which only collapse changes, those of collapse.
+  const Emulators *emulators_of(FilmNumber number) const;
   double full_cell_share(const Film &film) const;
 };
 

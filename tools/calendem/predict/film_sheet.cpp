@@ -14,24 +14,23 @@ namespace {
 
 constexpr std::size_t kMostFilms = 6; // in a chart
 
-const FilmQuantity kAfter = {"porosity_after_percent", "Total porosity after release (%)",
-                             "Porosity after, %", kPercent, 1},
-                   kUnderLoad = {"porosity_under_load_percent", "Total porosity under load (%)",
-                                 "Under load, %", kPercent, 1},
-                   kSpringback = {"springback_percent", "Springback of the thickness (%)",
-                                  "Springback, %", kPercent, 1},
-                   kCracked = {"cracked_percent", "Cracked particles (%)", "Cracked, %", kPercent,
-                               0},
-                   kModulus = {"unloading_modulus_GPa", "Unloading modulus (GPa)", "Modulus, GPa",
-                               1.0, 2},
-                   kBroken = {"broken_bonds_percent", "Broken bonds (%)", "Broken bonds, %",
-                              kPercent, 1},
-                   kTortuosity = {"tortuosity_through_plane",
-                                  "Tortuosity factor of the pores, through the plane",
-                                  "Tortuosity factor", 1.0, 2},
-                   kPressure = {"pressure_MPa", "Pressure (MPa)", "Pressure, MPa", 1.0, 0},
-                   kThickness = {"thickness_after_um", "Thickness after release (µm)",
-                                 "Thickness after, µm", 1.0, 1};
+const FilmQuantity
+    kAfter = {"porosity_after_percent", "Total porosity after release (%)", "Porosity after, %",
+              kPercent, 1},
+    kUnderLoad = {"porosity_under_load_percent", "Total porosity under load (%)", "Under load, %",
+                  kPercent, 1},
+    kSpringback = {"springback_percent", "Springback of the thickness (%)", "Springback, %",
+                   kPercent, 1},
+    kCracked = {"cracked_percent", "Cracked particles (%)", "Cracked, %", kPercent, 0},
+    kModulus = {"unloading_modulus_GPa", "Unloading modulus (GPa)", "Modulus, GPa", 1.0, 2},
+    kBroken = {"broken_bonds_percent", "Broken bonds (%)", "Broken bonds, %", kPercent, 1},
+    kTortuosity = {"tortuosity_through_plane", "Tortuosity factor of the pores, through the plane",
+                   "Tortuosity factor", 1.0, 2},
+    kCbdPores = {"cbd_nanoporosity_percent", "Nanoporosity of carbon and binder after release (%)",
+                 "Nanoporosity, %", kPercent, 0},
+    kPressure = {"pressure_MPa", "Pressure (MPa)", "Pressure, MPa", 1.0, 0},
+    kThickness = {"thickness_after_um", "Thickness after release (µm)", "Thickness after, µm", 1.0,
+                  1};
 
 /// Leaves out the quantities that one of the films lacks.
 FilmSheet only_known(FilmSheet sheet) {
@@ -51,16 +50,17 @@ FilmSheet only_known(FilmSheet sheet) {
 } // namespace
 
 FilmSheet sheet_of(const std::vector<PredictedFilm> &films) {
-  FilmSheet out = {"pressure_MPa",
-                   "Pressure (MPa)",
-                   {kAfter, kUnderLoad, kSpringback, kCracked, kModulus, kBroken, kTortuosity},
-                   {},
-                   {}};
+  FilmSheet out = {
+      "pressure_MPa",
+      "Pressure (MPa)",
+      {kAfter, kUnderLoad, kSpringback, kCracked, kModulus, kBroken, kTortuosity, kCbdPores},
+      {},
+      {}};
   for (const PredictedFilm &f : films)
-    out.films.push_back(
-        {f.film,
-         f.pressures,
-         {f.after, f.under_load, f.springback, f.cracked, f.modulus, f.broken, f.tortuosity}});
+    out.films.push_back({f.film,
+                         f.pressures,
+                         {f.after, f.under_load, f.springback, f.cracked, f.modulus, f.broken,
+                          f.tortuosity, f.cbd_nanoporosity}});
   return only_known(out);
 }
 

@@ -125,16 +125,18 @@ constexpr double kFewDraws = 20.0;
 json learnt_part(const Json &model) {
   json rows = json::array();
   for (const Json &l : model.at("learnt")) {
-    const bool cracked = l["number"] == "cracked";
+    const bool porosity = l["number"] == "porosity_after";
     const auto value = [&](const Json &of) {
-      return fmt::format(cracked ? "{:.0f}" : "{:.1f}", kPercent * of.get<double>());
+      return fmt::format(porosity ? "{:.1f}" : "{:.0f}", kPercent * of.get<double>());
     };
     const Json &without = l["without"];
     const bool few = l["effective_draws"].get<double>() < kFewDraws;
     const double shift = l["shift_sd"];
     rows.push_back({{"film", l["film"]},
                     {"condition", l["condition"]},
-                    {"number", cracked ? "cracked particles" : "porosity after release"},
+                    {"number", porosity                   ? "porosity after release"
+                               : l["number"] == "cracked" ? "cracked particles"
+                                                          : "nanoporosity after release"},
                     {"measured", value(l["measured"])},
                     {"without", fmt::format("{} ({}–{})", value(without["median"]),
                                             value(without["low90"]), value(without["high90"]))},

@@ -12,7 +12,8 @@ using Json = nlohmann::ordered_json;
 
 const char *name_of(FilmNumber number) {
   constexpr const char *kNames[kFilmNumbers] = {
-      "porosity_after", "springback", "cracked", "log_modulus", "broken", "inverse_tortuosity"};
+      "porosity_after", "springback",         "cracked",         "log_modulus",
+      "broken",         "inverse_tortuosity", "cbd_nanoporosity"};
   return kNames[int(number)];
 }
 

@@ -116,6 +116,8 @@ PredictedFilm predicted_from(const Film &film, const std::vector<double> &pressu
   if (const Guesses inverse = of(FilmNumber::InverseTortuosity); !inverse.empty())
     for (const Band &b : bands_of(inverse, 1.0 / kMostTortuosity, 1.0))
       out.tortuosity.push_back(tortuosity_of(b));
+  if (const Guesses pores = of(FilmNumber::CbdNanoporosity); !pores.empty())
+    out.cbd_nanoporosity = bands_of(pores, 0.0, 1.0);
   return out;
 }
 

@@ -35,8 +35,9 @@ struct PredictedFilm {
   /// Broken bonds; tortuosity factor of the macro pores through the plane, kMostTortuosity where
   /// hardly a path is left. Empty: the bank does not have them.
   std::vector<Band> broken, tortuosity;
-  std::vector<std::string> beyond; ///< in what it lies outside the bank
-  int runs = 0;                    ///< of its own at each pressure; 0: by the bank's emulators
+  std::vector<Band> cbd_nanoporosity; ///< after release; empty: the bank does not have it
+  std::vector<std::string> beyond;    ///< in what it lies outside the bank
+  int runs = 0;                       ///< of its own at each pressure; 0: by the bank's emulators
 };
 
 /// Of 1 / tortuosity.

@@ -85,6 +85,8 @@ void stop_if_checks_failed(const nlohmann::json &summary, const std::string &fol
 std::vector<std::pair<long, double>> write_series(const std::string &folder, double dt);
 /// Height [um] below which 99.9 % of the particle tops of a frame lie.
 double height_of_tops(const std::string &folder, long step);
+/// Volume of the spheres of CBD in a frame, overlaps counted twice [um3].
+double cbd_spheres(const std::string &folder, long step);
 UnionVolume union_volumes(const std::string &folder, const ElectrodeFacts &electrode,
                           const std::vector<std::pair<long, double>> &frames,
                           const std::vector<RawRow> &rows);

@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kVoxel = 0.2; // um
+constexpr int kCbdType = 2;
 
 /// A frame that LIGGGHTS was stopped in lacks its end.
 bool is_whole(const std::filesystem::path &file) {
@@ -130,6 +131,20 @@ double height_of_tops(const std::string &folder, long step) {
   const auto at = tops.begin() + std::lround(0.999 * double(tops.size() - 1));
   std::nth_element(tops.begin(), at, tops.end());
   return *at;
+}
+
+double cbd_spheres(const std::string &folder, long step) {
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName(fmt::format("{}/vtk/particles_{}.vtp", folder, step).c_str());
+  reader->Update();
+  vtkPolyData *data = reader->GetOutput();
+  vtkDataArray *type = data->GetPointData()->GetArray("type");
+  vtkDataArray *radius = data->GetPointData()->GetArray("radius");
+  double cubes = 0.0;
+  for (vtkIdType i = 0; type && radius && i < data->GetNumberOfPoints(); ++i)
+    if (type->GetTuple1(i) == kCbdType)
+      cubes += std::pow(radius->GetTuple1(i), 3);
+  return 4.0 / 3.0 * M_PI * cubes;
 }
 
 double UnionVolume::at(double t) const {

@@ -59,7 +59,8 @@ constexpr Number kNumbers[] = {{"target_MPa", &SimulatedRun::target},
 
 /// Columns that an earlier table lacks, and cells that may be empty.
 constexpr Number kMoreNumbers[] = {{"broken_fraction", &SimulatedRun::broken_fraction},
-                                   {"inverse_tortuosity", &SimulatedRun::inverse_tortuosity}};
+                                   {"inverse_tortuosity", &SimulatedRun::inverse_tortuosity},
+                                   {"cbd_nanoporosity_after", &SimulatedRun::cbd_nanoporosity}};
 
 std::string cell(double v) { return std::isfinite(v) ? fmt::format("{:.8g}", v) : ""; }
 /// Nanometres to which displacements are kept: a measured curve is good to about 20, and the slope

@@ -30,6 +30,7 @@ struct SimulatedRun {
   /// 1 / tortuosity factor of the macro pores through the plane, after release; 0: no path leads
   /// through; NaN: not measured.
   double inverse_tortuosity = NAN;
+  double cbd_nanoporosity = NAN;              ///< of the carbon-binder domain after release
   std::vector<double> pressure, displacement; ///< of the compression, highest pressure so far
   /// Of the release, by rising pressure: the lowest so far.
   std::vector<double> release_pressure, release_displacement;

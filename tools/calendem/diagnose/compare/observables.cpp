@@ -147,6 +147,10 @@ void under_load(const Experiment &e, const Condition &c, std::vector<Observable>
     out.push_back({"cracked bodies", "compression", "fraction", c.cracked_bodies_fraction->value,
                    c.cracked_bodies_fraction->sd,
                    [](const SimulatedRun &r) { return r.cracked_fraction; }, none});
+  if (c.cbd_nanoporosity_after_percent)
+    not_said.push_back(fmt::format("{}: cbd_nanoporosity_after_percent is not compared; calibrate "
+                                   "learns from it.",
+                                   c.id));
 }
 
 struct MeasuredBranch {

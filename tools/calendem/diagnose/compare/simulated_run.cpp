@@ -45,8 +45,11 @@ void read_summary(RunFolder &folder, SimulatedRun &run, Mistakes &mistakes) {
     run.imposed = s["imposed"].value("what", "something that this version does not know");
   const double bodies = number("bodies");
   run.cracked_fraction = bodies > 0.0 ? number("cracked_bodies") / bodies : 0.0;
-  if (s.contains("broken_fraction_after") && s["broken_fraction_after"].is_number())
-    run.broken_fraction = s["broken_fraction_after"]; // the mean of a sample's cells has none
+  const auto if_there = [&](const char *key) { // the mean of a sample's cells has none
+    return s.contains(key) && s[key].is_number() ? s[key].get<double>() : NAN;
+  };
+  run.broken_fraction = if_there("broken_fraction_after");
+  run.cbd_nanoporosity = if_there("cbd_nanoporosity_after");
   run.solid_column = number("thickness_at_max_um") * (1.0 - run.porosity_at_max);
 }
 
