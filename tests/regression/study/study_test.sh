@@ -63,6 +63,17 @@ sed 's/^values = \[1, 2\]/values = [5]/' "$work/study.toml" >"$work/unpacked.tom
 "$bin/calendem" study "$work/unpacked.toml" -o "$work/unpacked" --liggghts "$work/fails" >"$work/unpacked.log" 2>&1 && fail "a study without a packing is no success"
 [ "$(wc -l <"$work/starts")" = 1 ] || fail "a packing that failed was tried $(wc -l <"$work/starts") times"
 
+# Particles from a data file: the study writes their recipe anew, with what it varies and without what the file gives.
+particle=$here/../../../input_scripts/cases/particle
+sed "s|^recipe = .*|recipe = \"$particle/electrode.toml\"|; s|^case = .*|case = \"$particle/case.toml\"|
+  s/^values = \[\[5, .*/values = [[5, 0.6], [6, 0.6]]/; s/^values = \[1, .*/values = [1]/" "$particle/sizes.toml" >"$work/particle.toml"
+"$bin/calendem" study "$work/particle.toml" -o "$work/particle" --jobs 2 >"$work/particle.log" 2>&1 || { cat "$work/particle.log"; fail "a study of particles from a file"; }
+awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
+  { d = $at["recipe.structure.lj_length_um"]; h = $at["thickness_at_max_um"] / d; p = $at["porosity_initial"]
+    # the film is packed to 89 % in a cell of 2 d: pi / 24 / 0.11 = 1.19 d thick
+    if ($at["status"] != "done" || (p - 0.89) ^ 2 > 1e-6 || h > 1.2 || h < 1) exit 1 } END { exit NR != 3 }' "$work/particle/study.csv" ||
+  { cat "$work/particle/study.csv"; fail "the particles of the file have other sizes"; }
+
 # A bank's runs that fail do not keep those on the full cell from being made.
 cat >"$work/bank.toml" <<'T'
 [bank]

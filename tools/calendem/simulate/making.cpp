@@ -26,13 +26,16 @@ namespace {
 const char *const kChecksFailed = "checks failed";
 
 /// The recipe as a file that reads back the same: tables of sources that it does not use may not be
-/// there.
+/// there, nor, beside a structure, what the structure gives unless the recipe says otherwise.
 std::string recipe_file(const Recipe &r) {
   std::vector<Key> keys;
-  for (const Key &key : recipe_keys())
-    if ((r.shapes.given() || key.name.rfind("shapes.", 0) != 0) &&
-        (r.structure.given() || key.name.rfind("structure.", 0) != 0))
+  for (const Key &key : recipe_keys()) {
+    const bool of_shapes = key.name.rfind("shapes.", 0) == 0,
+               of_structure = key.name.rfind("structure.", 0) == 0,
+               said = r.settings.line(key.name) > 0 || r.settings.text(key.name) != key.fallback;
+    if (r.structure.given() ? of_structure || said : !of_structure && (r.shapes.given() || !of_shapes))
       keys.push_back(key);
+  }
   return write_toml(r.settings, keys, "# a packing of a study; every default filled in\n");
 }
 

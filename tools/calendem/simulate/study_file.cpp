@@ -183,9 +183,9 @@ private:
 
 /// Paths in the recipe are relative to its file; the study writes it elsewhere.
 void make_paths_absolute(Settings &s, const std::string &file) {
-  for (const Key &key : recipe_keys())
-    if (key.text && key.name != "name" && s.text(key.name) != "none")
-      s.set(key.name, path_of(s, key.name, file));
+  for (const char *key : {"shapes.image", "shapes.library", "structure.file", "structure.body_map"})
+    if (s.text(key) != "none")
+      s.set(key, path_of(s, key, file));
 }
 
 /// The settings of the given combination, and what they contradict.
