@@ -33,7 +33,8 @@ std::string recipe_file(const Recipe &r) {
     const bool of_shapes = key.name.rfind("shapes.", 0) == 0,
                of_structure = key.name.rfind("structure.", 0) == 0,
                said = r.settings.line(key.name) > 0 || r.settings.text(key.name) != key.fallback;
-    if (r.structure.given() ? of_structure || said : !of_structure && (r.shapes.given() || !of_shapes))
+    if (r.structure.given() ? of_structure || said
+                            : !of_structure && (r.shapes.given() || !of_shapes))
       keys.push_back(key);
   }
   return write_toml(r.settings, keys, "# a packing of a study; every default filled in\n");

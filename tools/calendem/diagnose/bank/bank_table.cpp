@@ -57,7 +57,7 @@ constexpr Number kNumbers[] = {{"target_MPa", &SimulatedRun::target},
                                {"cracked_fraction", &SimulatedRun::cracked_fraction},
                                {"porosity_slope_per_MPa", &SimulatedRun::porosity_slope}};
 
-/// Columns that an earlier table lacks, and cells that may be empty.
+/// Cells of these may be empty; a table whose runs all lack one does not have its column.
 constexpr Number kMoreNumbers[] = {{"broken_fraction", &SimulatedRun::broken_fraction},
                                    {"inverse_tortuosity", &SimulatedRun::inverse_tortuosity},
                                    {"cbd_nanoporosity_after", &SimulatedRun::cbd_nanoporosity}};
@@ -146,13 +146,18 @@ void check_row(const Columns &t, std::size_t k, const std::string &effect,
 } // namespace
 
 std::string write_bank_table(const BankTable &table) {
+  std::vector<Number> more;
+  for (const Number &n : kMoreNumbers)
+    if (std::any_of(table.rows.begin(), table.rows.end(),
+                    [&](const BankRow &row) { return std::isfinite(row.run.*(n.field)); }))
+      more.push_back(n);
   std::string out = "effect,base_point,packing";
   for (const BankParameter &p : table.spec.parameters)
     out += "," + p.name;
   out += ",value";
   for (const Number &n : kNumbers)
     out += std::string(",") + n.column;
-  for (const Number &n : kMoreNumbers)
+  for (const Number &n : more)
     out += std::string(",") + n.column;
   for (const double p : grid())
     out += "," + grid_column(p);
@@ -167,7 +172,7 @@ std::string write_bank_table(const BankTable &table) {
     out += "," + (base ? "" : cell(row.point.value));
     for (const Number &n : kNumbers)
       out += "," + cell(row.run.*(n.field));
-    for (const Number &n : kMoreNumbers)
+    for (const Number &n : more)
       out += "," + cell(row.run.*(n.field));
     for (const double p : grid())
       out += "," + rounded(displacement_at(row.run.pressure, row.run.displacement, p), kCurve);

@@ -62,7 +62,7 @@ struct BankTable {
 /// Columns: effect, base_point, packing, the base parameters, value (of the effect's key), then the
 /// run's numbers, its displacement at pressures of a fixed grid (um, MPa; empty: not reached) and
 /// on release at shares of the largest pressure (um). A table may lack the release, displacements
-/// above 180 MPa, broken bonds and tortuosity. Instrument effects have no rows: they follow from
+/// above 180 MPa, broken bonds, tortuosity and nanoporosity. Instrument effects have no rows: they follow from
 /// those of the base model.
 std::string write_bank_table(const BankTable &table);
 
