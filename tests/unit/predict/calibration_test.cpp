@@ -105,22 +105,6 @@ TEST(Calibrate, FindsTwoEffectsThatActTogether) {
   EXPECT_NEAR(collapse / n, std::log(20.0), 0.7);
 }
 
-// Porosities that need no effect, and a domain of carbon and binder with half of its nanopores or with fewer.
-TEST(Calibrate, LearnsFromNanopores) {
-  const FilmBank bank(made_coatings({"nmc_plasticity", "cbd_collapse"}));
-  const auto collapses = [&](double nanoporosity) {
-    Random random(7, 1);
-    Calibration c;
-    c.error = {0.0, 0.003, 0.04, 0.1};
-    measure({}, made_film("a", 46.0, 2.0), kPressures, 0.02, random, c);
-    c.data.push_back({0, "p", FilmNumber::CbdNanoporosity, 150.0, 0.0, nanoporosity, 0.05});
-    calibrate(bank, few(), c);
-    return probability(c, "cbd_collapse") + probability(c, "nmc_plasticity + cbd_collapse");
-  };
-  EXPECT_GT(collapses(0.3), 0.95);
-  EXPECT_LT(collapses(0.5), 0.3);
-}
-
 // Three without a pair, and a pair that has a tenth.
 TEST(Calibrate, APairIsLessProbableBeforeTheData) {
   Calibration c;

@@ -18,6 +18,28 @@ Calibration measured(const std::vector<double> &pressures) {
   return c;
 }
 
+// Porosities that need no effect, and a domain of carbon and binder with half of its nanopores or with fewer.
+TEST(Calibrate, LearnsFromNanopores) {
+  const FilmBank bank(made_coatings({"nmc_plasticity", "cbd_collapse"}));
+  const auto collapses = [&](double nanoporosity) {
+    Random random(7, 1);
+    Calibration c;
+    c.error = {0.0, 0.003, 0.04, 0.1};
+    measure({}, made_film("a", 46.0, 2.0), {50.0, 150.0}, 0.02, random, c);
+    c.data.push_back({0, "p", FilmNumber::CbdNanoporosity, 150.0, 0.0, nanoporosity, 0.05});
+    CalibrationSettings s;
+    s.samples = 1024;
+    s.draws = 200;
+    calibrate(bank, s, c);
+    double sum = 0.0;
+    for (const Weighed &w : c.hypotheses)
+      sum += w.name.find("cbd_collapse") != std::string::npos ? w.probability[0] : 0.0;
+    return sum;
+  };
+  EXPECT_GT(collapses(0.3), 0.95);
+  EXPECT_LT(collapses(0.5), 0.3);
+}
+
 // What the others predict is what a calibration without the datum predicts.
 TEST(Lessons, AreThoseOfACalibrationWithoutTheDatum) {
   const Calibration all = measured({30.0, 60.0, 120.0, 240.0});

@@ -26,6 +26,11 @@ enum class FilmNumber {
 };
 constexpr int kFilmNumbers = 7;
 
+/// Those that the base model has emulators of; the next one, nanoporosity, only collapse has.
+constexpr int kByBase = int(FilmNumber::CbdNanoporosity);
+/// Tables of earlier versions lack it.
+bool may_be_missing(FilmNumber number);
+
 /// Of the porosity before calendering, where a bank's films differ in it.
 inline constexpr const char *kPorosityKey = "recipe.coating.porosity_total_percent";
 

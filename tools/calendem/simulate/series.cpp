@@ -11,6 +11,7 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
 #include <vtkXMLPolyDataReader.h>
 
 namespace calendem {
@@ -40,6 +41,13 @@ std::vector<long> steps_of(const std::string &folder, const std::string &family)
   }
   std::sort(steps.begin(), steps.end());
   return steps;
+}
+
+vtkSmartPointer<vtkPolyData> particles_of(const std::string &folder, long step) {
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName(fmt::format("{}/vtk/particles_{}.vtp", folder, step).c_str());
+  reader->Update();
+  return reader->GetOutput();
 }
 
 /// Cell of voxels, periodic in x and y.
@@ -98,10 +106,7 @@ UnionVolume union_volumes(const std::string &folder, const ElectrodeFacts &e,
                           const std::vector<RawRow> &rows) {
   UnionVolume out;
   for (const auto &[step, time] : frames) {
-    vtkNew<vtkXMLPolyDataReader> reader;
-    reader->SetFileName(fmt::format("{}/vtk/particles_{}.vtp", folder, step).c_str());
-    reader->Update();
-    vtkPolyData *data = reader->GetOutput();
+    const vtkSmartPointer<vtkPolyData> data = particles_of(folder, step);
     vtkDataArray *type = data->GetPointData()->GetArray("type");
     vtkDataArray *radius = data->GetPointData()->GetArray("radius");
     if (!type || !radius || data->GetNumberOfPoints() == 0)
@@ -118,10 +123,7 @@ UnionVolume union_volumes(const std::string &folder, const ElectrodeFacts &e,
 }
 
 double height_of_tops(const std::string &folder, long step) {
-  vtkNew<vtkXMLPolyDataReader> reader;
-  reader->SetFileName(fmt::format("{}/vtk/particles_{}.vtp", folder, step).c_str());
-  reader->Update();
-  vtkPolyData *data = reader->GetOutput();
+  const vtkSmartPointer<vtkPolyData> data = particles_of(folder, step);
   vtkDataArray *radius = data->GetPointData()->GetArray("radius");
   std::vector<double> tops;
   for (vtkIdType i = 0; radius && i < data->GetNumberOfPoints(); ++i)
@@ -134,10 +136,7 @@ double height_of_tops(const std::string &folder, long step) {
 }
 
 double cbd_spheres(const std::string &folder, long step) {
-  vtkNew<vtkXMLPolyDataReader> reader;
-  reader->SetFileName(fmt::format("{}/vtk/particles_{}.vtp", folder, step).c_str());
-  reader->Update();
-  vtkPolyData *data = reader->GetOutput();
+  const vtkSmartPointer<vtkPolyData> data = particles_of(folder, step);
   vtkDataArray *type = data->GetPointData()->GetArray("type");
   vtkDataArray *radius = data->GetPointData()->GetArray("radius");
   double cubes = 0.0;
