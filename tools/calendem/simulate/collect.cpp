@@ -279,14 +279,6 @@ nlohmann::json provenance(const std::string &folder, const Rows &rows, const Set
   return s;
 }
 
-/// Of all CBD in the last frame: its spheres keep their solid.
-nlohmann::json cbd_nanoporosity(const std::string &folder, const ElectrodeFacts &e,
-                                const std::vector<std::pair<long, double>> &frames) {
-  const double before = cbd_spheres(folder, frames.front().first),
-               after = cbd_spheres(folder, frames.back().first);
-  return after > 0.0 ? nlohmann::json(1.0 - (1.0 - e.nanoporosity) * before / after) : nullptr;
-}
-
 void warn(const nlohmann::json &s) {
   for (const std::string &warning :
        {ledger_warning(s["energy_fJ"]), speed_warning(s["quasi_static"]),
@@ -319,8 +311,10 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   s.update(provenance(folder, rows, settings, e, facts));
   if (!frames.empty())
     s["height_of_tops_after_um"] = height_of_tops(folder, frames.back().first);
-  if (e.nanoporosity > 0.0 && !frames.empty())
-    s["cbd_nanoporosity_after"] = cbd_nanoporosity(folder, e, frames);
+  if (const auto &cbd = filled.cbd_spheres;
+      e.nanoporosity > 0.0 && !cbd.empty() && cbd.back() > 0.0)
+    s["cbd_nanoporosity_after"] = // its spheres keep their solid
+        1.0 - (1.0 - e.nanoporosity) * cbd.front() / cbd.back();
   s["broken_fraction_at_max"] = top.made > 0 ? top.broken / top.made : 0.0;
   s["broken_fraction_after"] = top.made > 0 ? rows.back().broken / top.made : 0.0;
   s["bonds_initial"] = static_cast<long>(rows.back().made);

@@ -56,6 +56,7 @@ std::optional<double> gap_at_loss(const std::vector<RawRow> &rows, double fracti
 /// Union volume [um3] of body envelopes and CBD spheres against time, from the frames.
 struct UnionVolume {
   std::vector<double> time, volume;
+  std::vector<double> cbd_spheres; ///< volume of all CBD spheres, overlaps counted twice [um3]
   double at(double t) const;
 };
 
@@ -85,8 +86,6 @@ void stop_if_checks_failed(const nlohmann::json &summary, const std::string &fol
 std::vector<std::pair<long, double>> write_series(const std::string &folder, double dt);
 /// Height [um] below which 99.9 % of the particle tops of a frame lie.
 double height_of_tops(const std::string &folder, long step);
-/// Volume of the spheres of CBD in a frame, overlaps counted twice [um3].
-double cbd_spheres(const std::string &folder, long step);
 UnionVolume union_volumes(const std::string &folder, const ElectrodeFacts &electrode,
                           const std::vector<std::pair<long, double>> &frames,
                           const std::vector<RawRow> &rows);

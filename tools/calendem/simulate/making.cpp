@@ -26,13 +26,16 @@ namespace {
 const char *const kChecksFailed = "checks failed";
 
 /// The recipe as a file that reads back the same: tables of sources that it does not use may not be
-/// there, nor, beside a structure, what the structure gives unless the recipe says otherwise.
-std::string recipe_file(const Recipe &r) {
+/// there, nor, beside a structure, what neither the recipe nor the study (`columns`) says: the
+/// structure gives it.
+std::string recipe_file(const Recipe &r, const std::vector<std::string> &columns) {
   std::vector<Key> keys;
   for (const Key &key : recipe_keys()) {
     const bool of_shapes = key.name.rfind("shapes.", 0) == 0,
                of_structure = key.name.rfind("structure.", 0) == 0,
-               said = r.settings.line(key.name) > 0 || r.settings.text(key.name) != key.fallback;
+               said =
+                   r.settings.line(key.name) > 0 ||
+                   std::find(columns.begin(), columns.end(), "recipe." + key.name) != columns.end();
     if (r.structure.given() ? of_structure || said
                             : !of_structure && (r.shapes.given() || !of_shapes))
       keys.push_back(key);
@@ -256,7 +259,7 @@ std::string Making::pack(int k) {
     if (const auto before = not_packed_.find(folder); before != not_packed_.end())
       return before->second;
   }
-  write_file(folder + ".toml", recipe_file(study_.runs[k].recipe));
+  write_file(folder + ".toml", recipe_file(study_.runs[k].recipe, study_.columns));
   const std::string failed =
       ended_with(run_program(command("pack", folder + ".toml", folder), folder + ".log"));
   const std::lock_guard<std::mutex> guard(guard_);

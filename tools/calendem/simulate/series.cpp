@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kVoxel = 0.2; // um
-constexpr int kCbdType = 2;
+constexpr int kAmType = 1, kCbdType = 2;
 
 /// A frame that LIGGGHTS was stopped in lacks its end.
 bool is_whole(const std::filesystem::path &file) {
@@ -112,12 +112,16 @@ UnionVolume union_volumes(const std::string &folder, const ElectrodeFacts &e,
     if (!type || !radius || data->GetNumberOfPoints() == 0)
       continue;
     Voxels voxels(e.elongated(elongation_at(rows, time)).lx, e.ly, e.thickness + 2.0);
-    for (int phase : {1, 2})
+    double cubes = 0.0;
+    for (int phase : {kAmType, kCbdType})
       for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
-        if (type->GetTuple1(i) == phase)
+        if (type->GetTuple1(i) == phase) {
           voxels.mark(data->GetPoint(i), radius->GetTuple1(i), static_cast<char>(phase), false);
+          cubes += phase == kCbdType ? std::pow(radius->GetTuple1(i), 3) : 0.0;
+        }
     out.time.push_back(time);
-    out.volume.push_back(e.am + voxels.volume(2));
+    out.volume.push_back(e.am + voxels.volume(kCbdType));
+    out.cbd_spheres.push_back(4.0 / 3.0 * M_PI * cubes);
   }
   return out;
 }
@@ -133,17 +137,6 @@ double height_of_tops(const std::string &folder, long step) {
   const auto at = tops.begin() + std::lround(0.999 * double(tops.size() - 1));
   std::nth_element(tops.begin(), at, tops.end());
   return *at;
-}
-
-double cbd_spheres(const std::string &folder, long step) {
-  const vtkSmartPointer<vtkPolyData> data = particles_of(folder, step);
-  vtkDataArray *type = data->GetPointData()->GetArray("type");
-  vtkDataArray *radius = data->GetPointData()->GetArray("radius");
-  double cubes = 0.0;
-  for (vtkIdType i = 0; type && radius && i < data->GetNumberOfPoints(); ++i)
-    if (type->GetTuple1(i) == kCbdType)
-      cubes += std::pow(radius->GetTuple1(i), 3);
-  return 4.0 / 3.0 * M_PI * cubes;
 }
 
 double UnionVolume::at(double t) const {
