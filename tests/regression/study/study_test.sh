@@ -74,9 +74,9 @@ awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
     if ($at["status"] != "done" || (p - 0.89) ^ 2 > 1e-6 || h > 1.2 || h < 1) exit 1 } END { exit NR != 3 }' "$work/particle/study.csv" ||
   { cat "$work/particle/study.csv"; fail "the particles of the file have other sizes"; }
 # A value that is the default of its key is what the study says, not what the file gives.
-sed 's/^keys = \["recipe.seed"\]/keys = ["recipe.coating.porosity_total_percent"]/; s/^values = \[1\]/values = [47.97, 60]/' "$work/particle.toml" >"$work/default.toml"
+sed 's/^keys = \["recipe.seed"\]/keys = ["recipe.coating.loading_mg_cm2"]/; s/^values = \[1\]/values = [17.46, 20]/' "$work/particle.toml" >"$work/default.toml"
 "$bin/calendem" study "$work/default.toml" -o "$work/default" --liggghts "$(type -P false)" >"$work/default.log" 2>&1 && fail "a study without packings is no success"
-[ "$(grep -lE '^porosity_total_percent = (47.97|60) ' "$work"/default/packings/*.toml | wc -l)" = 4 ] || fail "a porosity of the study is not in the packing's recipe"
+[ "$(grep -lE '^loading_mg_cm2 = (17.46|20) ' "$work"/default/packings/*.toml | wc -l)" = 4 ] || fail "a loading of the study is not in the packing's recipe"
 
 # A bank's runs that fail do not keep those on the full cell from being made.
 cat >"$work/bank.toml" <<'T'
