@@ -51,6 +51,16 @@ Changes of_bonds_and_contacts() {
              1.3),
       set("close_fragments", "separated primaries touch at the spacing of their lattice",
           {{"case.bond.contact_diameter", "lattice"}}),
+      set("unbreakable", "bodies that do not break", {{"case.bond.breakable", "no"}}),
+      set("lively_contacts", "contacts that lose little energy",
+          {{"case.material.am.restitution", "0.9"}, {"case.material.cbd.restitution", "0.9"}}),
+      scaled("sticky_binder", "carbon-binder domain of 1.4 times the cohesion energy density",
+             {"case.material.cbd.ced_J_m3"}, 1.4),
+      set("drying_stress", "bridges of binder that shrank as they dried",
+          {{"case.effects.binder_bridges.strength_MPa", "30"},
+           {"case.effects.drying_stress.shrinkage", "0.02"}}),
+      set("smooth_collector", "a collector on which particles slide",
+          {{"case.material.collector.friction", "0.05"}}),
   };
 }
 
@@ -90,6 +100,15 @@ Changes of_the_coating() {
              0.8),
       scaled("light_powder", "active material of closed pores, lighter than the recipe says",
              {"recipe.density.am_g_cm3"}, 0.93),
+      scaled("heavy_powder", "active material heavier than the recipe says",
+             {"recipe.density.am_g_cm3"}, 1.05),
+      scaled("fine_particles", "secondary particles smaller than the recipe says",
+             {"recipe.particles.median_um"}, 0.75),
+      set("round_bodies", "bodies of a smoother outline", {{"recipe.particles.irregularity", "0"}}),
+      set("binder_at_collector", "carbon-binder domain at the collector",
+          {{"recipe.effects.cbd_gradient.slope", "-0.8"}}),
+      scaled("light_binder", "carbon and binder lighter than the recipe says",
+             {"recipe.density.cbd_solid_g_cm3"}, 0.75),
   };
 }
 
@@ -112,6 +131,10 @@ Changes of_the_press() {
             &HiddenChange::pressure_offset_MPa, -4.0),
       shown("release_slip", "the displacement slips when the release begins",
             &HiddenChange::release_shift_um, -0.3),
+      shown("drift_back", "the displacement drifts back while it is recorded",
+            &HiddenChange::drift_um, -0.4),
+      shown("frame_springs_far", "the frame springs back by half a micrometre too late",
+            &HiddenChange::release_shift_um, 0.5),
   };
 }
 
