@@ -44,6 +44,9 @@ grep -q "MPa meets the target with .* % (assured: .* %)" design.log || fail "no 
 calendem calibrate "${films[@]}" "$cases/real/blb_nmc111_90/experiment.toml" -o three --bank "$cases/coatings/bank.toml" >three.log
 grep -q "1.09 times the bank's: counted as an error of 0.6 points" three.log || fail "its particles are not remarked on"
 [ "$(grep -c 'MPa  measured .* predicted' three.log)" = 9 ] || fail "three films do not give nine predictions"
+# Its particles were crushed: what the model says of those of 5 and 12 um holds what was measured.
+[ "$(sed -n '/"crushing"/,/"emulators"/p' three/model.json | grep -c '"measured"')" = 2 ] || fail "crushed particles are not compared"
+grep -q "Loads that crush single particles" three/model.html || fail "the page lacks the loads of crushed particles"
 [ -e three/case_2.toml ] || fail "the second material has no case"
 calendem predict three/model.json film.toml --pressure 80 --material "ARTISTIC NMC111" -o of_one >/dev/null || fail "predict of a material"
 calendem predict three/model.json film.toml --pressure 80 --material other -o of_other >/dev/null || fail "predict of another"
@@ -120,6 +123,17 @@ grep -q "from 4 simulations at each pressure" own/prediction.html || fail "the p
 awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
   { p = $at["porosity_after_percent_median"]; if (!(p > 20 && p < 50) || (NR > 2 && p >= last)) exit 1; last = p }' \
   first.csv || fail "own/prediction.csv: more pressure leaves less, below 50 %"
+
+# The same runs choose between the pressures: each is proposed for the porosity that it leaves.
+left() { awk -F, -v row="$1" 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next } NR == row + 1 { print $at["porosity_after_percent_median"] }' first.csv; }
+calendem design model/model.json other.toml --porosity "$(left 1)" --pressure 10,30 --runs 4 --jobs 2 -o own | tee own_design.log
+grep -q "8 runs, 8 of them done already" own_design.log || fail "design made the runs again"
+grep -q "^other: 10 MPa meets the target with" own_design.log || fail "not the pressure is proposed that leaves the porosity"
+calendem design model/model.json other.toml --porosity "$(left 2)" --pressure 10,30 --runs 4 -o own | grep "^other: 30 MPa meets the target with" ||
+  fail "the larger pressure is not proposed for the smaller porosity"
+sed '/<script type="application.json" id="data">/,$d' own/design.html | grep "From 4 simulations at each pressure" >/dev/null || fail "the page does not say that runs choose"
+refuses "one by one" design model/model.json other.toml --porosity 38 --runs 4
+refuses "not of the bank's kind" design model/model.json other.toml --porosity 38
 
 # A proposal is run: it meets its target about as surely as was proposed, within the scatter of four runs of so small a cell.
 sed 's/^sigma_ln.*/sigma_ln = 0.487/' other.toml >small.toml

@@ -276,6 +276,11 @@ curve = "curve.csv"
 labels_after = "after.mhd"
 cracked_bodies_fraction = 30
 dwell_s = -1
+[[crushed_particle]]
+diameter_um = -5
+load_mN = { value = 5.2, sd = 1, n = 80 }
+[[crushed_particle]]
+diameter_um = 5
 END
   refused experiment.toml ":3: electrode = \"electrod.toml\": there is no file" \
     ":4: split.test names \"b\", which is no [[condition]]" ":4: \"a\" is in both train and test" \
@@ -286,7 +291,8 @@ END
     "the id \"a\" is taken" "control = \"thickness\" but no thickness_at_max_um" \
     "[experiment] must have sample_diameter_mm, foil_thickness_um, foil_density_g_cm3" \
     "has no column 'displacement_um'" ":17: labels_after = \"after.mhd\": there is no file" \
-    ":18: cracked_bodies_fraction is 30" ":19: dwell_s is -1"
+    ":18: cracked_bodies_fraction is 30" ":19: dwell_s is -1" ":21: diameter_um is -5" "unknown key 'load_mN.n'" \
+    ":23: a crushed particle has no load_mN"
 }
 
 curve_in_other_units() { # of an experiment: mm, Pa, another separator, stages that are wrong

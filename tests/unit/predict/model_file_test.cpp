@@ -18,7 +18,7 @@ std::string bank_on_disk(const std::filesystem::path &folder) {
   fs::create_directories(folder / "coatings");
   fs::copy(cases / "demo", folder / "demo", fs::copy_options::recursive);
   fs::copy(cases / "studies/case.toml", folder / "case.toml");
-  for (const char *file : {"electrode.toml", "case.toml"})
+  for (const char *file : {"electrode.toml", "case.toml", "crushing.csv"})
     fs::copy(cases / "coatings" / file, folder / "coatings" / file);
   std::string text = text_of_file((cases / "coatings/bank.toml").string());
   const auto replace = [&](const std::string &what, const std::string &with) {

@@ -119,6 +119,15 @@ const std::vector<Quantity> &quantities() {
   return list;
 }
 
+const std::vector<Key> &crushed_keys() {
+  static const std::vector<Key> keys = {
+      {"diameter_um", "", "", 0.5, 100, "um", "diameter of the particles"},
+      {"load_mN", "", "", 1e-3, 1e6, "mN",
+       "load at which half of them break; a number, { value, sd } or { value, sd_relative }"},
+  };
+  return keys;
+}
+
 std::string list_of_experiment_keys() {
   std::string text = "Keys of an experiment file: name, unit, range, meaning\n";
   const auto rows = [&](const char *table, const std::vector<Key> &keys) {
@@ -138,6 +147,7 @@ std::string list_of_experiment_keys() {
   rows("[[condition]], a number or { value, sd } or { value, sd_relative }; mass_mg and "
        "thickness_after_um also includes_foil (default: a mass does, a thickness does not)",
        measured);
+  rows("[[crushed_particle]]", crushed_keys());
   return text;
 }
 

@@ -38,6 +38,12 @@ struct Condition {
   double dwell_s = 0.0;
 };
 
+/// Single particles of the powder, crushed one by one between two plates.
+struct CrushedParticles {
+  double diameter_um = 0.0;
+  Measured load_mN; ///< at which those of this diameter break, in the middle
+};
+
 struct Experiment {
   std::string name;
   std::string electrode; ///< absolute path of the recipe
@@ -54,6 +60,7 @@ struct Experiment {
   double specimen_porosity_points = 0.0, specimen_thickness_percent = 0.0;
   std::vector<Condition> conditions;
   std::vector<std::string> train, test; ///< ids
+  std::vector<CrushedParticles> crushed;
 };
 
 /// Throws Failure(2) with every mistake of the file and of the recipe that it names.
@@ -80,6 +87,7 @@ struct Quantity {
 const std::vector<Key> &head_keys();      ///< of [experiment]
 const std::vector<Key> &condition_keys(); ///< of [[condition]], without the measured values
 const std::vector<Quantity> &quantities();
+const std::vector<Key> &crushed_keys(); ///< of [[crushed_particle]]
 
 /// Foil and sample are known where masses and thicknesses hold them, and leave a coating.
 void check_foil(const Experiment &experiment, const Condition &condition, const std::string &who,

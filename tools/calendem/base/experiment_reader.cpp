@@ -17,7 +17,7 @@ public:
   using TableReader::TableReader;
 
   Experiment read(const TomlFile &file) {
-    report_unknown(file.root, {"experiment", "condition"});
+    report_unknown(file.root, {"experiment", "condition", "crushed_particle"});
     const toml::table *head = file.root["experiment"].as_table();
     if (head)
       read_head(*head);
@@ -29,6 +29,8 @@ public:
     else
       for (const toml::node &node : *list)
         read_condition(node);
+    if (const toml::node *crushed = file.root.get("crushed_particle"))
+      read_crushed(*crushed);
     if (head && list)
       read_split(*head);
     return e_;
@@ -129,6 +131,23 @@ private:
         c.*(q.field) = measured(*value, q.key);
     check_condition(c, *t);
     e_.conditions.push_back(c);
+  }
+
+  void read_crushed(const toml::node &list) {
+    if (!list.is_array_of_tables())
+      return mistakes_.add(line_of(list), "write crushed particles as tables: "
+                                          "[[crushed_particle]].");
+    for (const toml::node &node : *list.as_array()) {
+      const toml::table &t = *node.as_table();
+      report_unknown(t, {"diameter_um", "load_mN"}, "crushed_particle.");
+      CrushedParticles p;
+      p.diameter_um = number(t, crushed_keys()[0]);
+      if (const toml::node *load = t.get("load_mN"))
+        p.load_mN = measured(*load, crushed_keys()[1]).value_or(Measured());
+      else
+        mistakes_.add(line_of(t), "a crushed particle has no load_mN.");
+      e_.crushed.push_back(p);
+    }
   }
 
   std::optional<Measured> measured(const toml::node &node, const Key &key) {

@@ -12,6 +12,7 @@ constexpr double kPercent = 100.0;
 
 struct DesignOptions : FilmOptions {
   double porosity = 0.0, within = 1.0, cracked_below = 100.0, tortuosity_below = kMostTortuosity;
+  bool by_runs = false; ///< instead of the bank's emulators
 };
 
 /// What is predicted of a film, and the numbers from which its chances follow.
@@ -26,6 +27,13 @@ Settled settled(const FilmBank &bank, const GapDraws &draws) {
 
 SetBy set_by(const FilmOptions &o) { return o.gaps.empty() ? SetBy::Pressure : SetBy::Gap; }
 
+void note_outside(const GapDraws &draws, Design &d) {
+  if (const double outside = draws.below[d.best] + draws.above[d.best]; outside >= 0.01)
+    d.predicted.beyond.push_back(fmt::format("with {:.0f} % the gap takes a pressure outside the "
+                                             "bank's; cracks and springback are those at its end",
+                                             kPercent * outside));
+}
+
 /// What a film offers at the pressures or gaps asked for.
 Design design_of(const AskedFilms &a, const FilmOptions &o, const Film &film,
                  const Target &target) {
@@ -39,16 +47,36 @@ Design design_of(const AskedFilms &a, const FilmOptions &o, const Film &film,
     d.predicted = s.predicted;
     d.chances = chances_from(draws.gaps, s.of, target);
     d.best = best_of(d.chances);
-    if (const double outside = draws.below[d.best] + draws.above[d.best]; outside >= 0.01)
-      d.predicted.beyond.push_back(fmt::format("with {:.0f} % the gap takes a pressure outside the "
-                                               "bank's; cracks and springback are those at its end",
-                                               kPercent * outside));
+    note_outside(draws, d);
   } else {
     const double error = o.press_percent / kPercent;
     d.chances = chances(bank, c, film, a.pressures, error, target);
     d.predicted = predicted(bank, c, film, a.pressures, error);
     d.best = best_of(d.chances);
   }
+  return d;
+}
+
+/// The same from runs at each of them; under a roll in so many passes.
+Design design_by_runs(const AskedFilms &a, const FilmOptions &o, std::size_t recipe,
+                      const Target &target, int passes) {
+  Design d;
+  if (passes > 0) {
+    const GapDraws draws = run_film_at_gaps(a, o, recipe, values_of("--gap", o.gaps, "um"), passes);
+    const Settled s = settled(a.model.bank, draws);
+    d.predicted = s.predicted;
+    d.chances = chances_from(draws.gaps, s.of, target);
+    d.best = best_of(d.chances);
+    note_outside(draws, d);
+  } else {
+    const ByRuns own = run_film(a, o, recipe, a.pressures);
+    d.predicted = own.predicted;
+    d.chances = chances_from(a.pressures, own.of, target);
+    d.best = best_of(d.chances);
+  }
+  d.film = d.predicted.film;
+  if (passes > 1)
+    d.film.name += fmt::format(", {} passes", passes);
   return d;
 }
 
@@ -129,34 +157,61 @@ void say(const Design &d, SetBy by, const Target &target) {
     fmt::print("  note: {}\n", text);
 }
 
+void write(const AskedFilms &a, const DesignOptions &o, const Target &target,
+           const std::vector<Design> &designs) {
+  nlohmann::ordered_json json = to_json(a.model.bank, target, set_by(o), designs);
+  json["provenance"] = provenance(o);
+  make_output_folder(o.folder);
+  write_file(o.folder + "/design.json", json.dump(1) + "\n");
+  write_file(o.folder + "/design.html", design_page(target, set_by(o), designs, json));
+}
+
+/// By runs of every recipe, written after each.
+std::vector<Design> designs_by_runs(const AskedFilms &a, const DesignOptions &o,
+                                    const Target &target, const std::vector<int> &passes,
+                                    MissedRuns &missed) {
+  std::vector<Design> out;
+  for (const int n : passes)
+    for (std::size_t k = 0; k < o.recipes.size(); ++k)
+      missed.attempt(o.recipes[k], [&] {
+        out.push_back(design_by_runs(a, o, k, target, n));
+        write(a, o, target, out);
+      });
+  if (out.empty())
+    missed.stop_if_any();
+  return out;
+}
+
+/// By the bank's emulators; the proposals are confirmed by runs if that is asked for.
+std::vector<Design> designs_by_bank(const AskedFilms &a, const DesignOptions &o,
+                                    const Target &target, const std::vector<int> &passes,
+                                    MissedRuns &missed) {
+  std::vector<Design> out;
+  for (const Film &f : a.films)
+    out.push_back(design_of(a, o, f, target));
+  write(a, o, target, out); // runs may fail
+  for (std::size_t k = 0; o.runs > 0 && k < out.size(); ++k)
+    for (const int n : passes)
+      missed.attempt(o.recipes[k], [&] {
+        Design &d = out[k];
+        d.confirmed.push_back(confirmation(a, o, k, target, d.chances[d.best].at, n));
+        write(a, o, target, out);
+      });
+  return out;
+}
+
 void run_design(const DesignOptions &o) {
-  if (o.runs > 0 && (!o.vary.empty() || o.press_percent > 0.0))
+  if (!o.by_runs && o.runs > 0 && (!o.vary.empty() || o.press_percent > 0.0))
     throw Failure(kBadInput, "--confirm runs recipes as they are: without --vary and "
                              "--press-percent.");
-  const AskedFilms a = asked(o);
+  const AskedFilms a = o.by_runs ? asked_to_run(o) : asked(o);
   check_target(a, o.porosity);
   const Target target = {o.porosity / kPercent, o.within / kPercent, o.cracked_below / kPercent,
                          o.tortuosity_below};
   const std::vector<int> passes = set_by(o) == SetBy::Gap ? passes_of(o) : std::vector<int>{0};
-  std::vector<Design> designs;
-  for (const Film &f : a.films)
-    designs.push_back(design_of(a, o, f, target));
-  const auto write = [&] {
-    nlohmann::ordered_json json = to_json(a.model.bank, target, set_by(o), designs);
-    json["provenance"] = provenance(o);
-    make_output_folder(o.folder);
-    write_file(o.folder + "/design.json", json.dump(1) + "\n");
-    write_file(o.folder + "/design.html", design_page(target, set_by(o), designs, json));
-  };
-  write(); // runs may fail
   MissedRuns missed;
-  for (std::size_t k = 0; o.runs > 0 && k < designs.size(); ++k)
-    for (const int n : passes)
-      missed.attempt(o.recipes[k], [&] {
-        Design &d = designs[k];
-        d.confirmed.push_back(confirmation(a, o, k, target, d.chances[d.best].at, n));
-        write();
-      });
+  const std::vector<Design> designs = o.by_runs ? designs_by_runs(a, o, target, passes, missed)
+                                                : designs_by_bank(a, o, target, passes, missed);
   for (const Design &d : designs)
     say(d, set_by(o), target);
   fmt::print("page: {0}/design.html\ndata: {0}/design.json\n", o.folder);
@@ -186,7 +241,15 @@ void add_design_verb(CLI::App &app) {
                   "so many simulations of each recipe at the pressure or gap proposed, each with "
                   "another draw of the material on another packing");
   add_gap_options(*verb, *o, "--confirm");
-  verb->callback([o] { run_design(*o); });
+  const CLI::Option *runs =
+      add_other_runs(*verb, o->runs, "--runs", "--confirm",
+                     "so many simulations of each recipe at each pressure or gap, instead of the "
+                     "bank's emulators: "
+                     "for electrodes that the bank does not have, such as other particle sizes");
+  verb->callback([o, runs] {
+    o->by_runs = runs->count() > 0;
+    run_design(*o);
+  });
 }
 
 } // namespace calendem

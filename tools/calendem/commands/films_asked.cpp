@@ -143,6 +143,26 @@ AskedFilms asked(const FilmOptions &o) {
   return out;
 }
 
+AskedFilms asked_to_run(const FilmOptions &o) {
+  const bool gap = !o.gaps.empty();
+  const char *name = gap ? "--gap" : "--pressure";
+  if (!o.vary.empty())
+    throw Failure(kBadInput, "--runs goes with recipes as they are: without --vary.");
+  if ((gap ? o.gaps : o.pressures).find(':') != std::string::npos)
+    throw Failure(kBadInput, fmt::format("--runs needs values of {} one by one: each is so many "
+                                         "simulations. Give {} {}.",
+                                         name, name, gap ? "52,54" : "80,150"));
+  AskedFilms out = of_model(o);
+  if (!gap && o.press_percent > 0.0 && out.pressures.size() < 2)
+    throw Failure(kBadInput, "--press-percent with --runs needs the slope between pressures: give "
+                             "two or more to --pressure, or leave it out.");
+  for (const std::string &file : o.recipes) {
+    out.films.push_back(out.model.bank.described(read_recipe(file)));
+    out.films.back().material = out.material;
+  }
+  return out;
+}
+
 nlohmann::ordered_json provenance(const FilmOptions &o) {
   nlohmann::ordered_json out = {{"calendem", version()},
                                 {"hashes", "64-bit FNV-1a"},
@@ -228,6 +248,24 @@ void add_gap_options(CLI::App &verb, FilmOptions &o, const std::string &runs) {
                       ": 1,2,3; each reduces the film by the same thickness (default 1)")
       ->needs(verb.get_option("--gap"))
       ->needs(verb.get_option(runs));
+}
+
+CLI::Option *add_other_runs(CLI::App &verb, int &runs, const char *name, const char *instead_of,
+                            const char *what) {
+  CLI::Option *first = verb.get_option(instead_of);
+  CLI::Option *other =
+      verb.add_option(name, runs, what)->check(CLI::Range(kFewestOwnRuns, 400))->excludes(first);
+  std::vector<CLI::Option *> of_both;
+  for (CLI::Option *option : verb.get_options())
+    if (option->remove_needs(first))
+      of_both.push_back(option);
+  verb.parse_complete_callback([of_both, first, other] {
+    for (const CLI::Option *option : of_both)
+      if (option->count() > 0 && first->count() + other->count() == 0)
+        throw CLI::RequiresError(option->get_name(),
+                                 first->get_name() + " or " + other->get_name());
+  });
+  return other;
 }
 
 void add_run_options(CLI::App &verb, int &runs, StudyOptions &study, const char *name,

@@ -25,6 +25,9 @@ void add_film_options(CLI::App &verb, FilmOptions &options);
 /// Of runs of their own; `name`, `what`: of the option that asks for them.
 void add_run_options(CLI::App &verb, int &runs, StudyOptions &study, const char *name,
                      const char *what);
+/// Another option that asks for them, instead of the first.
+CLI::Option *add_other_runs(CLI::App &verb, int &runs, const char *name, const char *instead_of,
+                            const char *what);
 
 /// --gap instead of --pressure, and --passes with runs of a film's own (`runs`: of that option).
 void add_gap_options(CLI::App &verb, FilmOptions &options, const std::string &runs);
@@ -44,6 +47,9 @@ std::vector<double> values_of(const std::string &option, const std::string &text
 AskedFilms of_model(const FilmOptions &options);
 /// With the films, which the bank must have. Throws Failure(2).
 AskedFilms asked(const FilmOptions &options);
+
+/// With the films of any electrode, to be run. Throws Failure(2) where what is asked cannot be run.
+AskedFilms asked_to_run(const FilmOptions &options);
 
 nlohmann::ordered_json provenance(const FilmOptions &options);
 

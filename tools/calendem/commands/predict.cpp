@@ -19,23 +19,8 @@ std::vector<PredictedFilm> by_emulators(const AskedFilms &a, const FilmOptions &
   return films;
 }
 
-/// `name`, `text`: of the option that says what is run.
-void check_by_runs(const FilmOptions &o, const char *name, const std::string &text) {
-  if (!o.vary.empty())
-    throw Failure(kBadInput, "--runs goes with recipes as they are: without --vary.");
-  if (text.find(':') != std::string::npos)
-    throw Failure(kBadInput,
-                  fmt::format("--runs needs values of {} one by one: each is so many "
-                              "simulations. Give {} {}.",
-                              name, name, name == std::string("--gap") ? "52,54" : "80,150"));
-}
-
 std::vector<PredictedFilm> films_by_runs(const AskedFilms &a, const FilmOptions &o,
                                          MissedRuns &missed) {
-  check_by_runs(o, "--pressure", o.pressures);
-  if (o.press_percent > 0.0 && a.pressures.size() < 2)
-    throw Failure(kBadInput, "--press-percent with --runs needs the slope between pressures: give "
-                             "two or more to --pressure, or leave it out.");
   std::vector<PredictedFilm> films;
   for (std::size_t k = 0; k < o.recipes.size(); ++k)
     missed.attempt(o.recipes[k],
@@ -61,11 +46,11 @@ void say(const AtGap &at) {
 std::vector<GapDraws> films_at_gaps(const AskedFilms &a, const FilmOptions &o, MissedRuns &missed) {
   const std::vector<double> gaps = values_of("--gap", o.gaps, "um");
   std::vector<GapDraws> out;
-  for (const Film &f : a.films)
-    out.push_back(under_gaps(a.model.bank, a.model.calibration, f, gaps));
-  if (o.runs == 0)
+  if (o.runs == 0) {
+    for (const Film &f : a.films)
+      out.push_back(under_gaps(a.model.bank, a.model.calibration, f, gaps));
     return out;
-  check_by_runs(o, "--gap", o.gaps);
+  }
   for (const int passes : passes_of(o))
     for (std::size_t k = 0; k < o.recipes.size(); ++k)
       missed.attempt(o.recipes[k], [&] {
@@ -78,7 +63,7 @@ std::vector<GapDraws> films_at_gaps(const AskedFilms &a, const FilmOptions &o, M
 }
 
 void run_predict_at_gaps(const FilmOptions &o) {
-  AskedFilms a = o.runs > 0 ? of_model(o) : asked(o);
+  AskedFilms a = o.runs > 0 ? asked_to_run(o) : asked(o);
   MissedRuns missed;
   std::vector<std::vector<AtGap>> all;
   const std::vector<GapDraws> draws = films_at_gaps(a, o, missed);
@@ -112,7 +97,7 @@ void run_predict(const FilmOptions &o) {
     run_predict_at_gaps(o);
     return;
   }
-  const AskedFilms a = o.runs > 0 ? of_model(o) : asked(o);
+  const AskedFilms a = o.runs > 0 ? asked_to_run(o) : asked(o);
   MissedRuns missed;
   const std::vector<PredictedFilm> films =
       o.runs > 0 ? films_by_runs(a, o, missed) : by_emulators(a, o);

@@ -163,7 +163,11 @@ std::string experiment_page() {
                   "`{ value, sd_relative }`. `mass_mg` and `thickness_after_um` also take\n"
                   "`includes_foil`: a mass includes the foil unless it says otherwise, a thickness "
                   "does not.\n\n" +
-                  rows(measured));
+                  rows(measured) +
+                  "\n## `[[crushed_particle]]`\n\nSingle particles of the powder, crushed one by "
+                  "one between two plates. `calendem calibrate` learns the strength of\nthe bonds "
+                  "from them, the other verbs do not compare them.\n\n" +
+                  rows(crushed_keys()));
 }
 
 std::string unit_of(const Effect &e) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "predict/calibration.h"
 #include "base/messages.h"
+#include "predict/crushed.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -50,6 +51,7 @@ void add_experiment(const Experiment &experiment, const FilmBank &bank, Calibrat
   to.films.back().material = int(known - to.materials.begin());
   if (known == to.materials.end())
     to.materials.push_back(material);
+  add_crushed(experiment, bank, to.films.back().material, to, not_said);
   for (const std::string &why : bank.beyond(to.films.back()))
     not_said.push_back(fmt::format("{}: {}.", experiment.name, why));
   for (const Condition &c : experiment.conditions) {
@@ -181,12 +183,14 @@ Vector measured_of(const Calibration &c) {
 } // namespace
 
 double log_likelihood(const FilmBank &bank, const Calibration &c, const Draw &draw) {
+  const double of_crushed = log_likelihood_of_crushed(bank, c, draw);
   if (c.data.empty())
-    return 0.0;
+    return of_crushed;
   const Predicted p = predicted_data(bank, c, draw);
   const Cholesky chol(covariance_of(c, p, draw));
   const Vector off = chol.matrixL().solve(measured_of(c) - p.mean);
-  return -0.5 * off.squaredNorm() - Matrix(chol.matrixL()).diagonal().array().log().sum();
+  return of_crushed - 0.5 * off.squaredNorm() -
+         Matrix(chol.matrixL()).diagonal().array().log().sum();
 }
 
 std::vector<Guess> each_from_the_others(const FilmBank &bank, const Calibration &c,

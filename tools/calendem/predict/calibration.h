@@ -20,6 +20,12 @@ struct Datum {
   double measured = 0.0, sd = 0.0;
 };
 
+/// Single particles of one diameter that were crushed.
+struct Crushed {
+  int material = 0;                            ///< place in Calibration::materials
+  double diameter = 0.0, load = 0.0, sd = 0.0; ///< [um], [mN]
+};
+
 /// How wrong the model may be. Standard deviations of porosity 0-1 unless said.
 struct ModelError {
   double numerics = 0.0;           ///< the bank's: one shift of all porosities
@@ -57,13 +63,14 @@ struct Calibration {
   std::vector<std::string> materials = {""}; ///< names
   std::vector<Film> films;
   std::vector<Datum> data;
+  std::vector<Crushed> crushed;
   ModelError error;
   std::vector<Weighed> hypotheses; ///< as of hypotheses_of
   std::vector<Draw> draws;         ///< of equal weight
 };
 
-/// Adds the film of an experiment and its data: porosities after and cracked particles of conditions
-/// whose pressure is known and within the bank's. What is left out is reported in `not_said`.
+/// Adds the film of an experiment and its data: porosities after, cracked particles and nanopores of
+/// conditions whose pressure is known and within the bank's, and crushed particles. What is left out is reported in `not_said`.
 /// Experiments that name the same material share it. Throws Failure(2) if it is another electrode,
 /// or nothing is left.
 void add_experiment(const Experiment &experiment, const FilmBank &bank, Calibration &to,

@@ -50,6 +50,7 @@ Json to_json(const FilmBank &bank, const Target &t, SetBy by, const std::vector<
   for (const Design &d : designs) {
     Json row = film_json(bank, d.film);
     row["beyond"] = d.predicted.beyond;
+    row["by"] = d.predicted.runs == 0 ? Json("emulators") : Json{{"runs", d.predicted.runs}};
     row["best"] = {{set.key, d.chances[d.best].at},
                    {"probability", d.chances[d.best].all},
                    {"assured", d.chances[d.best].assured},
@@ -181,6 +182,9 @@ std::string design_page(const Target &t, SetBy by, const std::vector<Design> &de
       {"any_notes", !notes.empty()},
       {"setting", set.name},
       {"unit", set.unit},
+      {"by_runs", designs.front().predicted.runs > 0
+                      ? json(fmt::format("{}", designs.front().predicted.runs))
+                      : json()},
       {"any_confirmed", std::any_of(designs.begin(), designs.end(),
                                     [](const Design &d) { return !d.confirmed.empty(); })},
       {"any_tortuosity", all_have_tortuosity(designs)},

@@ -24,6 +24,7 @@ constexpr std::size_t kFewestPressures = 4; // of the monotone cubic
 // The effect that closes nanopores, and how many it leaves.
 constexpr const char *kCollapse = "cbd_collapse",
                      *kFloor = "effects.cbd_collapse.floor_nanoporosity";
+constexpr const char *kStrengthKey = "case.bond.tensile_strength_MPa";
 constexpr double kBeyond = 0.05; // standard deviation per unit of ln p beyond the bank's pressures
 
 bool is_recipe(const BankParameter &p) { return p.keys.front().rfind("recipe.", 0) == 0; }
@@ -77,11 +78,15 @@ FilmBank::FilmBank(const BankTable &table)
                                          spec_.file, spec_.pressures.size(), kFewestPressures));
   for (const BankParameter &p : spec_.parameters) {
     of_film_.push_back(is_recipe(p));
+    if (p.keys.front() == kStrengthKey)
+      strength_ = int(material_.size());
     if (is_recipe(p))
       film_.push_back(p);
     else
       material_.push_back(parameter_of(p));
   }
+  if (!spec_.crushing_file.empty())
+    crushing_.emplace(spec_.crushing_file);
   if (const double within = spec_.nanoporosity_within; within > 0.0) {
     check_nanoporosity();
     floor_nanoporosity_ = read_case(spec_.case_file).number(kFloor);

@@ -7,7 +7,9 @@
 #include "diagnose/bank/bank_table.h"
 #include "diagnose/inference/gaussian_process.h"
 #include "diagnose/inference/quantities.h"
+#include "predict/crushing_loads.h"
 #include <array>
+#include <optional>
 
 namespace calendem {
 
@@ -73,6 +75,10 @@ public:
   /// Those of the bank whose keys are a case's, and kNanoporosity where the bank does not take it
   /// for known.
   const std::vector<inference::Parameter> &material() const { return material_; }
+  /// Place in it of the strength of the bonds; -1: it is none of them.
+  int strength() const { return strength_; }
+  /// None: the bank does not say.
+  const std::optional<CrushingLoads> &crushing() const { return crushing_; }
   /// Of a film's CBD, if it is made of that material, 0-1.
   double nanoporosity(const Film &film, const Material &material) const;
   const std::vector<BankParameter> &film() const { return film_; }
@@ -121,6 +127,8 @@ private:
   std::array<Emulators, kFilmNumbers> base_;
   std::vector<std::array<Emulators, kFilmNumbers>> with_; ///< differences, by effect
   std::array<FullCell, kFilmNumbers> full_cell_;
+  int strength_ = -1;
+  std::optional<CrushingLoads> crushing_;
   double full_loading_ = 0.0;
   double floor_nanoporosity_ = 0.0; ///< that collapse leaves, 0-1
 

@@ -2,6 +2,7 @@
 #include "base/case.h"
 #include "base/messages.h"
 #include "base/provenance.h"
+#include "predict/crushed.h"
 #include "predict/files.h"
 #include "predict/film_sheet.h"
 #include "predict/learnt.h"
@@ -140,6 +141,21 @@ Json learnt_of(const FilmBank &bank, const Calibration &c) {
   return out;
 }
 
+Json crushing_json(const FilmBank &bank, const Calibration &c) {
+  Json out = Json::array();
+  for (const Crushing &k : crushing_of(bank, c)) {
+    Json row = {{"material", c.materials[std::size_t(k.material)]},
+                {"diameter_um", k.diameter},
+                {"load_mN", band_json(k.load, 1.0)}};
+    if (k.measured > 0.0) {
+      row["measured"] = k.measured;
+      row["sd"] = k.sd;
+    }
+    out.push_back(row);
+  }
+  return out;
+}
+
 Json trade_offs_json(const FilmBank &bank, const Calibration &c) {
   Json out = Json::array();
   for (const TradeOff &t : trade_offs_of(bank, c))
@@ -230,6 +246,7 @@ Json to_json(const FilmBank &bank, const Calibration &c, const std::vector<LeftO
           {"parameters", parameters_of(bank, c)},
           {"learnt", learnt_of(bank, c)},
           {"trade_offs", trade_offs_json(bank, c)},
+          {"crushing", crushing_json(bank, c)},
           {"emulators", emulators_of(bank)},
           {"left_out", left_out_json(rows)},
           {"draws", draws_of(bank, c)},

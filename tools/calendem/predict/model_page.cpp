@@ -158,6 +158,21 @@ json trade_offs_part(const Json &model) {
   return rows;
 }
 
+json crushing_part(const Json &model) {
+  json rows = json::array();
+  for (const Json &k : model.at("crushing")) {
+    const Json &load = k["load_mN"];
+    const auto text = shown_alike({load["median"], load["low90"], load["high90"]});
+    rows.push_back({{"material", k["material"]},
+                    {"diameter", shown(k["diameter_um"], "{:g}")},
+                    {"measured", k.contains("measured") ? shown(k["measured"], "{:.3g}") + " ± " +
+                                                              shown(k["sd"], "{:.2g}")
+                                                        : "–"},
+                    {"load", fmt::format("{} ({}–{})", text[0], text[1], text[2])}});
+  }
+  return rows;
+}
+
 json emulators_part(const Json &model) {
   json rows = json::array();
   for (const Json &e : model.at("emulators"))
@@ -200,6 +215,8 @@ std::string model_page(const FilmBank &bank, const Calibration &c, const Json &m
                  {"any_learnt", !model.at("learnt").empty()},
                  {"trade_offs_rows", trade_offs_part(model)},
                  {"any_trade_off", !model.at("trade_offs").empty()},
+                 {"crushing_rows", crushing_part(model)},
+                 {"any_crushing", !model.at("crushing").empty()},
                  {"emulators_rows", emulators_part(model)},
                  {"bank_name", bank.spec().name},
                  {"provenance_rows", provenance_of(model)}};

@@ -129,6 +129,9 @@ Calibration of_first(const Calibration &c, std::size_t materials) {
   for (const Datum &d : c.data)
     if (std::size_t(c.films[std::size_t(d.film)].material) < materials)
       out.data.push_back(d);
+  out.crushed.erase(std::remove_if(out.crushed.begin(), out.crushed.end(),
+                                   [&](const Crushed &k) { return k.material >= int(materials); }),
+                    out.crushed.end());
   return out;
 }
 

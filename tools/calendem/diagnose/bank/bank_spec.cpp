@@ -27,7 +27,8 @@ const std::vector<Key> &head_keys() {
       {"pressures_MPa", "", "", 0.1, 2000, "MPa", "a run for each at every point"},
       {"first_point", "", "0", 0, 5000, "", "number of the first base point", "", false, true},
       {"tortuosity", "", "no", 0, 0, "", "of the pores after release", "yes|no"},
-      {"nanoporosity_within_points", "", "0", 0, 20, "%", "to either side of a recipe's"}};
+      {"nanoporosity_within_points", "", "0", 0, 20, "%", "to either side of a recipe's"},
+      {"crushing", "", "-", 0, 0, "", "loads of single particles (CSV)", "", true}};
   return keys;
 }
 
@@ -37,8 +38,8 @@ public:
 
   void read_head(const toml::table &t, BankSpec &out) {
     report_unknown(t, {"name", "recipe", "case", "packings", "base_points", "effect_points", "seed",
-                       "first_point", "tortuosity", "nanoporosity_within_points", "pressures_MPa",
-                       "effects"});
+                       "first_point", "tortuosity", "nanoporosity_within_points", "crushing",
+                       "pressures_MPa", "effects"});
     out.name = text(t, head_keys()[0]);
     out.recipe_file = path(t, head_keys()[1]);
     out.case_file = path(t, head_keys()[2]);
@@ -49,6 +50,7 @@ public:
     out.first_point = int(number(t, head_keys()[8]));
     out.tortuosity = text(t, head_keys()[9]) == "yes";
     out.nanoporosity_within = number(t, head_keys()[10]);
+    out.crushing_file = path(t, head_keys()[11]);
     if (out.effect_points > out.base_points)
       mistakes_.add(0, fmt::format("effect_points is {}, base_points {}: every point of an effect "
                                    "needs a base point of its own.",

@@ -13,6 +13,7 @@
 //   first_point = 0                  # number of the first base point, where tables are joined
 //   tortuosity = "yes"               # of the pores after release; default: no
 //   nanoporosity_within_points = 10  # how far that of CBD may lie from the recipe's; default: 0
+//   crushing = "crushing.csv"        # loads of single particles, for calibrate; default: none
 //   [[parameter]]                    # of the base model, recalibrated by the diagnosis
 //   name = "E_am"
 //   keys = ["case.material.am.youngs_modulus_GPa"]
@@ -93,6 +94,7 @@ struct BankSpec {
   /// How far the nanoporosity of a measured film's CBD may lie from its recipe's [%], to either
   /// side; 0: known. No laboratory measures it.
   double nanoporosity_within = 0.0;
+  std::string crushing_file; ///< loads at which single particles broke; empty: none
   std::vector<BankParameter> parameters;
   std::vector<std::string> effects;
   std::map<std::string, std::pair<double, double>> ranges; ///< of effects, where not the table's

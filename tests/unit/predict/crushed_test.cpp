@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Single particles that were crushed: the line through the simulated loads, and what measured ones say of the strength.
+#include "base/provenance.h"
+#include "predict/crushed.h"
+#include "support/made_coatings.h"
+#include "support/test_folder.h"
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace {
+using namespace calendem_test;
+
+std::string table(const std::string &rows) {
+  const std::string file = (test_folder() / "crushing.csv").string();
+  write_file(file, "diameter_um,strength_MPa,load_mN\n" + rows);
+  return file;
+}
+
+/// 0.01 mN/MPa at 1 um, growing as the diameter: no scatter.
+TEST(CrushingLoads, FindThePowerLawTheyAreMadeOf) {
+  const CrushingLoads loads(table("5,500,25\n5,250,12.5\n10,500,50\n20,1000,200\n"));
+  EXPECT_NEAR(std::exp(loads.log_load(8.0, 700.0)), 0.01 * 8.0 * 700.0, 1e-9);
+  EXPECT_NEAR(loads.covariance(8.0, 8.0), 0.0, 1e-15);
+  EXPECT_EQ(loads.diameters(), (std::vector<double>{5.0, 10.0, 20.0}));
+  EXPECT_TRUE(loads.covers(5.0) && loads.covers(20.0));
+  EXPECT_FALSE(loads.covers(4.5) || loads.covers(21.0));
+}
+
+// At the middle of the diameters' logarithms the line is the mean: its variance is that of the residuals over n. At
+// the ends the slope adds the same again: two diameters, each with half of the particles.
+TEST(CrushingLoads, FewParticlesLeaveTheLineOpen) {
+  const double e = std::exp(0.3);
+  const CrushingLoads loads(table(
+      fmt::format("5,500,{}\n5,500,{}\n20,500,{}\n20,500,{}\n", 25 * e, 25 / e, 100 * e, 100 / e)));
+  const double variance = 4 * 0.3 * 0.3 / 2; // two of four degrees of freedom are the line's
+  EXPECT_NEAR(loads.log_load(10.0, 500.0), std::log(50.0), 1e-4);
+  EXPECT_NEAR(loads.covariance(10.0, 10.0), variance / 4, 1e-6);
+  EXPECT_NEAR(loads.covariance(5.0, 5.0), variance / 2, 1e-6);
+  EXPECT_NEAR(loads.covariance(5.0, 20.0), 0.0, 1e-6);
+}
+
+TEST(CrushingLoads, ATableThatIsNoneIsRefused) {
+  for (const char *rows :
+       {"5,500,25\n5,250,12\n10,500,50\n", "5,500,25\n5,250,12\n5,500,20\n5,1,2\n",
+        "5,500,25\n5,250,12\n10,500,-50\n20,1000,200\n",
+        "5,500,25\n5,250,12\n10,500\n20,1000,200\n"})
+    EXPECT_THROW(CrushingLoads(table(rows)), Failure) << rows;
+}
+
+CalibrationSettings many() {
+  CalibrationSettings s;
+  s.samples = 4096;
+  s.draws = 1000;
+  return s;
+}
+
+struct Log {
+  double mean = 0.0, sd = 0.0;
+};
+
+/// Of the strength's logarithm among the draws.
+Log strength_in(const Calibration &c, std::size_t material = 0) {
+  double sum = 0.0, squares = 0.0;
+  for (const Draw &d : c.draws) {
+    const double x =
+        std::log(d.materials[material].parameters[std::size_t(made_film_bank().strength())]);
+    sum += x;
+    squares += x * x;
+  }
+  const double n = double(c.draws.size());
+  return {sum / n, std::sqrt(squares / n - sum * sum / n / n)};
+}
+
+/// The prior, even in the logarithm from 250 to 1000 MPa, times a normal: moments by quadrature.
+Log posterior(double mean, double variance) {
+  const int n = 20000;
+  const double low = std::log(250.0), high = std::log(1000.0);
+  double sum = 0.0, first = 0.0, second = 0.0;
+  for (int k = 0; k < n; ++k) {
+    const double x = low + (high - low) * (k + 0.5) / n;
+    const double w = std::exp(-0.5 * (x - mean) * (x - mean) / variance);
+    sum += w;
+    first += w * x;
+    second += w * x * x;
+  }
+  const double m = first / sum;
+  return {m, std::sqrt(second / sum - m * m)};
+}
+
+Calibration crushed(const std::vector<Crushed> &particles) {
+  Calibration c;
+  c.films = {made_film("a", 48.0, 2.0)};
+  c.crushed = particles;
+  calibrate(made_film_bank(), many(), c);
+  return c;
+}
+
+// Of 1000 independent draws the mean would be known to 0.03 sd, the sd to 0.02; three times that is allowed.
+TEST(Crushed, OneLoadTellsTheStrengthAsFarAsTheModelGoes) {
+  const CrushingLoads &loads = *made_film_bank().crushing();
+  const double load = std::exp(loads.log_load(10.0, 600.0)), relative = 0.1;
+  const Log found = strength_in(crushed({{0, 10.0, load, relative * load}})),
+            expected =
+                posterior(std::log(600.0), kCrushingModel * kCrushingModel +
+                                               loads.covariance(10.0, 10.0) + relative * relative);
+  EXPECT_NEAR(found.mean, expected.mean, 0.1 * expected.sd);
+  EXPECT_NEAR(found.sd, expected.sd, 0.1 * expected.sd);
+}
+
+// The model's error is common to all: many particles do not make it smaller.
+TEST(Crushed, TheModelsErrorRemainsWithManyLoads) {
+  const CrushingLoads &loads = *made_film_bank().crushing();
+  std::vector<Crushed> all;
+  for (int k = 0; k < 20; ++k) {
+    const double load = std::exp(loads.log_load(8.0, 500.0));
+    all.push_back({0, 8.0, load, 0.1 * load});
+  }
+  const Log found = strength_in(crushed(all)),
+            expected = posterior(std::log(500.0), kCrushingModel * kCrushingModel +
+                                                      loads.covariance(8.0, 8.0) + 0.01 / 20);
+  EXPECT_NEAR(found.mean, expected.mean, 0.1 * expected.sd);
+  EXPECT_NEAR(found.sd, expected.sd, 0.1 * expected.sd);
+}
+
+// Loads of the second material say less about the first than about the second: half of its shift of 0.4, as alike as two
+// materials are on average.
+TEST(Crushed, LoadsAreThoseOfTheirMaterial) {
+  const CrushingLoads &loads = *made_film_bank().crushing();
+  Calibration c;
+  c.materials = {"first", "second"};
+  c.films = {made_film("a", 48.0, 2.0), made_film("b", 48.0, 2.0)};
+  c.films[1].material = 1;
+  const double load = std::exp(loads.log_load(10.0, 950.0));
+  c.crushed = {{1, 10.0, load, 0.1 * load}};
+  calibrate(made_film_bank(), many(), c);
+  EXPECT_GT(strength_in(c, 1).mean - strength_in(c, 0).mean, 0.1);
+}
+
+// The load that was measured, as the draws have it: between the measured one and the prior's.
+TEST(Crushed, PredictedLoadsHoldTheModelsError) {
+  const CrushingLoads &loads = *made_film_bank().crushing();
+  const double load = std::exp(loads.log_load(10.0, 500.0));
+  const Calibration c = crushed({{0, 10.0, load, 0.1 * load}});
+  const std::vector<Crushing> rows = crushing_of(made_film_bank(), c);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_NEAR(std::log(rows[0].load.median), strength_in(c).mean - std::log(500.0) + std::log(load),
+              0.05);
+  const double sd = std::sqrt(std::pow(strength_in(c).sd, 2) + kCrushingModel * kCrushingModel +
+                              loads.covariance(10.0, 10.0));
+  EXPECT_NEAR(std::log(rows[0].load.high90 / rows[0].load.low90), 2 * 1.645 * sd, 0.15 * sd);
+  EXPECT_EQ(rows[0].measured, load);
+  EXPECT_EQ(crushing_of(made_film_bank(), crushed({})).size(), 4u); // the bank's diameters
+}
+
+TEST(Crushed, WhatTheBankCannotSayIsLeftOut) {
+  Experiment e;
+  e.name = "powder";
+  e.crushed = {{3.0, {2.0, 0.1}}, {10.0, {14.0, 0.0}}};
+  Calibration c;
+  std::vector<std::string> not_said;
+  add_crushed(e, made_film_bank(), 0, c, not_said);
+  ASSERT_EQ(c.crushed.size(), 1u);
+  EXPECT_EQ(c.crushed[0].diameter, 10.0);
+  EXPECT_NEAR(c.crushed[0].sd, 0.2 * 14.0, 1e-12);
+  ASSERT_EQ(not_said.size(), 1u);
+  EXPECT_NE(not_said[0].find("5 to 12 um"), std::string::npos) << not_said[0];
+}
+
+} // namespace

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Loads at which single particles of a material break: what a laboratory measured says of the strength, and what the
+// strength says of loads that were not measured.
+#ifndef CALENDEM_PREDICT_CRUSHED_H
+#define CALENDEM_PREDICT_CRUSHED_H
+
+#include "predict/prediction.h"
+
+namespace calendem {
+
+/// How wrong the model may be of all loads of one material, standard deviation of ln: its particles
+/// are cubic lattices, which break at up to nine times the load if they are turned. An estimate.
+constexpr double kCrushingModel = 0.3;
+
+/// Adds the crushing loads of an experiment. What is left out is reported in `not_said`.
+void add_crushed(const Experiment &experiment, const FilmBank &bank, int material, Calibration &to,
+                 std::vector<std::string> &not_said);
+
+/// Of the loads that were measured, given the draw, but for a constant.
+double log_likelihood_of_crushed(const FilmBank &bank, const Calibration &calibration,
+                                 const Draw &draw);
+
+struct Crushing {
+  int material = 0;                ///< place in Calibration::materials
+  double diameter = 0.0;           ///< [um]
+  Band load;                       ///< of the draws, with the model's error [mN]
+  double measured = 0.0, sd = 0.0; ///< [mN]; 0: not measured
+};
+
+/// Of each material, at the diameters that were measured, or that the bank has. Empty if the bank has
+/// no crushed particles.
+std::vector<Crushing> crushing_of(const FilmBank &bank, const Calibration &calibration);
+
+} // namespace calendem
+
+#endif

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "predict/crushing_loads.h"
+#include "base/csv_table.h"
+#include "base/messages.h"
+#include "base/provenance.h"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace calendem {
+namespace {
+
+constexpr std::size_t kFewestParticles = 4;
+constexpr double kBeside = 0.02; // beyond the diameters, as a fraction of them
+
+Eigen::Vector2d of(double diameter) { return {1.0, std::log(diameter)}; }
+
+} // namespace
+
+CrushingLoads::CrushingLoads(const std::string &file) {
+  const CsvTable table = CsvTable::parse(text_of_file(file));
+  const std::vector<double> d = table.numbers("diameter_um"), s = table.numbers("strength_MPa"),
+                            load = table.numbers("load_mN");
+  for (const auto *column : {&d, &s, &load})
+    for (std::size_t k = 0; k < column->size(); ++k)
+      if (!((*column)[k] > 0.0))
+        throw Failure(kBadInput, fmt::format("{}: row {} has a value that is no positive number. "
+                                             "Columns: diameter_um, strength_MPa, load_mN.",
+                                             file, k + 1));
+  diameters_ = d;
+  std::sort(diameters_.begin(), diameters_.end());
+  diameters_.erase(std::unique(diameters_.begin(), diameters_.end()), diameters_.end());
+  if (!table.bad_lines().empty() || d.size() < kFewestParticles || diameters_.size() < 2)
+    throw Failure(kBadInput,
+                  fmt::format("{}: {} whole rows of {} diameters; at least {} particles of two "
+                              "diameters are needed (diameter_um, strength_MPa, load_mN).",
+                              file, d.size(), diameters_.size(), kFewestParticles));
+  const auto n = Eigen::Index(d.size());
+  Eigen::MatrixX2d at(n, 2);
+  Eigen::VectorXd y(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    at.row(k) = of(d[std::size_t(k)]);
+    y[k] = std::log(load[std::size_t(k)] / s[std::size_t(k)]);
+  }
+  const Eigen::Matrix2d inverse = (at.transpose() * at).inverse();
+  line_ = inverse * (at.transpose() * y);
+  line_covariance_ = inverse * ((y - at * line_).squaredNorm() / double(n - 2));
+}
+
+bool CrushingLoads::covers(double diameter) const {
+  return diameter >= (1.0 - kBeside) * diameters_.front() &&
+         diameter <= (1.0 + kBeside) * diameters_.back();
+}
+
+double CrushingLoads::log_load(double diameter, double strength) const {
+  return std::log(strength) + line_.dot(of(diameter));
+}
+
+double CrushingLoads::covariance(double diameter, double other) const {
+  return of(diameter).dot(line_covariance_ * of(other));
+}
+
+} // namespace calendem
