@@ -107,6 +107,27 @@ TEST(Crushed, OneLoadTellsTheStrengthAsFarAsTheModelGoes) {
   EXPECT_NEAR(found.sd, expected.sd, 0.1 * expected.sd);
 }
 
+// With four crushed particles in the bank, which scatter by a factor of 1.8, the line is what is known least.
+TEST(Crushed, FewParticlesInTheBankSayLess) {
+  BankTable few = made_coatings({});
+  few.spec.crushing_file = table("5,500,45\n5,500,14\n20,500,180\n20,500,55\n");
+  const FilmBank bank(few);
+  const double load = std::exp(bank.crushing()->log_load(10.0, 500.0)),
+               open = bank.crushing()->covariance(10.0, 10.0);
+  EXPECT_GT(open, kCrushingModel * kCrushingModel);
+  Calibration c;
+  c.films = {made_film("a", 48.0, 2.0)};
+  c.crushed = {{0, 10.0, load, 0.1 * load}};
+  const auto at = [&](double strength) {
+    Draw d;
+    d.materials = {{{190.0, 2.4, strength}, {}}};
+    return log_likelihood(bank, c, d);
+  };
+  const double off = std::log(800.0 / 500.0);
+  EXPECT_NEAR(at(500.0) - at(800.0),
+              0.5 * off * off / (open + kCrushingModel * kCrushingModel + 0.01), 1e-9);
+}
+
 // The model's error is common to all: many particles do not make it smaller.
 TEST(Crushed, TheModelsErrorRemainsWithManyLoads) {
   const CrushingLoads &loads = *made_film_bank().crushing();
