@@ -157,20 +157,41 @@ TEST(Crushed, LoadsAreThoseOfTheirMaterial) {
   EXPECT_GT(strength_in(c, 1).mean - strength_in(c, 0).mean, 0.1);
 }
 
-// The load that was measured, as the draws have it: between the measured one and the prior's.
-TEST(Crushed, PredictedLoadsHoldTheModelsError) {
+// Where a load was read within 10 %, it is known as well, whatever the strength. At another diameter the model's error is the
+// same; only the line's is not.
+TEST(Crushed, PredictedLoadsAreGivenTheReadings) {
   const CrushingLoads &loads = *made_film_bank().crushing();
   const double load = std::exp(loads.log_load(10.0, 500.0));
   const Calibration c = crushed({{0, 10.0, load, 0.1 * load}});
   const std::vector<Crushing> rows = crushing_of(made_film_bank(), c);
-  ASSERT_EQ(rows.size(), 1u);
-  EXPECT_NEAR(std::log(rows[0].load.median), strength_in(c).mean - std::log(500.0) + std::log(load),
-              0.05);
-  const double sd = std::sqrt(std::pow(strength_in(c).sd, 2) + kCrushingModel * kCrushingModel +
-                              loads.covariance(10.0, 10.0));
-  EXPECT_NEAR(std::log(rows[0].load.high90 / rows[0].load.low90), 2 * 1.645 * sd, 0.15 * sd);
-  EXPECT_EQ(rows[0].measured, load);
-  EXPECT_EQ(crushing_of(made_film_bank(), crushed({})).size(), 4u); // the bank's diameters
+  ASSERT_EQ(rows.size(), 4u); // 5, 7, 10, 12 um
+  const Crushing &read = rows[2], &other = rows[0];
+  EXPECT_EQ(read.measured, load);
+  EXPECT_EQ(other.measured, 0.0);
+  const auto width = [](const Crushing &row) {
+    return std::log(row.load.high90 / row.load.low90) / (2 * 1.645);
+  };
+  const double model = kCrushingModel * kCrushingModel, of_strength = strength_in(c).sd,
+               here = model + loads.covariance(10.0, 10.0), share = here / (here + 0.01);
+  EXPECT_NEAR(std::log(read.load.median / load), 0.0, 0.02);
+  EXPECT_NEAR(width(read), std::hypot(std::sqrt(here * (1 - share)), (1 - share) * of_strength),
+              0.01);
+  const double both = model + loads.covariance(10.0, 5.0);
+  const double left = model + loads.covariance(5.0, 5.0) - both * both / (here + 0.01);
+  EXPECT_NEAR(width(other), std::hypot(std::sqrt(left), (1 - both / (here + 0.01)) * of_strength),
+              0.02);
+}
+
+TEST(Crushed, LoadsThatWereNotReadHoldTheModelsError) {
+  const CrushingLoads &loads = *made_film_bank().crushing();
+  const Calibration c = crushed({});
+  const Crushing row = crushing_of(made_film_bank(), c)[2];
+  const double sd = std::sqrt(kCrushingModel * kCrushingModel + loads.covariance(10.0, 10.0));
+  Mixture logs; // the prior is even in the logarithm
+  for (int k = 0; k < 1000; ++k)
+    logs.of.push_back({loads.log_load(10.0, 250.0 * std::pow(4.0, (k + 0.5) / 1000)), sd * sd});
+  EXPECT_NEAR(std::log(row.load.low90), logs.quantile(0.05), 0.02);
+  EXPECT_NEAR(std::log(row.load.high90), logs.quantile(0.95), 0.02);
 }
 
 TEST(Crushed, WhatTheBankCannotSayIsLeftOut) {

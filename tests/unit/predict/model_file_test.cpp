@@ -109,6 +109,19 @@ TEST(ModelFile, WhatIsNoModelOrHasAnotherBankIsRefused) {
   EXPECT_NE(refusal(d.file).find("no model of calendem calibrate"), std::string::npos);
   write_file(d.file, whole);
   EXPECT_EQ(refusal(d.file), "");
+  std::string other = whole; // a film of a material that is not there
+  other.replace(other.find("\"material\": 0"), 13, "\"material\": 7");
+  write_file(d.file, other);
+  EXPECT_NE(refusal(d.file).find("a film's material is 7"), std::string::npos);
+  write_file(d.file, whole);
+  for (const char *file : {"electrode.toml", "case.toml", "crushing.csv"}) { // that the bank reads
+    const std::string name = (d.folder / "coatings" / file).string(), text = text_of_file(name);
+    write_file(name, text + "\n");
+    EXPECT_NE(refusal(d.file).find(std::string(file) + " is not there or has changed"),
+              std::string::npos)
+        << refusal(d.file);
+    write_file(name, text);
+  }
   write_file(table_file(d.bank_file), text_of_file(table_file(d.bank_file)) + "\n");
   EXPECT_NE(refusal(d.file).find("has changed since"), std::string::npos);
 }

@@ -182,6 +182,33 @@ TEST(Chances, AnAssuredProbabilityHoldsForFourOfFiveMaterials) {
   EXPECT_EQ(best_of({{80.0, 0.1, 1.0, 1.0, 0.1, 0.0}, {90.0, 0.2, 1.0, 1.0, 0.2, 0.0}}), 1u);
 }
 
+// Runs of a film's own are few draws: of five the second lowest is assured, of ten the third.
+TEST(Chances, OfFewDrawsFourOfFiveReachTheAssured) {
+  for (const int n : {5, 10, 20, 400}) {
+    std::vector<double> all; // of the draws, ascending
+    Guesses after;
+    for (int k = 0; k < n; ++k) {
+      after.push_back({{0.3, std::pow(0.01 * (n - k), 2)}});
+      all.push_back(std::erf(1.0 / (n - k) / std::sqrt(2.0)));
+    }
+    const auto c = chances_from({80.0}, [&](FilmNumber) { return after; }, {0.3, 0.01, 1.0});
+    EXPECT_NEAR(c[0].assured, all[std::size_t(n / 5)], 1e-9) << n;
+  }
+}
+
+// A run may lack a number, here its tortuosity: that draw does not count, the others stay what they are.
+TEST(Chances, ADrawThatLacksANumberIsLeftOut) {
+  const auto of = [](FilmNumber number) {
+    if (number == FilmNumber::InverseTortuosity)
+      return Guesses{{{NAN, 0.0}}, {{0.5, 0.0}}, {{0.2, 0.0}}};
+    return Guesses{{{0.0, 0.0}}, {{0.3, 0.0}}, {{0.3, 0.0}}}; // the first would miss the porosity
+  };
+  const auto c = chances_from({80.0}, of, {0.3, 0.01, 1.0, 3.0});
+  EXPECT_EQ(c[0].porosity, 1.0);
+  EXPECT_EQ(c[0].tortuosity, 0.5);
+  EXPECT_EQ(c[0].all, 0.5);
+}
+
 // The pressure that gives the middle of the target is the best, and a bound on cracks takes the high ones away.
 TEST(Chances, ThePressureThatMeetsTheTargetIsTheBest) {
   const Film film = made_film("x", 46.0, 2.0);

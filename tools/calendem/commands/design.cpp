@@ -29,9 +29,10 @@ SetBy set_by(const FilmOptions &o) { return o.gaps.empty() ? SetBy::Pressure : S
 
 void note_outside(const GapDraws &draws, Design &d) {
   if (const double outside = draws.below[d.best] + draws.above[d.best]; outside >= 0.01)
-    d.predicted.beyond.push_back(fmt::format("with {:.0f} % the gap takes a pressure outside the "
-                                             "bank's; cracks and springback are those at its end",
-                                             kPercent * outside));
+    d.predicted.beyond.push_back(fmt::format(
+        "with {:.0f} % the gap takes a pressure outside the bank's; {} at its end",
+        kPercent * outside,
+        draws.runs > 0 ? "the model error is that" : "cracks and springback are those"));
 }
 
 /// What a film offers at the pressures or gaps asked for.

@@ -85,7 +85,7 @@ void run_predict_at_gaps(const FilmOptions &o) {
                a.films[k].name);
     for (const AtGap &at : all[k])
       say(at);
-    for (const std::string &text : a.model.bank.beyond(a.films[k]))
+    for (const std::string &text : beyond_at_gaps(a.model.bank, a.films[k], all[k].front().runs))
       fmt::print("  note: {}\n", text);
   }
   fmt::print("page: {0}/gap.html\ntable: {0}/gap.csv\n", o.folder);

@@ -89,10 +89,13 @@ void make_bank(const Options &o) {
     if (parts.size() < 2)
       throw Failure(kBadInput, spec.file + " has no table [full_cell].");
     parts[1].options.folder = o.study.folder;
-    return make_study(parts[1].study, parts[1].options);
+    make_study(parts[1].study, parts[1].options);
+    return;
   }
-  if (o.study.step != StudyStep::All || o.study.only > 0) // a task among many: the table is not its
-    return make_study(parts[0].study, o.study);
+  if (o.study.step != StudyStep::All || o.study.only > 0) { // of many tasks: the table is not its
+    make_study(parts[0].study, o.study);
+    return;
+  }
   std::optional<Failure> failed; // of some runs: the other part is made all the same
   for (const Part &part : parts)
     try {

@@ -200,9 +200,8 @@ nlohmann::ordered_json rerun(const Experiment &experiment, const BankTable &tabl
   study.keep_all =
       std::any_of(experiment.conditions.begin(), experiment.conditions.end(),
                   [&](const Condition &c) { return has_images_beside(experiment, c); });
-  make_study(study, options.study);
   const BankTable runs =
-      table_of(table, models, options.packings, finished_runs(study, options.study), pressures);
+      table_of(table, models, options.packings, make_study(study, options.study), pressures);
   const ExperimentData data = data_of(experiment, runs, experiment.test, table);
   HeldOut held_out = held_out_of(data);
   std::vector<Matrix> simulated(models.size(), Matrix(held_out.measured.size(), options.packings));

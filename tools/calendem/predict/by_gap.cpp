@@ -59,7 +59,8 @@ void check_gap(const Film &film, double gap, double solid, double before) {
 Mixture of_gap(const Guesses &draws, std::size_t gap) {
   Mixture out;
   for (const std::vector<Guess> &d : draws)
-    out.of.push_back(d[gap]);
+    if (std::isfinite(d[gap].mean))
+      out.of.push_back(d[gap]);
   return out;
 }
 
@@ -202,10 +203,17 @@ GuessesOf numbers_at_gaps(const GapDraws &draws) {
   };
 }
 
+std::vector<std::string> beyond_at_gaps(const FilmBank &bank, const Film &film, int runs) {
+  Film own = film;
+  if (runs > 0)
+    own.sizes = 0.0; // runs have its own particles
+  return bank.beyond(own);
+}
+
 PredictedFilm film_at_gaps(const FilmBank &bank, const GapDraws &draws) {
   PredictedFilm out;
   out.film = draws.film;
-  out.beyond = bank.beyond(draws.film);
+  out.beyond = beyond_at_gaps(bank, draws.film, draws.runs);
   out.runs = draws.runs;
   for (const AtGap &at : at_gaps(draws)) {
     out.pressures.push_back(at.pressure.median);

@@ -59,6 +59,9 @@ GapDraws gaps_of(const FilmBank &bank, const Film &film, const std::vector<doubl
 std::vector<AtGap> at_gaps(const GapDraws &draws);
 /// The porosity after release follows from gap and springback.
 GuessesOf numbers_at_gaps(const GapDraws &draws);
+/// In what a film lies beyond the bank, in words. Runs need the emulators only for what the model
+/// error changes.
+std::vector<std::string> beyond_at_gaps(const FilmBank &bank, const Film &film, int runs);
 /// Its pressures are the medians of those that the gaps take.
 PredictedFilm film_at_gaps(const FilmBank &bank, const GapDraws &draws);
 

@@ -271,8 +271,9 @@ std::string of_material(const Calibration &c, std::size_t material) {
 }
 
 bool is_same_film(const Film &a, const Film &b) {
-  return a.material == b.material && a.recipe == b.recipe && a.sizes == b.sizes &&
-         a.nanoporosity == b.nanoporosity && std::fabs(a.loading - b.loading) <= 1e-9 * b.loading;
+  return a.of_bank == b.of_bank && a.material == b.material && a.recipe == b.recipe &&
+         a.sizes == b.sizes && a.nanoporosity == b.nanoporosity &&
+         std::fabs(a.loading - b.loading) <= 1e-9 * b.loading;
 }
 
 std::vector<Guess> missed_given_data(const FilmBank &bank, const Calibration &c, const Draw &draw,

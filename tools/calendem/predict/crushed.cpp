@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "predict/crushed.h"
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -36,53 +37,94 @@ void add_crushed(const Experiment &e, const FilmBank &bank, int material, Calibr
                             p.load_mN.sd > 0.0 ? p.load_mN.sd : kUsualLoadSd * p.load_mN.value});
 }
 
+namespace {
+
+/// Between the true loads at two diameters: what the line and the model are off by.
+double covariance_between(const CrushingLoads &loads, const Crushing &a, const Crushed &b) {
+  return loads.covariance(a.diameter, b.diameter) +
+         (a.material == b.material ? kCrushingModel * kCrushingModel : 0.0);
+}
+
+/// Of the logarithms of the loads that were read.
+Matrix covariance_of(const CrushingLoads &loads, const std::vector<Crushed> &read) {
+  const auto n = Eigen::Index(read.size());
+  Matrix out(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const Crushed &a = read[std::size_t(i)];
+      out(i, j) = covariance_between(loads, {a.material, a.diameter, {}}, read[std::size_t(j)]) +
+                  (i == j ? std::pow(a.sd / a.load, 2) : 0.0);
+    }
+  return out;
+}
+
+/// Logarithms read less those of the line, for the strength of the draw.
+Vector off_line(const FilmBank &bank, const std::vector<Crushed> &read, const Draw &draw) {
+  Vector out{Eigen::Index(read.size())};
+  for (std::size_t k = 0; k < read.size(); ++k)
+    out[Eigen::Index(k)] =
+        std::log(read[k].load) -
+        bank.crushing()->log_load(read[k].diameter,
+                                  strength_of(bank, draw.materials[std::size_t(read[k].material)]));
+  return out;
+}
+
+/// Rows to fill, of each material: the bank's diameters and those that were read.
+std::vector<Crushing> rows_of(const FilmBank &bank, const Calibration &c) {
+  std::vector<Crushing> out;
+  for (std::size_t m = 0; m < c.materials.size(); ++m) {
+    std::vector<Crushing> rows;
+    for (const double d : bank.crushing()->diameters())
+      rows.push_back({int(m), d, {}});
+    for (const Crushed &k : c.crushed) {
+      if (k.material != int(m))
+        continue;
+      const auto at = std::find_if(rows.begin(), rows.end(), [&](const Crushing &row) {
+        return row.diameter == k.diameter && row.measured == 0.0;
+      });
+      if (at == rows.end())
+        rows.push_back({int(m), k.diameter, {}, k.load, k.sd});
+      else
+        *at = {int(m), k.diameter, {}, k.load, k.sd};
+    }
+    std::stable_sort(rows.begin(), rows.end(),
+                     [](const Crushing &a, const Crushing &b) { return a.diameter < b.diameter; });
+    out.insert(out.end(), rows.begin(), rows.end());
+  }
+  return out;
+}
+
+} // namespace
+
 double log_likelihood_of_crushed(const FilmBank &bank, const Calibration &c, const Draw &draw) {
   if (c.crushed.empty())
     return 0.0;
-  const CrushingLoads &loads = *bank.crushing();
-  const auto n = Eigen::Index(c.crushed.size());
-  Vector off(n);
-  Matrix covariance(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Crushed &a = c.crushed[std::size_t(i)];
-    off[i] = std::log(a.load) -
-             loads.log_load(a.diameter, strength_of(bank, draw.materials[std::size_t(a.material)]));
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const Crushed &b = c.crushed[std::size_t(j)];
-      covariance(i, j) = loads.covariance(a.diameter, b.diameter);
-      if (a.material == b.material)
-        covariance(i, j) += kCrushingModel * kCrushingModel;
-      if (i == j)
-        covariance(i, j) += std::pow(a.sd / a.load, 2);
-    }
-  }
-  return -0.5 * off.dot(Cholesky(covariance).solve(off));
+  const Vector off = off_line(bank, c.crushed, draw);
+  return -0.5 * off.dot(Cholesky(covariance_of(*bank.crushing(), c.crushed)).solve(off));
 }
 
 std::vector<Crushing> crushing_of(const FilmBank &bank, const Calibration &c) {
-  std::vector<Crushing> out;
   if (!bank.crushing() || bank.strength() < 0)
-    return out;
+    return {};
   const CrushingLoads &loads = *bank.crushing();
-  for (std::size_t m = 0; m < c.materials.size(); ++m) {
-    std::vector<Crushing> rows;
-    for (const Crushed &k : c.crushed)
-      if (k.material == int(m))
-        rows.push_back({int(m), k.diameter, {}, k.load, k.sd});
-    if (rows.empty())
-      for (const double d : loads.diameters())
-        rows.push_back({int(m), d, {}});
-    for (Crushing &row : rows) {
-      Mixture logs;
-      for (const Draw &d : c.draws)
-        logs.of.push_back(
-            {loads.log_load(row.diameter, strength_of(bank, d.materials[m])),
-             loads.covariance(row.diameter, row.diameter) + kCrushingModel * kCrushingModel});
-      const Band b = band_of(logs, -INFINITY, INFINITY);
-      row.load = {std::exp(b.median), std::exp(b.low50), std::exp(b.high50), std::exp(b.low90),
-                  std::exp(b.high90)};
-      out.push_back(row);
-    }
+  std::vector<Crushing> out = rows_of(bank, c);
+  const Cholesky of_read(covariance_of(loads, c.crushed));
+  for (Crushing &row : out) {
+    Vector with{Eigen::Index(c.crushed.size())};
+    for (std::size_t k = 0; k < c.crushed.size(); ++k)
+      with[Eigen::Index(k)] = covariance_between(loads, row, c.crushed[k]);
+    const Vector weights = of_read.solve(with);
+    const double left = loads.covariance(row.diameter, row.diameter) +
+                        kCrushingModel * kCrushingModel - with.dot(weights);
+    Mixture logs;
+    for (const Draw &d : c.draws)
+      logs.of.push_back(
+          {loads.log_load(row.diameter, strength_of(bank, d.materials[std::size_t(row.material)])) +
+               weights.dot(off_line(bank, c.crushed, d)),
+           left});
+    const Band b = band_of(logs, -INFINITY, INFINITY);
+    row.load = {std::exp(b.median), std::exp(b.low50), std::exp(b.high50), std::exp(b.low90),
+                std::exp(b.high90)};
   }
   return out;
 }

@@ -23,12 +23,12 @@ double log_likelihood_of_crushed(const FilmBank &bank, const Calibration &calibr
 struct Crushing {
   int material = 0;                ///< place in Calibration::materials
   double diameter = 0.0;           ///< [um]
-  Band load;                       ///< of the draws, with the model's error [mN]
+  Band load;                       ///< at which half of the particles break [mN]
   double measured = 0.0, sd = 0.0; ///< [mN]; 0: not measured
 };
 
-/// Of each material, at the diameters that were measured, or that the bank has. Empty if the bank has
-/// no crushed particles.
+/// Of each material, at the bank's diameters and those that were measured: under all draws, given the
+/// loads that were measured. Empty if the bank has no crushed particles.
 std::vector<Crushing> crushing_of(const FilmBank &bank, const Calibration &calibration);
 
 } // namespace calendem

@@ -30,6 +30,9 @@ std::string case_of(const FilmBank &bank, const Calibration &calibration, std::s
 /// The bank's table beside its file, with the file's name.
 std::string table_file(const std::string &bank_file);
 
+/// The other files that a bank reads: recipes, cases, crushed particles.
+std::vector<std::string> files_beside(const BankSpec &spec);
+
 struct Model {
   FilmBank bank;
   Calibration calibration;

@@ -48,6 +48,7 @@ struct Film {
   double sizes = 0.0;         ///< ln of its particles' median by volume over the bank's
   int material = 0;           ///< place in Draw::materials
   double nanoporosity = 0.5;  ///< of its recipe's CBD, 0-1
+  bool of_bank = true;        ///< of the bank's kind: its parameters say all about it
 };
 
 struct Acting {
@@ -91,6 +92,8 @@ public:
   Film film_of(const Recipe &recipe) const;
   /// The same of any electrode: what the bank's parameters are for it.
   Film described(const Recipe &recipe) const;
+  /// In what a recipe is another electrode than the bank's, in words.
+  std::vector<std::string> differences(const Recipe &recipe) const;
   /// Its thickness without pores [um].
   double solid_column(const Film &film) const;
   /// Its table has the number; broken bonds, tortuosity and nanoporosity may be missing.

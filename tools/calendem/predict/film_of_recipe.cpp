@@ -75,6 +75,7 @@ Film FilmBank::described(const Recipe &recipe) const {
   out.name = recipe.settings.text("name");
   out.loading = volumes.loading;
   out.nanoporosity = recipe.nanoporosity;
+  out.of_bank = differences(recipe).empty();
   for (const BankParameter &p : film_) {
     double sum = 0.0;
     for (const std::string &key : p.keys) {
@@ -90,6 +91,15 @@ Film FilmBank::described(const Recipe &recipe) const {
 }
 
 Film FilmBank::film_of(const Recipe &recipe) const {
+  if (const auto differs = differences(recipe); !differs.empty())
+    throw Failure(kBadInput, fmt::format("{}: the film is not of the bank's kind; {}. Make a bank "
+                                         "of it (calendem bank; copy {} and change its recipe), "
+                                         "or predict it by runs of its own (--runs).",
+                                         recipe.file, fmt::join(differs, "; "), spec_.file));
+  return described(recipe);
+}
+
+std::vector<std::string> FilmBank::differences(const Recipe &recipe) const {
   const Recipe &bank = recipe_;
   std::map<std::string, std::string> wanted = bank.settings.all();
   const auto any = [&](const char *key) { wanted[key] = recipe.settings.text(key); };
@@ -107,12 +117,7 @@ Film FilmBank::film_of(const Recipe &recipe) const {
   if (has_like_particles(recipe, bank))
     for (const char *key : {"particles.median_um", "particles.sigma_ln"})
       any(key);
-  if (const auto differs = other_electrode(wanted, recipe.settings.all()); !differs.empty())
-    throw Failure(kBadInput, fmt::format("{}: the film is not of the bank's kind; {}. Make a bank "
-                                         "of it (calendem bank; copy {} and change its recipe), "
-                                         "or predict it by runs of its own (--runs).",
-                                         recipe.file, fmt::join(differs, "; "), spec_.file));
-  return described(recipe);
+  return other_electrode(wanted, recipe.settings.all());
 }
 
 double FilmBank::carbon_and_binder(const Film &film) const {

@@ -20,8 +20,8 @@ std::string gap_table(const FilmBank &bank, const std::vector<Film> &films,
 Json gap_json(const FilmBank &bank, const Film &film, const std::vector<AtGap> &at) {
   const FilmSheet sheet = sheet_of({film}, {at});
   Json out = film_json(bank, film);
-  out["beyond"] = bank.beyond(film);
   const int runs = at.empty() ? 0 : at.front().runs;
+  out["beyond"] = beyond_at_gaps(bank, film, runs);
   out["by"] = runs == 0 ? Json("emulators") : Json{{"runs", runs}};
   out["predicted"] = rows_json(sheet, sheet.films[0]);
   return out;

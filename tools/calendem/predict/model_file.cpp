@@ -228,12 +228,26 @@ std::string table_file(const std::string &bank_file) {
   return std::filesystem::path(bank_file).replace_extension("csv").string();
 }
 
+std::vector<std::string> files_beside(const BankSpec &spec) {
+  std::vector<std::string> out = {spec.recipe_file, spec.case_file};
+  if (spec.full_cell.points > 0)
+    out.insert(out.end(), {spec.full_cell.recipe_file, spec.full_cell.case_file});
+  if (!spec.crushing_file.empty())
+    out.push_back(spec.crushing_file);
+  return out;
+}
+
 Json to_json(const FilmBank &bank, const Calibration &c, const std::vector<LeftOut> &rows) {
   const std::string &file = bank.spec().file;
+  Json beside = Json::array();
+  for (const std::string &other : files_beside(bank.spec()))
+    beside.push_back({{"file", std::filesystem::absolute(other).lexically_normal().string()},
+                      {"hash", hash_of_file(other)}});
   return {{"bank",
            {{"file", std::filesystem::absolute(file).string()},
             {"hash", hash_of_file(file)},
-            {"table_hash", hash_of_file(table_file(file))}}},
+            {"table_hash", hash_of_file(table_file(file))},
+            {"beside", beside}}},
           {"materials", c.materials},
           {"films", films_of(bank, c)},
           {"data", data_of(c)},

@@ -60,6 +60,9 @@ Calibration calibration_of(const FilmBank &bank, const Json &json) {
     Film f;
     f.name = row.at("name");
     f.material = row.at("material");
+    if (f.material < 0 || f.material >= int(out.materials.size()))
+      throw Failure(kBadInput, fmt::format("a film's material is {}; there are {}.", f.material,
+                                           out.materials.size()));
     f.loading = row.at("loading_mg_cm2");
     f.nanoporosity = row.at("nanoporosity");
     f.sizes = row.at("sizes");
@@ -113,14 +116,16 @@ Json parsed(const std::string &file) {
 /// The bank that the model was made from, there and unchanged.
 FilmBank bank_of(const std::string &file, const Json &json) {
   const std::string bank = json.at("bank").at("file");
-  const auto unchanged = [&](const std::string &of, const char *key) {
-    if (hash_of_file(of) != json.at("bank").at(key).get<std::string>())
+  const auto unchanged = [&](const std::string &of, const Json &hash) {
+    if (hash_of_file(of) != hash.get<std::string>())
       throw Failure(kBadInput, fmt::format("{}: {} is not there or has changed since the model was "
                                            "calibrated on it. Calibrate again.",
                                            file, of));
   };
-  unchanged(bank, "hash");
-  unchanged(table_file(bank), "table_hash");
+  unchanged(bank, json.at("bank").at("hash"));
+  unchanged(table_file(bank), json.at("bank").at("table_hash"));
+  for (const Json &other : json.at("bank").at("beside"))
+    unchanged(other.at("file"), other.at("hash"));
   return FilmBank(read_bank_table(read_bank_spec(bank), table_file(bank)));
 }
 

@@ -119,10 +119,13 @@ Study own_runs_at_gaps(const FilmBank &bank, const std::vector<Draw> &draws, con
 void add_press_error(Guesses &draws, const std::vector<double> &pressures, double pressure_sd) {
   const std::size_t last = pressures.size() - 1;
   const auto mean_at = [&](std::size_t k) {
-    double sum = 0.0;
+    double sum = 0.0, n = 0.0;
     for (const std::vector<Guess> &d : draws)
-      sum += d[k].mean;
-    return sum / double(draws.size());
+      if (std::isfinite(d[k].mean)) {
+        sum += d[k].mean;
+        n += 1.0;
+      }
+    return sum / n;
   };
   for (std::size_t k = 0; k <= last; ++k) {
     const std::size_t low = k > 0 ? k - 1 : 0, high = std::min(k + 1, last);
@@ -135,8 +138,13 @@ void add_press_error(Guesses &draws, const std::vector<double> &pressures, doubl
 
 namespace {
 
-bool all_known(const std::vector<Guess> &row) {
-  return std::all_of(row.begin(), row.end(), [](const Guess &g) { return std::isfinite(g.mean); });
+/// Some run has the number at every pressure or gap. One may lack it, as the rows of a release.
+bool known(const Guesses &draws) {
+  for (std::size_t k = 0; !draws.empty() && k < draws.front().size(); ++k)
+    if (std::none_of(draws.begin(), draws.end(),
+                     [k](const auto &row) { return std::isfinite(row[k].mean); }))
+      return false;
+  return !draws.empty();
 }
 
 OwnRuns made(const Study &study, const std::vector<Draw> &draws, const StudyOptions &options) {
@@ -167,9 +175,10 @@ ByRuns by_runs(const FilmBank &bank, const Calibration &c, const Recipe &recipe,
           missed_given_data(bank, c, own.draws[d], {film, number, pressures}, false);
       for (std::size_t k = 0; k < pressures.size(); ++k)
         row[k].mean += value_of(number, own.runs[d][k]);
-      if (all_known(row))
-        all[number].push_back(row); // a release may lack the rows of the modulus
+      all[number].push_back(row);
     }
+    if (!known(all[number]))
+      all[number].clear();
   }
   for (const auto number : {FilmNumber::PorosityAfter, FilmNumber::LogModulus})
     if (all[number].empty())
@@ -261,10 +270,9 @@ GapDraws from_runs_at_gaps(const FilmBank &bank, const Calibration &c, GapDraws 
     at.above[k] = std::max(at.above[k], above);
   }
   at.runs = int(draws.size());
-  for (Guesses *of : {&at.broken, &at.inverse_tortuosity}) // a run may lack them
-    of->erase(std::remove_if(of->begin(), of->end(),
-                             [](const std::vector<Guess> &row) { return !all_known(row); }),
-              of->end());
+  for (Guesses *of : {&at.broken, &at.inverse_tortuosity})
+    if (!known(*of))
+      of->clear();
   return at;
 }
 

@@ -22,9 +22,10 @@ double share_below(const Guess &g, double value) {
 std::vector<Band> bands_of(const Guesses &draws, double low, double high) {
   std::vector<Band> out;
   for (std::size_t k = 0; k < draws.front().size(); ++k) {
-    Mixture m;
+    Mixture m; // a run may lack a number, as the rows of a release
     for (const std::vector<Guess> &d : draws)
-      m.of.push_back(d[k]);
+      if (std::isfinite(d[k].mean))
+        m.of.push_back(d[k]);
     out.push_back(band_of(m, low, high));
   }
   return out;
@@ -151,21 +152,27 @@ std::vector<Chance> chances_from(const std::vector<double> &settings, const Gues
     Chance chance;
     chance.at = settings[k];
     std::vector<double> all;
-    const auto n = double(after.size());
     for (std::size_t d = 0; d < after.size(); ++d) {
+      if (!std::isfinite(after[d][k].mean + cracked[d][k].mean) ||
+          (!any_tortuosity && !std::isfinite(inverse[d][k].mean)))
+        continue; // a run may lack a number
       const double porosity = share_below(after[d][k], target.porosity + target.within) -
                               share_below(after[d][k], target.porosity - target.within);
       const double whole =
           target.cracked_below >= 1.0 ? 1.0 : share_below(cracked[d][k], target.cracked_below);
       const double open =
           any_tortuosity ? 1.0 : 1.0 - share_below(inverse[d][k], 1.0 / target.tortuosity_below);
-      chance.porosity += porosity / n;
-      chance.cracked += whole / n;
-      chance.tortuosity += open / n;
+      chance.porosity += porosity;
+      chance.cracked += whole;
+      chance.tortuosity += open;
       all.push_back(porosity * whole * open);
     }
+    const auto n = double(all.size());
+    for (double *sum : {&chance.porosity, &chance.cracked, &chance.tortuosity})
+      *sum /= n;
     chance.all = std::accumulate(all.begin(), all.end(), 0.0) / n;
-    const auto least = all.begin() + std::ptrdiff_t((1.0 - kAssured) * n);
+    // 1 - 0.8 is a little less than a fifth
+    const auto least = all.begin() + std::ptrdiff_t((1.0 - kAssured) * n + 1e-9);
     std::nth_element(all.begin(), least, all.end());
     chance.assured = *least;
     out.push_back(chance);

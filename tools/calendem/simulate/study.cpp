@@ -28,16 +28,17 @@ void stop_if_failed(const Making &making) {
 
 } // namespace
 
-std::vector<std::string> finished_runs(const Study &study, StudyOptions o) {
-  o.folder = fs::absolute(o.folder).lexically_normal().string();
-  o.liggghts = fs::absolute(o.liggghts).lexically_normal().string();
-  return Making(study, o).finished();
-}
+namespace {
 
-void make_study(const Study &study, StudyOptions o) {
+StudyOptions at_whole_paths(StudyOptions o) {
   o.folder = fs::absolute(o.folder).lexically_normal().string();
   o.liggghts = fs::absolute(o.liggghts).lexically_normal().string();
   o.slurm.on = o.slurm.on || o.slurm.dry_run;
+  return o;
+}
+
+/// The folders of a study that can be made.
+void prepare(const Study &study, const StudyOptions &o) {
   const int n = static_cast<int>(study.runs.size());
   if (o.only > n)
     throw Failure(kBadInput, fmt::format("--only {}: the study has {} runs.", o.only, n));
@@ -46,7 +47,10 @@ void make_study(const Study &study, StudyOptions o) {
   make_output_folder(o.folder);
   fs::create_directories(o.folder + "/packings");
   fs::create_directories(o.folder + "/runs");
-  Making making(study, o);
+}
+
+void make(Making &making, const Study &study, const StudyOptions &o) {
+  const int n = static_cast<int>(study.runs.size());
   write_file(o.folder + "/study.json", making.description().dump(2) + "\n");
   fmt::print("study: {} runs, {} of them done already -> {}\n", n, n - making.runs_to_make().size(),
              o.folder);
@@ -64,16 +68,33 @@ void make_study(const Study &study, StudyOptions o) {
   stop_if_failed(making);
 }
 
+} // namespace
+
+std::vector<std::string> finished_runs(const Study &study, const StudyOptions &options) {
+  return Making(study, at_whole_paths(options)).finished();
+}
+
+std::vector<std::string> make_study(const Study &study, const StudyOptions &options) {
+  const StudyOptions o = at_whole_paths(options);
+  prepare(study, o);
+  Making making(study, o);
+  make(making, study, o);
+  return making.finished();
+}
+
 std::vector<std::string> make_what_runs(const Study &study, const StudyOptions &options,
                                         const std::string &parts) {
+  const StudyOptions o = at_whole_paths(options);
+  prepare(study, o);
+  Making making(study, o);
   try {
-    make_study(study, options);
+    make(making, study, o);
   } catch (const Failure &f) {
     if (f.exit_status() == kBadInput || stop_requested() != 0)
       throw;
     fmt::print("study: {}\n{} with such runs are left out.\n", f.what(), parts);
   }
-  return finished_runs(study, options);
+  return making.finished();
 }
 
 namespace {

@@ -32,16 +32,17 @@ struct StudyOptions {
   SlurmOptions slurm;
 };
 
-/// Writes packings/, runs/, study.csv (after every run) and study.json into the folder; with Slurm
-/// also slurm/, the scripts and what its jobs said. Throws Failure: 2 bad input, or Slurm refused
-/// the jobs; 3 a run failed (the others were made), 4 checks of a run did not hold.
-void make_study(const Study &study, StudyOptions options);
-
 /// Folders of the runs in their order; empty where a run is not done or its checks did not hold.
-std::vector<std::string> finished_runs(const Study &study, StudyOptions options);
+std::vector<std::string> finished_runs(const Study &study, const StudyOptions &options);
+
+/// Writes packings/, runs/, study.csv (after every run) and study.json into the folder; with Slurm
+/// also slurm/, the scripts and what its jobs said. Returns finished_runs(), of the program and
+/// scripts that it began with. Throws Failure: 2 bad input, or Slurm refused the jobs; 3 a run failed
+/// (the others were made), 4 checks of a run did not hold.
+std::vector<std::string> make_study(const Study &study, const StudyOptions &options);
 
 /// Makes the study and goes on where runs fail, saying that `parts` ("Draws") with such runs are
-/// left out; bad input and a stop are thrown. Returns finished_runs().
+/// left out; bad input and a stop are thrown.
 std::vector<std::string> make_what_runs(const Study &study, const StudyOptions &options,
                                         const std::string &parts);
 

@@ -243,8 +243,10 @@ std::vector<Extension> Model::extensions(const Vector &values) const {
     };
     p.scatter = joined(p.scatter, share * extra.scatter);
     p.correlation = joined(p.correlation, extra.correlation);
+    const int first = int(p.blocks.size());
     for (int f = 0; f < added; ++f)
-      p.features.push_back({int(p.blocks.size()), true});
+      p.features.push_back({first + extra.map->features()[std::size_t(f)].block, true});
+    p.blocks.insert(p.blocks.end(), extra.map->blocks().begin(), extra.map->blocks().end());
     p.slopes = nullptr; // those are of the old features only
     p.predict = [first = emulators_, second = extra.emulators, share, old,
                  all](const Vector &base, const std::vector<Applied> &on) {
