@@ -159,8 +159,10 @@ TEST(Rehearsal, TheSummaryCounts) {
   }
   cases[2].claim = cases[2].most_probable = "pre_cracks";
   cases[3].claim = "friction";
+  for (int k = 0; k < 5; ++k)
+    cases[std::size_t(k)].held = {true, k == 2 || k == 3};
   const std::vector<std::string> lines = summary_of(cases);
-  ASSERT_EQ(lines.size(), 5u);
+  ASSERT_EQ(lines.size(), 6u);
   const auto has = [&](int line, const std::string &part) {
     EXPECT_NE(lines[std::size_t(line)].find(part), std::string::npos) << lines[std::size_t(line)];
   };
@@ -170,6 +172,10 @@ TEST(Rehearsal, TheSummaryCounts) {
   has(2, "effects claimed in 2 of them: right 0.50");
   has(2, "probability 1.00");
   has(3, "claimed to be unknown not known");
+  has(5, "90 % intervals of base parameters hold 0.70");
+  has(5, "where an effect is claimed 0.83");
+  EXPECT_EQ(rows_of(table_of(cases))[2].held, cases[2].held);
+  EXPECT_EQ(rows_of(table_of(cases))[4].held, cases[4].held);
 }
 
 } // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "withheld/rehearsal.h"
-#include "base/csv_table.h"
 #include "base/liggghts_job.h"
 #include "base/messages.h"
 #include "base/output_folder.h"
@@ -8,14 +7,12 @@
 #include "base/random.h"
 #include "diagnose/bank/bank_table.h"
 #include "diagnose/diagnose.h"
-#include "diagnose/inference/scores.h"
 #include "withheld/make.h"
 #include "withheld/round_file.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
-#include <functional>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -44,11 +41,13 @@ std::map<Point, std::vector<PressedSamples>> points_of_packing(const BankTable &
   return out;
 }
 
-double value_of(const BankTable &table, const Point &point) {
-  for (const BankRow &row : table.rows)
-    if (row.point.effect == point.first && row.point.base_point == point.second)
-      return row.point.value;
-  return 0.0;
+const BankPoint &point_of(const BankTable &table, const Point &point) {
+  return std::find_if(table.rows.begin(), table.rows.end(),
+                      [&](const BankRow &row) {
+                        return row.point.effect == point.first &&
+                               row.point.base_point == point.second;
+                      })
+      ->point;
 }
 
 /// What a laboratory would hand in of the point.
@@ -68,8 +67,14 @@ Experiment sample_of(const std::string &folder, const BankTable &table, const Po
   return read_experiment(folder + "/samples/" + id + "/experiment.toml");
 }
 
+/// `base`: true values of the base parameters `of`.
 Rehearsed judged(const inference::Which &which, const inference::Confounding &confounding,
+                 const std::vector<inference::Parameter> &of, const std::vector<double> &base,
                  Rehearsed out) {
+  const auto ranges = inference::parameter_ranges(of, which);
+  out.held.clear();
+  for (std::size_t k = 0; k < base.size(); ++k)
+    out.held.push_back(base[k] >= ranges[k].all.low90 && base[k] <= ranges[k].all.high90);
   out.limit = std::nan("");
   for (const inference::DetectionLimit &l : confounding.limits)
     if (l.effect == out.effect)
@@ -85,10 +90,6 @@ Rehearsed judged(const inference::Which &which, const inference::Confounding &co
   return out;
 }
 
-Rehearsed judged(const Diagnosed &d, const Rehearsed &sample) {
-  return judged(d.diagnosis.which, d.diagnosis.confounding, sample);
-}
-
 /// All samples of one packing, diagnosed by a bank that has not seen it.
 std::vector<Rehearsed> of_packing(const RehearsalOptions &o, const BankTable &table, int packing) {
   BankTable others = table;
@@ -101,19 +102,24 @@ std::vector<Rehearsed> of_packing(const RehearsalOptions &o, const BankTable &ta
   std::vector<Rehearsed> out;
   for (const auto &[point, runs] : points_of_packing(table, packing)) {
     const Experiment e = sample_of(o.folder, table, point, runs);
+    const BankPoint &true_point = point_of(table, point);
+    const auto judged_by = [&](const BankTable &bank, SharedModels &shared, const Rehearsed &r) {
+      const Diagnosed d = diagnosed(e, bank, 0.0, shared);
+      return judged(d.diagnosis.which, d.diagnosis.confounding, d.data.bank.base, true_point.base,
+                    r);
+    };
     Rehearsed r;
     r.effect = point.first;
     r.base_point = point.second;
     r.packing = packing;
     if (!r.effect.empty())
-      r.amplitude = find_effect(r.effect).parameter.amplitude(value_of(table, point));
-    out.push_back(judged(diagnosed(e, others, 0.0, models), r));
+      r.amplitude = find_effect(r.effect).parameter.amplitude(true_point.value);
+    out.push_back(judged_by(others, models, r));
     if (r.effect.empty())
       continue;
     r.left_out = true;
     const double limit = out.back().limit;
-    out.push_back(
-        judged(diagnosed(e, without_effects(others, {r.effect}), 0.0, less[r.effect]), r));
+    out.push_back(judged_by(without_effects(others, {r.effect}), less[r.effect], r));
     out.back().limit = limit; // this diagnosis does not know the effect
   }
   return out;
@@ -135,6 +141,7 @@ public:
     const ExperimentData data = data_of(like, table, {});
     model_ = std::make_unique<inference::Model>(data.bank, data.experiment, settings_.model);
     problem_ = model_->problem(data.experiment.values);
+    base_ = data.bank.base;
   }
 
   /// One sample of the base model and of each effect.
@@ -145,14 +152,17 @@ public:
       Rehearsed r;
       r.base_point = r.packing = draw;
       inference::Problem sample = problem_;
-      sample.observed =
-          drawn(problem_, scores(problem_.base_parameters, random), applied(e, random, r), random);
-      out.push_back(diagnosis_of(sample, r));
+      const inference::Vector at = scores(problem_.base_parameters, random);
+      std::vector<double> base;
+      for (std::size_t k = 0; k < base_.size(); ++k)
+        base.push_back(base_[k].prior.value(at[Eigen::Index(k)]));
+      sample.observed = drawn(problem_, at, applied(e, random, r), random);
+      out.push_back(diagnosis_of(sample, base, r));
       if (e < 0)
         continue;
       r.left_out = true;
       const double limit = out.back().limit;
-      out.push_back(diagnosis_of(without_effect(sample, e), r));
+      out.push_back(diagnosis_of(without_effect(sample, e), base, r));
       out.back().limit = limit;
     }
     return out;
@@ -162,6 +172,7 @@ private:
   inference::DiagnosisSettings settings_;
   std::unique_ptr<inference::Model> model_;
   inference::Problem problem_;
+  std::vector<inference::Parameter> base_;
 
   static inference::Vector scores(int count, Random &random) {
     inference::Vector out(count);
@@ -179,9 +190,10 @@ private:
     r.amplitude = e.parameters[0].prior.value(at[0]);
     return {{effect, at}};
   }
-  Rehearsed diagnosis_of(const inference::Problem &sample, const Rehearsed &r) const {
+  Rehearsed diagnosis_of(const inference::Problem &sample, const std::vector<double> &base,
+                         const Rehearsed &r) const {
     const inference::Discrimination t = discriminate(*model_, sample, settings_);
-    return judged(t.which, t.confounding, r);
+    return judged(t.which, t.confounding, base_, base, r);
   }
 };
 
@@ -196,19 +208,9 @@ std::string made_from(const RehearsalOptions &o) {
 std::map<int, std::vector<Rehearsed>> begun(const std::string &file, const std::string &head) {
   std::map<int, std::vector<Rehearsed>> out;
   const std::string text = std::filesystem::is_regular_file(file) ? text_of_file(file) : "";
-  if (text.compare(0, head.size(), head) != 0)
-    return out;
-  const CsvTable t = CsvTable::parse(text);
-  const auto effect = t.texts("effect"), first = t.texts("most_probable"), claim = t.texts("claim");
-  const auto base_point = t.numbers("base_point"), packing = t.numbers("packing"),
-             left_out = t.numbers("left_out"), amplitude = t.numbers("amplitude"),
-             limit = t.numbers("limit_against_none"), its = t.numbers("its_probability"),
-             truths = t.numbers("truths_probability"), unknowns = t.numbers("unknowns_probability"),
-             adequacy = t.numbers("adequacy_p");
-  for (std::size_t k = 0; k < t.rows(); ++k)
-    out[int(packing[k])].push_back({effect[k], int(base_point[k]), int(packing[k]),
-                                    left_out[k] == 1.0, amplitude[k], limit[k], first[k], its[k],
-                                    truths[k], unknowns[k], claim[k], adequacy[k]});
+  if (text.compare(0, head.size(), head) == 0)
+    for (const Rehearsed &r : rows_of(text))
+      out[r.packing].push_back(r);
   return out;
 }
 
@@ -271,94 +273,6 @@ void rehearse(const RehearsalOptions &o) {
   for (const std::string &line : summary_of(cases))
     fmt::print("{}\n", line);
   fmt::print("table: {}\n", file);
-}
-
-namespace {
-
-std::string interval(const std::vector<Rehearsed> &cases,
-                     const std::function<double(const std::vector<int> &)> &statistic) {
-  std::vector<int> packings, all;
-  for (std::size_t k = 0; k < cases.size(); ++k) {
-    packings.push_back(cases[k].packing);
-    all.push_back(int(k));
-  }
-  const double value = statistic(all);
-  if (!std::isfinite(value))
-    return "not known";
-  const auto [low, high] = inference::clustered_bootstrap(packings, statistic);
-  return fmt::format("{:.2f} (90 %: {:.2f}–{:.2f})", value, low, high);
-}
-
-using Choice = std::function<bool(const Rehearsed &)>;
-
-/// Of the cases that `among` chooses, the share that `hit` chooses too.
-std::string share(const std::vector<Rehearsed> &cases, const Choice &among, const Choice &hit) {
-  return interval(cases, [&](const std::vector<int> &drawn) {
-    double hits = 0.0, trials = 0.0;
-    for (const int k : drawn)
-      if (among(cases[std::size_t(k)])) {
-        trials += 1.0;
-        hits += hit(cases[std::size_t(k)]);
-      }
-    return trials > 0.0 ? hits / trials : std::nan("");
-  });
-}
-
-std::string unknown_against_known(const std::vector<Rehearsed> &cases, const Choice &among) {
-  return interval(cases, [&](const std::vector<int> &drawn) {
-    std::vector<double> scores;
-    std::vector<bool> unknown;
-    for (const int k : drawn)
-      if (const Rehearsed &r = cases[std::size_t(k)]; !r.effect.empty() && among(r)) {
-        scores.push_back(r.of_unknown);
-        unknown.push_back(r.left_out);
-      }
-    return inference::auroc(scores, unknown);
-  });
-}
-
-} // namespace
-
-std::vector<std::string> summary_of(const std::vector<Rehearsed> &cases) {
-  const auto count = [&](const Choice &of) {
-    return std::count_if(cases.begin(), cases.end(), of);
-  };
-  const Choice null = [](const Rehearsed &r) { return r.effect.empty(); };
-  const Choice known = [](const Rehearsed &r) { return !r.effect.empty() && !r.left_out; };
-  const Choice gone = [](const Rehearsed &r) { return r.left_out; };
-  const Choice named = [](const Rehearsed &r) { return names_effect(r.claim); };
-  const Choice first = [](const Rehearsed &r) { return r.most_probable == r.truth(); };
-  const Choice right = [](const Rehearsed &r) { return r.claim == r.truth(); };
-  const Choice strong = [&](const Rehearsed &r) { return known(r) && r.above_limit(); };
-  const Choice claimed = [&](const Rehearsed &r) { return known(r) && named(r); };
-  double score = 0.0;
-  for (const Rehearsed &r : cases)
-    score -= known(r) ? std::log(std::max(r.of_truth, 1e-6)) : 0.0;
-  return {fmt::format("{} samples of the base model: claimed to be none {}, to have an effect {}",
-                      count(null), share(cases, null, right), share(cases, null, named)),
-          fmt::format("{} samples with an effect, {} above its limit: of these named first {}",
-                      count(known), count(strong), share(cases, strong, first)),
-          fmt::format("effects claimed in {} of them: right {}; mean -ln of the truth's "
-                      "probability {:.2f}",
-                      count(claimed), share(cases, claimed, right),
-                      score / std::max<double>(1.0, double(count(known)))),
-          fmt::format("the same without their effect: claimed to be unknown {}, to be another {}",
-                      share(cases, gone, right), share(cases, gone, named)),
-          fmt::format(
-              "unknown distinguished from known, area under the ROC curve: {}; above the limits {}",
-              unknown_against_known(cases, [](const Rehearsed &) { return true; }),
-              unknown_against_known(cases, [](const Rehearsed &r) { return r.above_limit(); }))};
-}
-
-std::string table_of(const std::vector<Rehearsed> &cases) {
-  std::string out = "effect,base_point,packing,left_out,amplitude,limit_against_none,most_probable,"
-                    "its_probability,truths_probability,unknowns_probability,claim,adequacy_p\n";
-  for (const Rehearsed &r : cases)
-    out +=
-        fmt::format("{},{},{},{},{:.5g},{:.5g},{},{:.4g},{:.4g},{:.4g},{},{:.4g}\n", r.effect,
-                    r.base_point, r.packing, int(r.left_out), r.amplitude, r.limit, r.most_probable,
-                    r.its_probability, r.of_truth, r.of_unknown, r.claim, r.adequacy_p);
-  return out;
 }
 
 } // namespace calendem

@@ -28,13 +28,15 @@ struct Rehearsed {
   double its_probability = 0.0, of_truth = 0.0, of_unknown = 0.0;
   std::string claim;
   double adequacy_p = 0.0;
+  std::vector<bool> held; ///< of each base parameter: by its 90 % interval
 
   std::string truth() const { return left_out ? "unknown" : effect.empty() ? "none" : effect; }
   bool above_limit() const { return amplitude >= limit || -amplitude >= limit; }
 };
 
-/// rehearsal.csv.
+/// rehearsal.csv, and back.
 std::string table_of(const std::vector<Rehearsed> &cases);
+std::vector<Rehearsed> rows_of(const std::string &table);
 
 /// Summary lines, with 90 % intervals over packings or draws.
 std::vector<std::string> summary_of(const std::vector<Rehearsed> &cases);
