@@ -91,6 +91,9 @@ int run(int argc, char **argv) {
   return calendem::kDone;
 }
 
+/// A message that cannot be written, as on a full disk, is no reason for another exit status.
+void say(const std::string &message) { std::fputs(message.c_str(), stderr); }
+
 } // namespace
 
 int main(int argc, char **argv) {
@@ -98,24 +101,22 @@ int main(int argc, char **argv) {
   try {
     status = run(argc, argv);
   } catch (const calendem::Failure &e) {
-    fmt::print(stderr, "{}\n", e.what());
+    say(std::string(e.what()) + "\n");
     return e.exit_status();
   } catch (const std::bad_alloc &) {
-    fmt::print(stderr,
-               "not enough memory. Take a smaller cell or image, or a machine with more.\n");
+    say("not enough memory. Take a smaller cell or image, or a machine with more.\n");
     return calendem::kBadInput;
   } catch (const nlohmann::json::exception &e) {
-    fmt::print(stderr,
-               "a JSON file is not as calendem writes it ({}). Was it edited, or made by "
-               "another version? Make it again.\n",
-               e.what());
+    say(fmt::format("a JSON file is not as calendem writes it ({}). Was it edited, or made by "
+                    "another version? Make it again.\n",
+                    e.what()));
     return calendem::kBadInput;
   } catch (const std::exception &e) {
-    fmt::print(stderr, "calendem: {}\n", e.what());
+    say(fmt::format("calendem: {}\n", e.what()));
     return calendem::kBadInput;
   }
   if (std::fflush(stdout) != 0 || !std::cout.flush()) {
-    fmt::print(stderr, "the output could not be written. Is the disk full?\n");
+    say("the output could not be written. Is the disk full?\n");
     return calendem::kBadInput;
   }
   return status;

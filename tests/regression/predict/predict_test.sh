@@ -88,6 +88,15 @@ refuses "particles.median_um: 9 instead of 4.35" predict model/model.json other.
 sed 's/^median_um.*/median_um = 9/' "$cases/real/blb_nmc111_90/electrode.toml" >coarse.toml
 sed 's/electrode.toml/coarse.toml/' "$cases/real/blb_nmc111_90/experiment.toml" >coarse_pressed.toml
 refuses "the film is not of the bank's kind" calibrate coarse_pressed.toml --bank "$cases/coatings/bank.toml"
+printf 'name = "rough"\n[particles]\nirregularity = 0.3\n' >rough.toml
+refuses "particles.irregularity: 0.3 instead of 0.1" predict model/model.json rough.toml
+printf 'name = "small"\n[particles]\nmax_um = 5\n' >small_only.toml
+refuses "particles.max_um: 5 instead of 16.2" predict model/model.json small_only.toml
+printf 'name = "thin"\n[coating]\nloading_mg_cm2 = 2\n' >thin.toml
+refuses "its faces count more than the bank can tell" predict model/model.json thin.toml
+refuses "--vary has porosity_before_percent twice" predict model/model.json film.toml --vary porosity_before_percent=43 --vary porosity_before_percent=44
+printf 'name = "full"\n[composition]\ncarbon_weight_percent = 10\nbinder_weight_percent = 10\n[coating]\nporosity_total_percent = 25\n' >full.toml
+refuses "the pores inside the CBD alone" predict model/model.json full.toml
 sed "s#^electrode = .*#electrode = \"$cases/real/artistic_96/electrode.toml\"#; s/^material = .*/material = \"other\"/" \
   "$cases/real/artistic_96/experiment.toml" >named_other.toml
 refuses "material is 'other', which stands for one that was not measured" calibrate named_other.toml --bank "$cases/coatings/bank.toml"

@@ -247,6 +247,9 @@ kind_wrong() {
   of_other_kind bank studies/cells.toml "this is a study" "Give this file to calendem study"
   of_other_kind diagnose demo/case.toml "this is a case" "an experiment is expected here"
   of_other_kind "withheld make" paper/experiment.toml "this is an experiment" "compare or diagnose"
+  local status=0 # of a message that cannot be written
+  calendem validate "$work/none.toml" 2>/dev/full || status=$?
+  [ $status -eq 2 ] || fail "exit status $status, expected 2, with a full disk for the message"
 }
 kinds_of_file() {
   expect 0 calendem validate "$scripts"/cases/{demo,paper,real/*}/*.toml "$scripts"/cases/image/tomogram.toml
@@ -310,6 +313,8 @@ curve_in_other_units() { # of an experiment: mm, Pa, another separator, stages t
   refused experiment.toml ":8: '" "pressure_MPa goes to 1.5e+08, max_pressure_MPa is 150"
   curve 'displacement_um;pressure_MPa\n0;0\n20,1;150\n'
   refused experiment.toml "Columns are separated by commas, decimals by points"
+  curve 'displacement_um,pressure_MPa,stage\n20,150,unloading\n19,10,unloading\n0,0,loading\n20,150,loading\n'
+  refused experiment.toml "its first row has the stage unloading. Rows go in the order of time"
   curve 'displacement_um,pressure_MPa,stage\n0,0,up\n20,150,up\n'
   refused experiment.toml "stage of row 1 is 'up'; allowed are loading"
   curve 'displacement_um,pressure_MPa,stage\n0,0.3,loading\n0,0.1,unloading\n20,150,unloading\n'

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <random>
@@ -61,6 +62,23 @@ TEST(FindGap, AnotherElectrodeIsReported) {
   EXPECT_TRUE(reported());
   r.recipe["structure.file"] = "film.data"; // its particles are not the recipe's
   EXPECT_FALSE(reported());
+}
+
+// A film of 40 um of solids and a cell of 10: the thickness counts by what each is made of.
+TEST(FindGap, AThicknessIsNotThatOfACellOfAnotherLoading) {
+  Experiment e = paper();
+  e.conditions[1].mass_mg.reset();
+  e.conditions[1].porosity_after_percent.reset();
+  SimulatedRun r = pressed_to(150, 0.28, "a");
+  const double film = solid_thickness_um(e, e.recipe.loading) / (1.0 - 0.28);
+  r.solid_column = 10.0;
+  r.thickness_after = 10.0 / (1.0 - 0.28);
+  e.conditions[1].thickness_after_um = Measured{film, 0.5};
+  const Gap gap = find_gap(e, {r});
+  ASSERT_EQ(gap.rows.size(), 1u);
+  EXPECT_NEAR(gap.rows[0].residual, 0.0, 1e-9);
+  EXPECT_NE(fmt::format("{}", fmt::join(gap.not_said, "; ")).find("taken is the recipe's 17.46"),
+            std::string::npos);
 }
 
 TEST(FindGap, NothingToCompareSaysWhy) {

@@ -45,6 +45,18 @@ TEST(CrushingLoads, ATableThatIsNoneIsRefused) {
         "5,500,25\n5,250,12\n10,500,-50\n20,1000,200\n",
         "5,500,25\n5,250,12\n10,500\n20,1000,200\n"})
     EXPECT_THROW(CrushingLoads(table(rows)), Failure) << rows;
+  const auto refusal = [](const std::string &file) {
+    try {
+      CrushingLoads loads(file);
+    } catch (const Failure &f) {
+      return std::string(f.what());
+    }
+    return std::string();
+  };
+  const std::string other = table("");
+  write_file(other, "diameter_um,strength_MPa,load_N\n5,500,25\n");
+  EXPECT_NE(refusal(other).find("no column load_mN"), std::string::npos) << refusal(other);
+  EXPECT_NE(refusal(other + ".no").find("no such file"), std::string::npos);
 }
 
 CalibrationSettings many() {
@@ -192,6 +204,17 @@ TEST(Crushed, LoadsThatWereNotReadHoldTheModelsError) {
     logs.of.push_back({loads.log_load(10.0, 250.0 * std::pow(4.0, (k + 0.5) / 1000)), sd * sd});
   EXPECT_NEAR(std::log(row.load.low90), logs.quantile(0.05), 0.02);
   EXPECT_NEAR(std::log(row.load.high90), logs.quantile(0.95), 0.02);
+}
+
+// A newton for a millinewton, or a load that no strength of the bank means.
+TEST(Crushed, ALoadThatContradictsTheModelIsReported) {
+  const double load = std::exp(made_film_bank().crushing()->log_load(10.0, 500.0));
+  Calibration c = crushed({{0, 10.0, load, 0.1 * load}});
+  EXPECT_TRUE(contradicting_loads(made_film_bank(), c).empty());
+  c = crushed({{0, 10.0, 1000.0 * load, 100.0 * load}});
+  const std::vector<std::string> said = contradicting_loads(made_film_bank(), c);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("Check diameter, load and unit"), std::string::npos) << said[0];
 }
 
 TEST(Crushed, WhatTheBankCannotSayIsLeftOut) {

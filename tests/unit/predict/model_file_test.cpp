@@ -112,7 +112,11 @@ TEST(ModelFile, WhatIsNoModelOrHasAnotherBankIsRefused) {
   std::string other = whole; // a film of a material that is not there
   other.replace(other.find("\"material\": 0"), 13, "\"material\": 7");
   write_file(d.file, other);
-  EXPECT_NE(refusal(d.file).find("a film's material is 7"), std::string::npos);
+  EXPECT_NE(refusal(d.file).find(d.file + ": a film's material is 7"), std::string::npos);
+  other = whole;
+  other.replace(other.find("\"sd\": "), 6, "\"sd\": -");
+  write_file(d.file, other);
+  EXPECT_NE(refusal(d.file).find("Was it edited?"), std::string::npos) << refusal(d.file);
   write_file(d.file, whole);
   for (const char *file : {"electrode.toml", "case.toml", "crushing.csv"}) { // that the bank reads
     const std::string name = (d.folder / "coatings" / file).string(), text = text_of_file(name);

@@ -267,6 +267,10 @@ void check_stages(const std::string &path, const CsvTable &table, int line, Mist
   if (wrong != stages.end())
     mistakes.add(line, fmt::format("'{}': stage of row {} is '{}'; allowed are {}.", path,
                                    wrong - stages.begin() + 1, *wrong, fmt::join(known, ", ")));
+  else if (loads && (stages.front() == "unloading" || stages.front() == "relaxation"))
+    mistakes.add(line, fmt::format("'{}': its first row has the stage {}. Rows go in the order of "
+                                   "time, from the first touch on.",
+                                   path, stages.front()));
   else if (!stages.empty() && !loads)
     mistakes.add(line, fmt::format("'{}': no row has the stage loading; rows up to the highest "
                                    "pressure have it.",

@@ -46,6 +46,8 @@ std::string hash_of_text(const std::string &text) {
 }
 
 std::string text_of_file(const std::string &file) {
+  if (fs::is_directory(file))
+    throw Failure(kBadInput, file + " is a folder; a file is needed.");
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }

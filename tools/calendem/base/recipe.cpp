@@ -123,6 +123,23 @@ void check_spheres(const Settings &s, const Recipe &r, Mistakes &mistakes) {
                     r.primary_diameter, r.lattice));
 }
 
+/// The pores inside the CBD are part of the total porosity.
+void check_porosity(const Settings &s, const Recipe &r, Mistakes &mistakes) {
+  if (r.structure.given() ||
+      !s.sound({"coating.loading_mg_cm2", "coating.porosity_total_percent",
+                "cbd.nanoporosity_percent", "density.am_g_cm3", "density.cbd_solid_g_cm3"}) ||
+      !(r.am_weight > 0.0 && r.am_weight <= 1.0))
+    return;
+  const double pores = r.cbd_solid_column() * r.nanoporosity / (1.0 - r.nanoporosity),
+               least = pores / (pores + r.am_column() + r.cbd_solid_column());
+  if (r.porosity_total < least)
+    mistakes.add(s.line("coating.porosity_total_percent"),
+                 fmt::format("coating.porosity_total_percent is {:g}; the pores inside the CBD "
+                             "alone (cbd.nanoporosity_percent = {:g}) are {:.1f} % of the coating. "
+                             "Raise the one, lower the other, or take less carbon and binder.",
+                             100.0 * r.porosity_total, 100.0 * r.nanoporosity, 100.0 * least));
+}
+
 void check_cell(const Settings &s, const Recipe &r, Mistakes &mistakes) {
   if (!s.sound({"cell.x_um", "cell.y_um", "particles.primary_diameter_um", "cbd.diameter_um"}))
     return;
@@ -198,6 +215,7 @@ Recipe recipe_of(const Settings &s) {
 void check_recipe(const Settings &s, const Recipe &r, Mistakes &mistakes) {
   check_composition(s, mistakes);
   check_spheres(s, r, mistakes);
+  check_porosity(s, r, mistakes);
   check_cell(s, r, mistakes);
   if (r.structure.given() && r.cbd_gradient.slope != 0.0)
     mistakes.add(s.line(kGradient),

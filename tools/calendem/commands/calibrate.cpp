@@ -70,8 +70,11 @@ void run_calibrate(const CalibrateOptions &o) {
     cases.push_back(o.folder + (m == 0 ? "/case.toml" : fmt::format("/case_{}.toml", m + 1)));
     must_be_ours(cases.back(), kHeadOfCase);
   }
-  fmt::print("calibrate: {} films, {} numbers{}\n", c.films.size(), c.data.size(),
-             c.crushed.empty() ? "" : fmt::format(", {} crushing loads", c.crushed.size()));
+  const auto count = [](std::size_t n, const char *what) {
+    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+  };
+  fmt::print("calibrate: {}, {}{}\n", count(c.films.size(), "film"), count(c.data.size(), "number"),
+             c.crushed.empty() ? "" : ", " + count(c.crushed.size(), "crushing load"));
   calibrate(bank, o.settings, c);
   for (const std::string &text : warnings_of(bank, c))
     not_said.push_back(text);

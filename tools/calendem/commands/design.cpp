@@ -179,7 +179,7 @@ std::vector<Design> designs_by_runs(const AskedFilms &a, const DesignOptions &o,
         write(a, o, target, out);
       });
   if (out.empty())
-    missed.stop_if_any();
+    missed.stop_if_any(true);
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
 
 namespace calendem {
 
@@ -27,8 +28,10 @@ std::vector<double> values_of(const std::string &option, const std::string &text
     } catch (const std::exception &) {
     }
     if (used != part.size() || !(value > 0.0) || !std::isfinite(value))
-      throw Failure(kBadInput, fmt::format("{} is '{}'; give {} as 20,50,80 or as a range 20:300.",
-                                           option, text, unit));
+      throw Failure(kBadInput,
+                    fmt::format("{} is '{}'; give {}.", option, text,
+                                unit.empty() ? "whole numbers from 1 to 20, as 1,2,3"
+                                             : unit + " as 20,50,80 or as a range 20:300"));
     out.push_back(value);
     part.clear();
   }
@@ -77,9 +80,14 @@ void check_varied(const std::string &text, double value, const BankParameter &p)
 /// Every combination of "NAME=v,v,v" for the films.
 std::vector<Film> varied(std::vector<Film> films, const std::vector<std::string> &vary,
                          const FilmBank &bank) {
+  std::set<std::string> seen;
   for (const std::string &text : vary) {
     const std::size_t equals = text.find('=');
     const std::string name = text.substr(0, equals);
+    if (!seen.insert(name).second)
+      throw Failure(kBadInput, fmt::format("--vary has {} twice; give all its values at once: "
+                                           "{}=VALUE,VALUE.",
+                                           name, name));
     std::size_t place = 0;
     std::vector<std::string> names;
     for (const BankParameter &p : bank.film())
@@ -178,8 +186,9 @@ ByRuns run_film(const AskedFilms &a, const FilmOptions &o, std::size_t recipe,
                 const std::vector<double> &pressures) {
   StudyOptions study = o.study;
   study.folder = fmt::format("{}/runs/{}", o.folder, recipe + 1);
-  fmt::print("{}: {}: {} runs, {} draws of the material at {} pressures\n", study.verb,
-             o.recipes[recipe], o.runs * pressures.size(), o.runs, pressures.size());
+  fmt::print("{}: {}: {} runs, {} draws of the material at {} pressure{}\n", study.verb,
+             o.recipes[recipe], o.runs * pressures.size(), o.runs, pressures.size(),
+             pressures.size() == 1 ? "" : "s");
   return by_runs(a.model.bank, a.model.calibration, read_recipe(o.recipes[recipe]), a.material,
                  pressures, 0.01 * o.press_percent, o.runs, study);
 }
@@ -187,7 +196,7 @@ ByRuns run_film(const AskedFilms &a, const FilmOptions &o, std::size_t recipe,
 std::vector<int> passes_of(const FilmOptions &o) {
   constexpr double kMost = 20;
   std::vector<int> out;
-  for (const double passes : values_of("--passes", o.passes, "numbers of passes")) {
+  for (const double passes : values_of("--passes", o.passes, "")) {
     if (passes != std::floor(passes) || passes > kMost || o.passes.find(':') != std::string::npos)
       throw Failure(kBadInput, fmt::format("--passes is '{}'; give whole numbers from 1 to {:g}, "
                                            "as 1,2,3.",
@@ -217,9 +226,11 @@ void MissedRuns::attempt(const std::string &recipe, const std::function<void()> 
   }
 }
 
-void MissedRuns::stop_if_any() const {
+void MissedRuns::stop_if_any(bool nothing) const {
   if (!texts_.empty())
-    throw Failure(status_, fmt::format("{}\nThe rest is written.", fmt::join(texts_, "\n")));
+    throw Failure(status_, fmt::format("{}\n{}", fmt::join(texts_, "\n"),
+                                       nothing ? "Nothing is written but the runs that were made."
+                                               : "The rest is written."));
 }
 
 void add_film_options(CLI::App &verb, FilmOptions &o) {

@@ -68,8 +68,8 @@ class MissedRuns {
 public:
   /// Does the work of a recipe; keeps why it failed.
   void attempt(const std::string &recipe, const std::function<void()> &work);
-  /// After all that there is was written.
-  void stop_if_any() const;
+  /// After all that there is was written; `nothing`: there is nothing.
+  void stop_if_any(bool nothing = false) const;
 
 private:
   std::vector<std::string> texts_;

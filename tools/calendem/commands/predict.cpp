@@ -26,7 +26,7 @@ std::vector<PredictedFilm> films_by_runs(const AskedFilms &a, const FilmOptions 
     missed.attempt(o.recipes[k],
                    [&] { films.push_back(run_film(a, o, k, a.pressures).predicted); });
   if (films.empty())
-    missed.stop_if_any();
+    missed.stop_if_any(true);
   return films;
 }
 
@@ -58,7 +58,7 @@ std::vector<GapDraws> films_at_gaps(const AskedFilms &a, const FilmOptions &o, M
         out.back().film.name += fmt::format(", {} pass{}", passes, passes == 1 ? "" : "es");
       });
   if (out.empty())
-    missed.stop_if_any();
+    missed.stop_if_any(true);
   return out;
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "diagnose/compare/gap.h"
 #include "diagnose/rerun.h"
 #include "diagnose/sample_film.h"
 #include <algorithm>
@@ -14,8 +15,7 @@ namespace calendem {
 
 namespace {
 
-constexpr double kOtherFilm = 0.1;     // of the film: more than a bank varies it
-constexpr double kLoadingKnown = 0.03; // of a loading that nobody measured
+constexpr double kOtherFilm = 0.1; // of the film: more than a bank varies it
 
 /// Mean over the base model's runs to the bank's pressure next to this one.
 double usual(const BankTable &table, double pressure,
@@ -51,15 +51,10 @@ Condition bare(const Condition &c) {
 
 Condition with_loading(const Experiment &e, const Condition &c, const BankTable &table,
                        std::vector<std::string> &not_said) {
-  Condition out = c;
   const double other = 1.0 / film_ratio(e, table);
-  if (loading_of(e, c) || !(std::fabs(other - 1.0) > kOtherFilm))
-    return out;
-  out.loading_mg_cm2 = Measured{e.recipe.loading, kLoadingKnown * e.recipe.loading};
-  not_said.push_back(fmt::format("{}: its mass or loading is not given; taken is the recipe's {:g} "
-                                 "mg/cm2 within {:g} %. Weigh the sample.",
-                                 c.id, e.recipe.loading, 100.0 * kLoadingKnown));
-  return out;
+  return loading_of(e, c) || !(std::fabs(other - 1.0) > kOtherFilm)
+             ? c
+             : with_loading_of_recipe(e, c, not_said);
 }
 
 /// The measurements of one kind: on each condition that lacks it.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "predict/calibration.h"
 #include "base/messages.h"
+#include "diagnose/compare/observables.h"
 #include "predict/crushed.h"
 #include <algorithm>
 #include <cmath>
@@ -62,6 +63,14 @@ void add_experiment(const Experiment &experiment, const FilmBank &bank, Calibrat
                                      bank.spec().pressures.back()));
       continue;
     }
+    if (c.porosity_before_percent || loading_of(experiment, c))
+      not_said.push_back(fmt::format("{}, {}: porosity before and loading of the sample are left "
+                                     "out; taken are the recipe's.",
+                                     experiment.name, c.id));
+    if (c.thickness_after_um && !c.porosity_after_percent)
+      not_said.push_back(fmt::format("{}, {}: its thickness is left out; give "
+                                     "porosity_after_percent.",
+                                     experiment.name, c.id));
     if (c.porosity_after_percent)
       add_datum(c, FilmNumber::PorosityAfter, *c.porosity_after_percent, 0.01, kUsualPorositySd,
                 to);
@@ -253,6 +262,8 @@ std::vector<std::string> warnings_of(const FilmBank &bank, const Calibration &c)
             "material outside it may fit better, or the model lacks something.",
             p.name, of_material(c, m), end < 0 ? "lower" : "upper", p.prior.a, p.prior.b));
     }
+  for (const std::string &text : contradicting_loads(bank, c))
+    out.push_back(text);
   const inference::Prior missed = discrepancy_of(c.error);
   if (end_of_range(c.draws, missed, [](const Draw &d) { return d.missed.sd; }) > 0)
     out.push_back(fmt::format("No material of the bank comes near these data: what the model "

@@ -103,6 +103,27 @@ double log_likelihood_of_crushed(const FilmBank &bank, const Calibration &c, con
   return -0.5 * off.dot(Cholesky(covariance_of(*bank.crushing(), c.crushed)).solve(off));
 }
 
+std::vector<std::string> contradicting_loads(const FilmBank &bank, const Calibration &c) {
+  constexpr double kFar = 2.0;
+  std::vector<std::string> out;
+  if (c.crushed.empty())
+    return out;
+  Vector off = Vector::Zero(Eigen::Index(c.crushed.size()));
+  for (const Draw &d : c.draws)
+    off += off_line(bank, c.crushed, d) / double(c.draws.size());
+  const Matrix covariance = covariance_of(*bank.crushing(), c.crushed);
+  for (std::size_t k = 0; k < c.crushed.size(); ++k) {
+    const auto at = Eigen::Index(k);
+    if (std::fabs(off[at]) > kFar * std::sqrt(covariance(at, at)))
+      out.push_back(
+          fmt::format("Particles of {:g} um{} broke at {:g} mN; with the strength that was "
+                      "found they break at {:.3g} mN. Check diameter, load and unit.",
+                      c.crushed[k].diameter, of_material(c, std::size_t(c.crushed[k].material)),
+                      c.crushed[k].load, c.crushed[k].load * std::exp(-off[at])));
+  }
+  return out;
+}
+
 std::vector<Crushing> crushing_of(const FilmBank &bank, const Calibration &c) {
   if (!bank.crushing() || bank.strength() < 0)
     return {};

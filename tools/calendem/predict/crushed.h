@@ -20,6 +20,9 @@ void add_crushed(const Experiment &experiment, const FilmBank &bank, int materia
 double log_likelihood_of_crushed(const FilmBank &bank, const Calibration &calibration,
                                  const Draw &draw);
 
+/// Loads that lie beyond two standard deviations of what the strength that was found means, in words.
+std::vector<std::string> contradicting_loads(const FilmBank &bank, const Calibration &calibration);
+
 struct Crushing {
   int material = 0;                ///< place in Calibration::materials
   double diameter = 0.0;           ///< [um]

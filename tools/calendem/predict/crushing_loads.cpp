@@ -5,7 +5,8 @@
 #include "base/provenance.h"
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
+#include <filesystem>
+#include <fmt/ranges.h>
 
 namespace calendem {
 namespace {
@@ -18,7 +19,20 @@ Eigen::Vector2d of(double diameter) { return {1.0, std::log(diameter)}; }
 } // namespace
 
 CrushingLoads::CrushingLoads(const std::string &file) {
+  if (!std::filesystem::exists(file))
+    throw Failure(kBadInput,
+                  fmt::format("{}: there is no such file (crushing of the bank).", file));
   const CsvTable table = CsvTable::parse(text_of_file(file));
+  for (const char *column : {"diameter_um", "strength_MPa", "load_mN"})
+    if (!table.has(column))
+      throw Failure(kBadInput, fmt::format("{}: its first line has no column {}: {}. Columns are "
+                                           "separated by commas.",
+                                           file, column, fmt::join(table.header(), ",")));
+  if (!table.bad_lines().empty())
+    throw Failure(kBadInput,
+                  fmt::format("{}: line {} has another number of columns than the first. "
+                              "Correct the line, or copy the file again if it is cut.",
+                              file, table.bad_lines().front()));
   const std::vector<double> d = table.numbers("diameter_um"), s = table.numbers("strength_MPa"),
                             load = table.numbers("load_mN");
   for (const auto *column : {&d, &s, &load})
@@ -30,11 +44,10 @@ CrushingLoads::CrushingLoads(const std::string &file) {
   diameters_ = d;
   std::sort(diameters_.begin(), diameters_.end());
   diameters_.erase(std::unique(diameters_.begin(), diameters_.end()), diameters_.end());
-  if (!table.bad_lines().empty() || d.size() < kFewestParticles || diameters_.size() < 2)
-    throw Failure(kBadInput,
-                  fmt::format("{}: {} whole rows of {} diameters; at least {} particles of two "
-                              "diameters are needed (diameter_um, strength_MPa, load_mN).",
-                              file, d.size(), diameters_.size(), kFewestParticles));
+  if (d.size() < kFewestParticles || diameters_.size() < 2)
+    throw Failure(kBadInput, fmt::format("{}: rows: {}, different diameters: {}; at least {} "
+                                         "particles of two diameters are needed.",
+                                         file, d.size(), diameters_.size(), kFewestParticles));
   const auto n = Eigen::Index(d.size());
   Eigen::MatrixX2d at(n, 2);
   Eigen::VectorXd y(n);

@@ -25,6 +25,7 @@ std::array<double, 3> sizes_by_volume(const Recipe &r, double largest) {
 namespace {
 
 constexpr double kSameInCell = 0.05, kSameInFilm = 0.2; // relative, of the percentiles
+constexpr double kSameLoading = 0.02, kThinnest = 0.5;  // of the bank's loading
 constexpr double kSizesSaid = 0.0005;                   // error of porosity 0-1
 
 bool are_alike(const std::array<double, 3> &a, const std::array<double, 3> &b, double within) {
@@ -114,10 +115,29 @@ std::vector<std::string> FilmBank::differences(const Recipe &recipe) const {
     }
   if (spec_.nanoporosity_within > 0.0)
     any("cbd.nanoporosity_percent");
-  if (has_like_particles(recipe, bank))
+  const bool packed = !recipe.structure.given() && !bank.structure.given(),
+             alike = has_like_particles(recipe, bank);
+  if (alike)
     for (const char *key : {"particles.median_um", "particles.sigma_ln"})
       any(key);
-  return other_electrode(wanted, recipe.settings.all());
+  std::vector<std::string> out = other_electrode(wanted, recipe.settings.all());
+  const auto differs = [&](const char *key) {
+    if (packed && recipe.settings.number(key) != bank.settings.number(key))
+      out.push_back(fmt::format("{}: {:g} instead of {:g}", key, recipe.settings.number(key),
+                                bank.settings.number(key)));
+  };
+  if (!alike)
+    for (const char *key : {"particles.min_um", "particles.max_um"})
+      differs(key);
+  for (const char *key : {"particles.irregularity", "particles.primary_diameter_um",
+                          "particles.lattice_um", "effects.cbd_gradient.slope"})
+    differs(key);
+  if (const double least = kThinnest * recipe_.loading; recipe.loading < least)
+    out.push_back(
+        fmt::format("coating.loading_mg_cm2: {:g}; its faces count more than the bank can "
+                    "tell below {:g}",
+                    recipe.loading, least));
+  return out;
 }
 
 double FilmBank::carbon_and_binder(const Film &film) const {
@@ -191,6 +211,9 @@ std::vector<std::string> FilmBank::beyond(const Film &film) const {
       out.push_back(fmt::format("{0} {2:.4g}{1}; the bank has {3:g} to {4:g}{1}: extrapolated",
                                 in_words(film_[k].name).name, in_words(film_[k].name).unit,
                                 recipe[k], film_[k].low, film_[k].high));
+  if (full_loading_ > 0.0 && film.loading < (1.0 - kSameLoading) * recipe_.loading)
+    out.push_back(fmt::format("loading {:.3g} mg/cm2; the bank has {:g} to {:g}: extrapolated",
+                              film.loading, recipe_.loading, full_loading_));
   if (const double error = kPorosityBySize * std::fabs(film.sizes); error > kSizesSaid)
     out.push_back(fmt::format("half of the particles' volume lies below a diameter that is {:.2f} "
                               "times the bank's: counted as an error of {:.1f} points of porosity",

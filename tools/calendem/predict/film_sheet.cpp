@@ -12,6 +12,14 @@ using report::kSeriesColours;
 
 namespace {
 
+/// A text cell (RFC 4180).
+std::string quoted(const std::string &text) {
+  std::string out = "\"";
+  for (const char c : text)
+    out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
 constexpr std::size_t kMostFilms = 6; // in a chart
 
 const FilmQuantity
@@ -119,7 +127,7 @@ std::string table_of(const FilmBank &bank, const FilmSheet &sheet) {
   out += "\n";
   for (const FilmRows &f : sheet.films)
     for (std::size_t k = 0; k < f.at.size(); ++k) {
-      out += "\"" + f.film.name + "\"";
+      out += quoted(f.film.name);
       for (const double x : f.film.recipe)
         out += fmt::format(",{:g}", x);
       out += fmt::format(",{:g}", f.at[k]);

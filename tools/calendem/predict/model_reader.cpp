@@ -28,8 +28,12 @@ FilmNumber number_of(const std::string &name) {
 
 Material material_of(const FilmBank &bank, const Json &row) {
   Material out;
-  for (const inference::Parameter &p : bank.material())
+  for (const inference::Parameter &p : bank.material()) {
     out.parameters.push_back(row.at(p.name));
+    if (const double value = out.parameters.back(); !(value >= p.prior.a && value <= p.prior.b))
+      throw Failure(kBadInput, fmt::format("a draw's {} is {:g}; the bank has {:g} to {:g}.",
+                                           p.name, value, p.prior.a, p.prior.b));
+  }
   for (const auto &[name, amplitude] : row.at("effects").items()) {
     const auto &all = bank.effects();
     const auto of =
@@ -64,6 +68,8 @@ Calibration calibration_of(const FilmBank &bank, const Json &json) {
       throw Failure(kBadInput, fmt::format("a film's material is {}; there are {}.", f.material,
                                            out.materials.size()));
     f.loading = row.at("loading_mg_cm2");
+    if (!(f.loading > 0.0))
+      throw Failure(kBadInput, fmt::format("a film's loading_mg_cm2 is {:g}.", f.loading));
     f.nanoporosity = row.at("nanoporosity");
     f.sizes = row.at("sizes");
     for (const BankParameter &p : bank.film())
@@ -78,6 +84,9 @@ Calibration calibration_of(const FilmBank &bank, const Json &json) {
                row.at("pressure_sd_relative"),
                row.at("measured"),
                row.at("sd")};
+    if (!(d.sd > 0.0 && d.pressure > 0.0 && d.measured >= 0.0 && d.measured <= 1.0))
+      throw Failure(kBadInput, fmt::format("a datum is {:g} ± {:g} (0 to 1) at {:g} MPa.",
+                                           d.measured, d.sd, d.pressure));
     if (d.film < 0 || d.film >= int(out.films.size()))
       throw Failure(kBadInput,
                     fmt::format("a datum's film is {}; there are {}.", d.film, out.films.size()));
@@ -96,8 +105,8 @@ Calibration calibration_of(const FilmBank &bank, const Json &json) {
   }
   for (const Json &row : json.at("draws"))
     out.draws.push_back(draw_of(bank, row, out.materials.size() + 1));
-  if (out.draws.empty())
-    throw Failure(kBadInput, "it holds no draws.");
+  if (out.draws.empty() || out.data.empty())
+    throw Failure(kBadInput, "it holds no draws or no data.");
   return out;
 }
 
@@ -110,6 +119,16 @@ Json parsed(const std::string &file) {
     throw Failure(kBadInput, fmt::format("{}: cut or damaged; make it again with calendem "
                                          "calibrate.",
                                          file));
+  }
+}
+
+/// With the file's name in what is wrong.
+template <class Read> auto checked(const std::string &file, const Read &read) {
+  try {
+    return read();
+  } catch (const Failure &f) {
+    throw Failure(f.exit_status(),
+                  fmt::format("{}: {} Was it edited? Calibrate again.", file, f.what()));
   }
 }
 
@@ -135,7 +154,7 @@ Model read_model(const std::string &file) {
   const Json json = parsed(file);
   try {
     FilmBank bank = bank_of(file, json);
-    Calibration calibration = calibration_of(bank, json);
+    Calibration calibration = checked(file, [&] { return calibration_of(bank, json); });
     return {std::move(bank), std::move(calibration), json};
   } catch (const Json::exception &e) {
     throw Failure(kBadInput, fmt::format("{}: no model of calendem calibrate, or of another "

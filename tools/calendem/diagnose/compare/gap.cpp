@@ -13,6 +13,17 @@
 
 namespace calendem {
 
+Condition with_loading_of_recipe(const Experiment &e, const Condition &c,
+                                 std::vector<std::string> &not_said) {
+  constexpr double kKnown = 0.03; // a loading that nobody measured
+  Condition out = c;
+  out.loading_mg_cm2 = Measured{e.recipe.loading, kKnown * e.recipe.loading};
+  not_said.push_back(fmt::format("{}: its mass or loading is not given; taken is the recipe's {:g} "
+                                 "mg/cm2 within {:g} %. Weigh the sample.",
+                                 c.id, e.recipe.loading, 100.0 * kKnown));
+  return out;
+}
+
 namespace {
 
 constexpr double kFalseAlarm = 0.05; // of the whole table
@@ -150,6 +161,15 @@ void say_no_run(const Condition &c, Gap &gap) {
           : c.control));
 }
 
+/// Micrometres of one film are no micrometres of a cell of another loading.
+bool other_film(const Experiment &e, const std::vector<const SimulatedRun *> &runs) {
+  constexpr double kSame = 0.02;
+  const double film = solid_thickness_um(e, e.recipe.loading);
+  return std::any_of(runs.begin(), runs.end(), [&](const SimulatedRun *r) {
+    return std::fabs(r->solid_column / film - 1.0) > kSame;
+  });
+}
+
 /// A row for everything that was measured on the condition and that its runs have a value for.
 void add_entries(const Experiment &experiment, const Condition &c,
                  const std::vector<const SimulatedRun *> &mine, std::vector<Entry> &entries,
@@ -162,7 +182,13 @@ void add_entries(const Experiment &experiment, const Condition &c,
                     "model; calendem "
                     "run with platen.control = \"roll_gap\" shows how much that is.",
                     c.id));
-  std::vector<Observable> observables = observables_of(experiment, c, gap.not_said);
+  const bool in_um = !c.curve.empty() || c.thickness_after_um || c.thickness_at_max_um;
+  std::vector<Observable> observables =
+      observables_of(experiment,
+                     in_um && !loading_of(experiment, c) && other_film(experiment, mine)
+                         ? with_loading_of_recipe(experiment, c, gap.not_said)
+                         : c,
+                     gap.not_said);
   const auto on_images = image_observables_of(experiment, c, gap.not_said);
   observables.insert(observables.end(), on_images.begin(), on_images.end());
   std::map<std::string, std::vector<std::string>> without; // by the reason

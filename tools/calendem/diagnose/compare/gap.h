@@ -84,6 +84,10 @@ std::string gap_page(const nlohmann::ordered_json &gap);
 nlohmann::json heat_map(const nlohmann::json &where, double threshold,
                         const std::vector<std::string> &conditions = {});
 
+/// The same condition with the recipe's loading where its own is not known, and a note.
+Condition with_loading_of_recipe(const Experiment &experiment, const Condition &condition,
+                                 std::vector<std::string> &not_said);
+
 } // namespace calendem
 
 #endif
