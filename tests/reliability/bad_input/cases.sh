@@ -246,7 +246,7 @@ kind_wrong() {
   of_other_kind study bank/bank.toml "this is a bank" "a study is expected here"
   of_other_kind bank studies/cells.toml "this is a study" "Give this file to calendem study"
   of_other_kind diagnose demo/case.toml "this is a case" "an experiment is expected here"
-  of_other_kind "withheld make" paper/experiment.toml "this is an experiment" "compare or diagnose"
+  of_other_kind "withheld make" paper/experiment.toml "this is an experiment" "compare, diagnose or calibrate"
   local status=0 # of a message that cannot be written
   calendem validate "$work/none.toml" 2>/dev/full || status=$?
   [ $status -eq 2 ] || fail "exit status $status, expected 2, with a full disk for the message"

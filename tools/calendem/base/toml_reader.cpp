@@ -111,7 +111,10 @@ const std::vector<Described> &kinds() {
        {"coating", "cell", "shapes", "slurry", "drying"}},
       {FileKind::Tomogram, "the description of a tomogram", "tomogram", {"image"}},
       {FileKind::Case, "a case", "run", {"electrode", "platen", "bond", "material", "numerics"}},
-      {FileKind::Experiment, "an experiment", "compare or diagnose", {"experiment", "condition"}},
+      {FileKind::Experiment,
+       "an experiment",
+       "compare, diagnose or calibrate",
+       {"experiment", "condition"}},
       {FileKind::Study, "a study", "study", {"study", "vary"}},
       {FileKind::Bank, "a bank", "bank", {"bank", "full_cell", "numerics"}},
       {FileKind::Round, "a withheld round", "withheld make", {"round"}}};

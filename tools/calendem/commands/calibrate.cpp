@@ -50,6 +50,33 @@ MissedRuns confirm(const FilmBank &bank, const Calibration &c, const CalibrateOp
   return missed;
 }
 
+std::string data_in_words(const Calibration &c) {
+  const auto count = [](std::size_t n, const char *what) {
+    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+  };
+  return fmt::format("{}, {}{}", count(c.films.size(), "film"), count(c.data.size(), "number"),
+                     c.crushed.empty() ? "" : ", " + count(c.crushed.size(), "crushing load"));
+}
+
+void say(const Calibration &c, const std::vector<LeftOut> &rows) {
+  if (c.materials.size() > 1)
+    fmt::print("probability of effects in {}\n", fmt::join(c.materials, " | "));
+  for (const Weighed &w : c.hypotheses) {
+    fmt::print("  {:<28}", w.name);
+    for (const double probability : w.probability)
+      fmt::print(" {:5.1f} %", kPercent * probability);
+    fmt::print("   ({:.0f} effective samples)\n", w.effective_samples);
+  }
+  if (!rows.empty())
+    fmt::print("each film left out in turn: porosity after release, %\n");
+  for (const LeftOut &r : rows)
+    fmt::print("  {:<36} {:4.0f} MPa  measured {:.1f}, predicted {:.1f} (90 %: {:.1f} to {:.1f}), "
+               "Heckel {:.1f}, Meyer {:.1f}\n",
+               r.film, r.pressure, kPercent * r.measured, kPercent * r.predicted.median,
+               kPercent * r.predicted.low90, kPercent * r.predicted.high90,
+               kPercent * r.rules.at("Heckel"), kPercent * r.rules.at("Meyer"));
+}
+
 void run_calibrate(const CalibrateOptions &o) {
   const FilmBank bank(read_bank_table(read_bank_spec(o.bank), table_file(o.bank)));
   Calibration c;
@@ -70,11 +97,7 @@ void run_calibrate(const CalibrateOptions &o) {
     cases.push_back(o.folder + (m == 0 ? "/case.toml" : fmt::format("/case_{}.toml", m + 1)));
     must_be_ours(cases.back(), kHeadOfCase);
   }
-  const auto count = [](std::size_t n, const char *what) {
-    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-  };
-  fmt::print("calibrate: {}, {}{}\n", count(c.films.size(), "film"), count(c.data.size(), "number"),
-             c.crushed.empty() ? "" : ", " + count(c.crushed.size(), "crushing load"));
+  fmt::print("calibrate: {}\n", data_in_words(c));
   calibrate(bank, o.settings, c);
   for (const std::string &text : warnings_of(bank, c))
     not_said.push_back(text);
@@ -91,22 +114,7 @@ void run_calibrate(const CalibrateOptions &o) {
   write({});
   for (std::size_t m = 0; m < c.materials.size(); ++m)
     write_file(cases[m], case_of(bank, c, m));
-  if (c.materials.size() > 1)
-    fmt::print("probability of effects in {}\n", fmt::join(c.materials, " | "));
-  for (const Weighed &w : c.hypotheses) {
-    fmt::print("  {:<28}", w.name);
-    for (const double probability : w.probability)
-      fmt::print(" {:5.1f} %", kPercent * probability);
-    fmt::print("   ({:.0f} effective samples)\n", w.effective_samples);
-  }
-  if (!rows.empty())
-    fmt::print("each film left out in turn: porosity after release, %\n");
-  for (const LeftOut &r : rows)
-    fmt::print("  {:<36} {:4.0f} MPa  measured {:.1f}, predicted {:.1f} (90 %: {:.1f} to {:.1f}), "
-               "Heckel {:.1f}, Meyer {:.1f}\n",
-               r.film, r.pressure, kPercent * r.measured, kPercent * r.predicted.median,
-               kPercent * r.predicted.low90, kPercent * r.predicted.high90,
-               kPercent * r.rules.at("Heckel"), kPercent * r.rules.at("Meyer"));
+  say(c, rows);
   for (const std::string &text : not_said)
     fmt::print("- {}\n", text);
   const MissedRuns missed = o.runs > 0 ? confirm(bank, c, o, recipes, write) : MissedRuns();
