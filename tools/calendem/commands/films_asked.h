@@ -39,7 +39,8 @@ struct AskedFilms {
   std::vector<double> pressures;
 };
 
-/// "20,50,80" or "20:300", which is 25 values at equal ratios, ascending. Throws Failure(2).
+/// "20,50,80" or "20:300", which is 25 values at equal ratios, ascending. Without a unit what is
+/// wrong is said of whole numbers. Throws Failure(2).
 std::vector<double> values_of(const std::string &option, const std::string &text,
                               const std::string &unit);
 
