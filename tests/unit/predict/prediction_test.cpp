@@ -207,6 +207,15 @@ TEST(Chances, ADrawThatLacksANumberIsLeftOut) {
   EXPECT_EQ(c[0].porosity, 1.0);
   EXPECT_EQ(c[0].tortuosity, 0.5);
   EXPECT_EQ(c[0].all, 0.5);
+  const auto none = chances_from({80.0},
+                                 [](FilmNumber number) {
+                                   const double after =
+                                       number == FilmNumber::PorosityAfter ? NAN : 0.3;
+                                   return Guesses{{{after, 0.0}}};
+                                 },
+                                 {0.3, 0.01, 1.0});
+  EXPECT_EQ(none[0].all, 0.0);
+  EXPECT_EQ(none[0].assured, 0.0);
 }
 
 // The pressure that gives the middle of the target is the best, and a bound on cracks takes the high ones away.

@@ -139,7 +139,7 @@ private:
                                           "[[crushed_particle]].");
     for (const toml::node &node : *list.as_array()) {
       const toml::table &t = *node.as_table();
-      report_unknown(t, {"diameter_um", "load_mN"}, "crushed_particle.");
+      report_unknown(t, {crushed_keys()[0].name, crushed_keys()[1].name}, "crushed_particle.");
       CrushedParticles p;
       p.diameter_um = number(t, crushed_keys()[0]);
       if (const toml::node *load = t.get("load_mN"))

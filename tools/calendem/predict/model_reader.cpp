@@ -110,6 +110,16 @@ Calibration calibration_of(const FilmBank &bank, const Json &json) {
   return out;
 }
 
+/// With the file's name in what is wrong.
+Calibration calibration_of(const FilmBank &bank, const Json &json, const std::string &file) {
+  try {
+    return calibration_of(bank, json);
+  } catch (const Failure &f) {
+    throw Failure(f.exit_status(),
+                  fmt::format("{}: {} Was it edited? Calibrate again.", file, f.what()));
+  }
+}
+
 Json parsed(const std::string &file) {
   if (!std::filesystem::is_regular_file(file))
     throw Failure(kBadInput, fmt::format("{}: not there. Make it with calendem calibrate.", file));
@@ -119,16 +129,6 @@ Json parsed(const std::string &file) {
     throw Failure(kBadInput, fmt::format("{}: cut or damaged; make it again with calendem "
                                          "calibrate.",
                                          file));
-  }
-}
-
-/// With the file's name in what is wrong.
-template <class Read> auto checked(const std::string &file, const Read &read) {
-  try {
-    return read();
-  } catch (const Failure &f) {
-    throw Failure(f.exit_status(),
-                  fmt::format("{}: {} Was it edited? Calibrate again.", file, f.what()));
   }
 }
 
@@ -154,7 +154,7 @@ Model read_model(const std::string &file) {
   const Json json = parsed(file);
   try {
     FilmBank bank = bank_of(file, json);
-    Calibration calibration = checked(file, [&] { return calibration_of(bank, json); });
+    Calibration calibration = calibration_of(bank, json, file);
     return {std::move(bank), std::move(calibration), json};
   } catch (const Json::exception &e) {
     throw Failure(kBadInput, fmt::format("{}: no model of calendem calibrate, or of another "

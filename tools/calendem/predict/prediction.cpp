@@ -167,6 +167,10 @@ std::vector<Chance> chances_from(const std::vector<double> &settings, const Gues
       chance.tortuosity += open;
       all.push_back(porosity * whole * open);
     }
+    if (all.empty()) { // no run has all that is asked for
+      out.push_back(chance);
+      continue;
+    }
     const auto n = double(all.size());
     for (double *sum : {&chance.porosity, &chance.cracked, &chance.tortuosity})
       *sum /= n;
