@@ -2,6 +2,7 @@
 // Intervals over all hypotheses hold as often as they say, whatever the answer is.
 #include "diagnose/inference/averaged.h"
 #include "diagnose/inference/base_beside_unknown.h"
+#include "diagnose/inference/hypothesis.h"
 #include "linear_world.h"
 #include <gtest/gtest.h>
 
@@ -121,13 +122,63 @@ TEST(Averaged, WhatTheUnknownMayDoInAParametersPlaceIsNotKnown) {
   Judged unknown;
   unknown.hypothesis = {Hypothesis::unknown, {}, "unknown", 0.0};
   unknown.evidence.draws = Matrix::Constant(2, kDraws, kUnknownSize.score(kSize));
-  const Matrix draws = base_beside_unknown(problem, linearise(problem, Vector::Zero(1)), unknown,
-                                           Matrix::Ones(kFeatures, kFeatures));
+  unknown.evidence.mode = Vector::Zero(2);
+  const Matrix draws =
+      base_beside_unknown(problem, unknown, Matrix::Ones(kFeatures, kFeatures), kDraws);
   const double weight = kFeatures / (1.0 + kSize * kSize * kFeatures);
   const double mean = draws.row(0).mean(), variance = 1.0 / (1.0 + weight);
   EXPECT_NEAR(mean, 5.0 * weight * variance, 3.0 * std::sqrt(variance / kDraws));
   EXPECT_NEAR((draws.row(0).array() - mean).square().mean(), variance,
               3.0 * variance * std::sqrt(2.0 / kDraws));
+}
+
+// Features that bend with the parameter, and emulators that err more the farther it is from zero: moments by
+// the sum over a grid. The effect beside moves them, too, and its emulator errs by as much as it acts.
+TEST(Averaged, BesideTheUnknownParametersBendAndEffectsErr) {
+  constexpr int kFeatures = 3, kDraws = 20000;
+  LinearWorld world(kFeatures, 1, 1, 5);
+  world.covariance = 0.09 * Matrix::Identity(kFeatures, kFeatures);
+  world.sensitivity << 1.0, 0.6, -0.4;
+  world.signatures.setConstant(0.2);
+  const Vector centre = world.centre, bend = Eigen::Vector3d(0.5, -0.3, 0.2);
+  Problem problem = world.problem(centre + Eigen::Vector3d(2.2, 0.8, -0.6));
+  problem.predict = [&](const Vector &base, const std::vector<Applied> &on) {
+    Prediction p{centre + world.sensitivity * base + bend * base[0] * base[0],
+                 Vector::Constant(kFeatures, 0.02 * base[0] * base[0])};
+    for (const Applied &a : on) {
+      p.mean += (world.amplitude + a.scores[0]) * world.signatures.col(a.effect);
+      p.variance.array() += 0.04;
+    }
+    return p;
+  };
+  Judged unknown;
+  unknown.hypothesis = {Hypothesis::unknown, {0}, "unknown", 0.0};
+  unknown.hypothesis.size = 1.0;
+  unknown.evidence.mode = Vector::Zero(2);
+  unknown.evidence.draws = Matrix::Zero(2, 10);
+  const Matrix anywhere = 0.25 * Matrix::Ones(kFeatures, kFeatures);
+  const Matrix draws = base_beside_unknown(problem, unknown, anywhere, kDraws);
+  double sum = 0.0, first = 0.0, second = 0.0;
+  for (double s = -6.0; s <= 6.0; s += 0.002) {
+    const Prediction p = problem.predict(Vector::Constant(1, s), {{0, Vector::Zero(1)}});
+    const Cholesky factor(covariance_about(problem, p) + anywhere);
+    const double square = factor.matrixL().solve(problem.observed - p.mean).squaredNorm();
+    const double weight =
+        std::exp(-0.5 * (square + s * s)) / Matrix(factor.matrixL()).determinant();
+    sum += weight;
+    first += weight * s;
+    second += weight * s * s;
+  }
+  const double mean = first / sum, variance = second / sum - mean * mean;
+  EXPECT_NEAR(draws.row(0).mean(), mean, 3.0 * std::sqrt(variance / kDraws));
+  EXPECT_NEAR((draws.row(0).array() - mean).square().mean(), variance,
+              3.0 * variance * std::sqrt(2.0 / kDraws));
+}
+
+TEST(Averaged, DrawsAreTakenFromAllOfThem) {
+  const Matrix all = Vector::LinSpaced(10, 0.0, 9.0).transpose();
+  EXPECT_EQ(spread_over(all, 2), (Matrix(1, 2) << 2.0, 7.0).finished());
+  EXPECT_EQ(spread_over(all, 10), all);
 }
 
 } // namespace

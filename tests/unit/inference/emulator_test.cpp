@@ -179,13 +179,13 @@ TEST(Emulators, AnEffectIsNothingAtAmplitudeZero) {
   for (int i = 0; i < values.cols(); ++i)
     values.col(i) = bank.runs[i].values;
   const Emulators learnt(bank, values);
-  const auto at = [&](double amplitude, bool on, double share = 1.0) {
-    Prediction p{Vector::Zero(16), Vector::Zero(16)};
+  const auto at = [&](double amplitude, bool on) {
+    Prediction p{Vector::Zero(16), Vector::Zero(16), Vector::Zero(16)};
     std::vector<Applied> applied;
     if (on)
       applied.push_back(
           {0, Vector::Constant(1, bank.effects[0].parameters[0].prior.score(amplitude))});
-    learnt.predict(Vector::Zero(2), applied, share, 0, p);
+    learnt.predict(Vector::Zero(2), applied, 0, p);
     return p;
   };
   EXPECT_NEAR((at(0.0, true).mean - at(0.0, false).mean).norm(), 0.0, 1e-9);
@@ -194,7 +194,7 @@ TEST(Emulators, AnEffectIsNothingAtAmplitudeZero) {
   EXPECT_NEAR(at(0.5, true).mean[kCurve] - at(0.5, false).mean[kCurve], -0.3, 2e-3);
   EXPECT_GT(learnt.effect(0)[kCurve].left_out().q2, 0.99);
   // Its emulator is not sure of itself either, packings apart.
-  EXPECT_GT(at(0.5, true, 0.0).variance[kCurve], at(0.5, false, 0.0).variance[kCurve]);
+  EXPECT_GT(at(0.5, true).variance[kCurve], at(0.5, false).variance[kCurve]);
 }
 
 // Differences that are computed have no noise; those of two simulations have that of both.
@@ -206,10 +206,9 @@ TEST(Emulators, WhatIsComputedDoesNotScatterOnItsOwn) {
   const auto variance = [&](bool computed) {
     bank.effects[0].computed = computed;
     const Emulators learnt(bank, values);
-    Prediction p{Vector::Zero(16), Vector::Zero(16)};
-    learnt.predict(Vector::Zero(2), {{0, Vector::Zero(1)}}, 0.0, 0, p);
-    Prediction off{Vector::Zero(16), Vector::Zero(16)};
-    learnt.predict(Vector::Zero(2), {}, 0.0, 0, off);
+    Prediction p{Vector::Zero(16), Vector::Zero(16), Vector::Zero(16)}, off = p;
+    learnt.predict(Vector::Zero(2), {{0, Vector::Zero(1)}}, 0, p);
+    learnt.predict(Vector::Zero(2), {}, 0, off);
     return p.variance[kCurve] - off.variance[kCurve];
   };
   EXPECT_LT(variance(true), 0.1 * variance(false));

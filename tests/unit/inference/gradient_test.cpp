@@ -18,9 +18,12 @@ Problem learnt() {
   bank.effects[1].parameters[0].nothing = 0.002;
   bank.effects[2].parameters[0].prior = {Prior::normal, 0.5, 0.25};
   Random packing(99, 77), rough(4, 4);
-  for (BankRun &r : bank.runs) // differences without scatter make ill-conditioned emulators
+  for (std::size_t k = 0; k < bank.runs.size(); ++k) {
+    BankRun &r = bank.runs[k]; // differences without scatter make ill-conditioned emulators
     for (double &v : r.values)
-      v += 0.03 * rough.normal();
+      v += 0.03 * rough.normal() + (r.effect.empty() ? 0.0 : 0.2 * (k / 8 % 2) * r.amplitudes[0]);
+    r.packing = "p" + std::to_string(k / 8); // of two points
+  }
   ObservableVector experiment{bank.observables,
                               synthetic_values(0.2, -0.1, "oscillation", 0.4, packing, 0.05),
                               0.0009 * Matrix::Identity(kCurve + 4, kCurve + 4)};
@@ -36,7 +39,7 @@ void expect_same(const Matrix &a, const Matrix &b) {
 Slopes differences(const Problem &p, const Vector &base, const std::vector<Applied> &on) {
   const double h = 0.02, weight[] = {1.0, -8.0, 8.0, -1.0}, at[] = {-2.0, -1.0, 1.0, 2.0};
   const auto n = base.size() + Eigen::Index(on.size()), all = p.observed.size();
-  Slopes s{Matrix::Zero(all, n), Matrix::Zero(all, n)};
+  Slopes s{Matrix::Zero(all, n), Matrix::Zero(all, n), Matrix::Zero(all, n)};
   for (Eigen::Index j = 0; j < n; ++j)
     for (int k = 0; k < 4; ++k) {
       Vector moved = base;
@@ -45,6 +48,7 @@ Slopes differences(const Problem &p, const Vector &base, const std::vector<Appli
       const Prediction there = p.predict(moved, with);
       s.mean.col(j) += weight[k] * there.mean / (12.0 * h);
       s.variance.col(j) += weight[k] * there.variance / (12.0 * h);
+      s.scatter.col(j) += weight[k] * there.scatter / (12.0 * h);
     }
   return s;
 }
@@ -60,6 +64,8 @@ TEST(Gradient, OfPredictions) {
     const Slopes exact = slopes_of(p, base, on), about = differences(p, base, on);
     expect_same(exact.mean, about.mean);
     expect_same(exact.variance, about.variance);
+    expect_same(exact.scatter, about.scatter);
+    EXPECT_EQ(exact.scatter.norm() > 1e-3, !on.empty());
     EXPECT_GT(exact.mean.norm(), 0.1);
   }
   const Problem less = without_effect(p, 0);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "diagnose/inference/model.h"
 #include "diagnose/inference/scatter.h"
 #include "diagnose/inference/where.h"
 #include "diagnose/inference/which.h"
 #include "linear_world.h"
+#include "synthetic_bank.h"
 #include <gtest/gtest.h>
 
 namespace calendem::inference {
@@ -93,6 +95,38 @@ TEST(CovarianceAbout, EmulatorsErrTogether) {
   p.correlation = Eigen::Matrix2d{{1.0, 0.6}, {0.6, 1.0}};
   expected(0, 1) = expected(1, 0) = 0.5 * 0.6;
   EXPECT_LT((covariance_about(p, errs) - expected).norm(), 1e-15);
+}
+
+// An effect that adds variances of 0.36 and 0.04 between cells, of which the sample has four.
+TEST(CovarianceAbout, ScatterThatEffectsAddShrinksWithTheSample) {
+  Problem p;
+  p.measurement = p.scatter = Matrix::Zero(2, 2);
+  p.added_scatter = 0.25 * Eigen::Matrix2d{{1.0, 0.5}, {0.5, 1.0}};
+  const Prediction errs{Vector::Zero(2), Vector::Zero(2), Eigen::Vector2d(0.36, 0.04)};
+  EXPECT_LT((covariance_about(p, errs) - 0.25 * Eigen::Matrix2d{{0.36, 0.06}, {0.06, 0.04}}).norm(),
+            1e-15);
+}
+
+// Of specimens that are means of four and of one, between which nothing scatters together.
+TEST(CovarianceAbout, ScatterThatEffectsAddIsOfOneSpecimen) {
+  Bank bank = synthetic_bank(16, 0.05);
+  ObservableVector experiment = synthetic_experiment("", 0.0, 3, 0.05, 0.02);
+  for (std::size_t k = kCurve; k < experiment.of.size(); ++k)
+    experiment.of[k].condition = bank.observables[k].condition = "p80";
+  ModelSettings settings;
+  settings.packings_in_sample = 2.0;
+  settings.specimens = {{"p150", {"a", 4}}, {"p80", {"b", 1}}};
+  const Problem p = Model(bank, experiment, settings).problem(experiment.values);
+  for (std::size_t i = 0; i < p.features.size(); ++i)
+    for (std::size_t j = 0; j < p.features.size(); ++j) {
+      const std::string &own = p.blocks[std::size_t(p.features[i].block)].condition,
+                        &other = p.blocks[std::size_t(p.features[j].block)].condition;
+      const bool emulated = p.features[i].emulated && p.features[j].emulated;
+      EXPECT_EQ(p.added_scatter(Eigen::Index(i), Eigen::Index(j)),
+                emulated && own == other ? p.correlation(Eigen::Index(i), Eigen::Index(j)) *
+                                               (own == "p150" ? 0.125 : 0.5)
+                                         : 0.0);
+    }
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Draws of a round.
 #include "base/messages.h"
+#include "diagnose/bank/bank_table.h"
 #include "small_round.h"
 #include <cmath>
 #include <set>
@@ -152,6 +153,29 @@ TEST(Truths, SharedSamplesAreRunOnceWithoutACause) {
   for (std::size_t k = 0; k < 6; ++k) // the companion of the first effect is the first null
     EXPECT_EQ(runs.of_truths[6 * truths.size() + k], runs.of_truths[k]);
   EXPECT_NE(runs.of_truths[6 * 2], runs.of_truths[0]);
+}
+
+// Sets are few; half of two lie in each half of every prior, and which is which differs from parameter to parameter.
+TEST(Truths, SetsOfSharedSamplesCoverThePriors) {
+  std::string text = kRound;
+  text.insert(text.find("samples"), "shared_samples = \"yes\"\n");
+  Round round = round_of(text);
+  round.bank.parameters.push_back(round.bank.parameters[0]);
+  round.bank.parameters[1].name = "another";
+  int alike = 0;
+  for (int draw = 0; draw < 20; ++draw) {
+    const std::vector<Truth> truths = draw_truths(round, std::to_string(draw));
+    std::vector<bool> first_above;
+    for (std::size_t p = 0; p < round.bank.parameters.size(); ++p) {
+      const BankParameter &of = round.bank.parameters[p];
+      const double middle = prior_value(of.low, of.high, of.spread, 0.5);
+      first_above.push_back(truths[0].base[p] > middle);
+      EXPECT_NE(truths[1].base[p] > middle, first_above.back());
+    }
+    alike += first_above.front() == first_above.back();
+  }
+  EXPECT_GT(alike, 0); // all or none alike once in 2^19
+  EXPECT_LT(alike, 20);
 }
 
 // A round that takes too long is cut down to some of its sets, each with its null first.

@@ -61,6 +61,12 @@ Changes of_bonds_and_contacts() {
            {"case.effects.drying_stress.shrinkage", "0.02"}}),
       set("smooth_collector", "a collector on which particles slide",
           {{"case.material.collector.friction", "0.05"}}),
+      set("imprinted_collector", "a collector that particles press into for good",
+          {{"case.effects.collector_indentation.yield_pressure_GPa", "1.5"}}),
+      set("soft_bonds", "bonds far softer than the particles",
+          {{"case.bond.youngs_modulus_GPa", "30"}}),
+      scaled("sticky_particles", "active material of twice the cohesion energy density",
+             {"case.material.am.ced_J_m3"}, 2.0),
   };
 }
 
@@ -109,6 +115,11 @@ Changes of_the_coating() {
           {{"recipe.effects.cbd_gradient.slope", "-0.8"}}),
       scaled("light_binder", "carbon and binder lighter than the recipe says",
              {"recipe.density.cbd_solid_g_cm3"}, 0.75),
+      scaled("heavy_binder", "carbon and binder heavier than the recipe says",
+             {"recipe.density.cbd_solid_g_cm3"}, 1.3),
+      {"coarse_rough_bodies",
+       "larger particles of a rougher outline",
+       {{"recipe.particles.median_um", "", 1.25}, {"recipe.particles.irregularity", "", 2.5}}},
   };
 }
 

@@ -16,11 +16,25 @@ namespace {
 
 constexpr char kNull[] = "null";
 
+/// 0 to n - 1 (Fisher and Yates).
+std::vector<std::size_t> in_random_order(std::size_t n, const std::string &secret,
+                                         const std::string &what) {
+  std::vector<std::size_t> out(n);
+  std::iota(out.begin(), out.end(), 0);
+  Random random(derived_seed(secret, what), 0);
+  for (std::size_t k = n; k > 1; --k)
+    std::swap(out[k - 1], out[std::size_t(random.uniform() * double(k))]);
+  return out;
+}
+
 /// Draws one truth after the other.
 class Drawing {
 public:
   Drawing(const Round &round, const std::string &secret)
-      : round_(round), random_(derived_seed(secret, "truths"), 0) {}
+      : round_(round), random_(derived_seed(secret, "truths"), 0) {
+    for (const BankParameter &p : round.bank.parameters)
+      strata_.push_back(in_random_order(std::size_t(round.null_packings), secret, p.name));
+  }
 
   /// `turn`: whose turn it is to be given its number of samples.
   Truth truth(const std::string &block, const std::vector<std::string> &names, std::size_t turn,
@@ -62,13 +76,20 @@ private:
   Random random_;
   std::vector<Truth> sets_; ///< the nulls
   std::size_t drawn_ = 0;   ///< truths beside them
+  std::vector<std::vector<std::size_t>>
+      strata_; ///< of each base parameter: a set's part of its prior
 
   Truth samples_drawn(std::size_t turn) {
     Truth t;
     t.samples = round_.samples[turn % round_.samples.size()];
     t.packings = packings(t.samples);
-    for (const BankParameter &p : round_.bank.parameters)
-      t.base.push_back(prior_value(p.low, p.high, p.spread, random_.uniform()));
+    for (std::size_t k = 0; k < round_.bank.parameters.size(); ++k) {
+      const BankParameter &p = round_.bank.parameters[k];
+      double share = random_.uniform();
+      if (round_.shared_samples)
+        share = (double(strata_[k][sets_.size()]) + share) / double(round_.null_packings);
+      t.base.push_back(prior_value(p.low, p.high, p.spread, share));
+    }
     return t;
   }
 
@@ -76,16 +97,6 @@ private:
     return prior_value(p.low, p.high, p.spread, low + (high - low) * random_.uniform());
   }
 };
-
-/// 0 to n - 1 (Fisher and Yates).
-std::vector<std::size_t> in_random_order(std::size_t n, const std::string &secret) {
-  std::vector<std::size_t> out(n);
-  std::iota(out.begin(), out.end(), 0);
-  Random random(derived_seed(secret, "sets"), 0);
-  for (std::size_t k = n; k > 1; --k)
-    std::swap(out[k - 1], out[std::size_t(random.uniform() * double(k))]);
-  return out;
-}
 
 /// Keys that the truth changes beyond the bank's own, with their values; all but the packing.
 std::map<std::string, std::string> changed_keys(const Round &round, const Truth &t,
@@ -198,7 +209,7 @@ std::vector<Truth> draw_truths(const Round &round, const std::string &secret) {
   add("other", round.other_numerics);
   add(kIntervention, round.interventions);
   const std::size_t sets = round.shared_samples ? std::size_t(round.null_packings) : out.size();
-  const std::vector<std::size_t> order = in_random_order(sets, secret);
+  const std::vector<std::size_t> order = in_random_order(sets, secret, "sets");
   for (std::size_t k = 0; k < out.size(); ++k) {
     Truth &t = out[k];
     t.set = order[k % sets];

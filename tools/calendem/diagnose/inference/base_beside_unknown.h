@@ -7,16 +7,21 @@
 
 namespace calendem::inference {
 
-/// One draw of the base parameters' scores [base parameters x draws] for each draw of the unknown's
-/// posterior. The evidence keeps the discrepancy off what recalibration can do, for there nothing
-/// tells the two apart; the parameters must not profit from that. Here the discrepancy has the
-/// covariance `anywhere` (of one standard deviation, times the draw's size squared), and the scores
-/// are drawn from the posterior that is linear about `base`:
-///   precision 1 + J^T C^-1 J, mean precision^-1 J^T C^-1 (observed - effects - mean + J at),
-/// C the base's covariance and the discrepancy's. Kennedy and O'Hagan, J. R. Stat. Soc. B 63 (2001)
-/// 425, section 4.5, for one size at a time.
-Matrix base_beside_unknown(const Problem &problem, const Linearised &base, const Judged &unknown,
-                           const Matrix &anywhere);
+/// `count` columns of them, as far apart as they can be.
+Matrix spread_over(const Matrix &draws, Eigen::Index count);
+
+/// Draws of the base parameters' scores [base parameters x count], each beside one draw of the
+/// unknown's posterior (its size, and what effects beside it do). The evidence keeps the discrepancy
+/// off what recalibration can do, for there nothing tells the two apart; the parameters must not
+/// profit from that. Here the discrepancy has the covariance `anywhere` (of one standard deviation,
+/// times the draw's size squared). Candidates come from a t distribution about the posterior that is
+/// linear at the unknown's mode,
+///   precision 1 + J^T C^-1 J, mean precision^-1 J^T C^-1 (observed - predicted + J at),
+/// C the errors' covariance and the discrepancy's; one of them is taken as often as it is more
+/// probable than that. Kennedy and O'Hagan, J. R. Stat. Soc. B 63 (2001) 425, section 4.5, for one
+/// size at a time; sampling-importance resampling: Rubin, Bayesian Statistics 3 (1988) 395.
+Matrix base_beside_unknown(const Problem &problem, const Judged &unknown, const Matrix &anywhere,
+                           Eigen::Index count);
 
 } // namespace calendem::inference
 

@@ -266,11 +266,12 @@ Signature Signatures::of(const std::vector<Applied> &on) const {
   Signature s = off();
   s.on = on;
   s.mean = factor_.matrixL().solve(p.mean - base_.mean);
-  const Vector variance = (p.variance - base_variance_).cwiseMax(0.0);
-  if (variance.maxCoeff() == 0.0)
+  const Prediction more{{}, (p.variance - base_variance_).cwiseMax(0.0), p.scatter};
+  const Matrix errors = errors_of(problem_, more);
+  if (errors.diagonal().maxCoeff() == 0.0)
     return s;
-  const auto identity = Matrix::Identity(variance.size(), variance.size());
-  const Matrix half = factor_.matrixL().solve(emulator_errors(problem_, variance));
+  const auto identity = Matrix::Identity(errors.rows(), errors.cols());
+  const Matrix half = factor_.matrixL().solve(errors);
   const Cholesky sum(Matrix(identity + factor_.matrixL().solve(half.transpose())));
   s.precision = sum.solve(identity);
   s.log_determinant = log_determinant(sum);
@@ -301,7 +302,8 @@ double Signatures::odds_recalibrated(const Signature &truth, const Signature &ri
   const auto square = [&](const Vector &scores, Vector &gradient) {
     const Slopes all = slopes_of(problem_, scores, rival.on);
     const auto n = scores.size(); // what the rival's own amplitude does is not asked
-    const Slopes slopes{all.mean.leftCols(n), all.variance.leftCols(n), all.here};
+    const Slopes slopes{all.mean.leftCols(n), all.variance.leftCols(n),
+                        all.scatter.leftCols(all.scatter.size() > 0 ? n : 0), all.here};
     const Misfit m =
         misfit_of(problem_, seen, all.here, covariance_about(problem_, all.here), slopes);
     gradient = m.square_slopes + m.determinant_slopes + 2.0 * (scores - base_.at);

@@ -183,14 +183,16 @@ Problem change_of(const Model &model, const Vector &values, const Vector &predic
     change.mean.head(emulated) += before.head(emulated);
     return change;
   };
-  p.scatter *= 2.0;
+  p.scatter *= 2.0; // of two discs; what the effect adds is of one
+  p.degrees_of_freedom =
+      mixed_degrees(p.measurement, p.scatter, model.scatter().degrees_of_freedom);
   p.predict = [change = p.predict, scores, after](const Vector &s, const std::vector<Applied> &on) {
     return after(change(scores(s), on));
   };
   p.slopes = [change = p.slopes, scores, factor, after](const Vector &s,
                                                         const std::vector<Applied> &on) {
     Slopes out = change(scores(s), on);
-    for (Matrix *along : {&out.mean, &out.variance})
+    for (Matrix *along : {&out.mean, &out.variance, &out.scatter})
       along->leftCols(s.size()) = Matrix(along->leftCols(s.size()) * factor);
     out.here = after(std::move(out.here));
     return out;

@@ -141,8 +141,8 @@ Vector Emulators::scaled(const Vector &base_scores) const {
   return base;
 }
 
-void Emulators::predict(const Vector &base_scores, const std::vector<Applied> &on, double share,
-                        int first, Prediction &out, Part of) const {
+void Emulators::predict(const Vector &base_scores, const std::vector<Applied> &on, int first,
+                        Prediction &out, Part of) const {
   const Vector base = scaled(base_scores);
   for (std::size_t f = 0; f < base_.size() && of == Part::whole; ++f) {
     const Mean m = base_[f].at(base, Vector());
@@ -154,15 +154,16 @@ void Emulators::predict(const Vector &base_scores, const std::vector<Applied> &o
     for (std::size_t f = 0; f < base_.size(); ++f) {
       const GaussianProcess &g = effects_[std::size_t(a.effect)][f];
       const Mean m = g.at(p.input, p.amplitudes);
-      out.mean[first + Eigen::Index(f)] += m.mean;
-      out.variance[first + Eigen::Index(f)] +=
-          m.variance + share * g.packing_variance() * p.amplitudes.squaredNorm();
+      const Eigen::Index row = first + Eigen::Index(f);
+      out.mean[row] += m.mean;
+      out.variance[row] += m.variance;
+      out.scatter[row] += g.packing_variance() * p.amplitudes.squaredNorm();
     }
   }
 }
 
-void Emulators::slopes(const Vector &base_scores, const std::vector<Applied> &on, double share,
-                       int first, Slopes &out, Part of) const {
+void Emulators::slopes(const Vector &base_scores, const std::vector<Applied> &on, int first,
+                       Slopes &out, Part of) const {
   const Vector base = scaled(base_scores);
   const auto n = base.size();
   Vector per_score(n);
@@ -182,12 +183,11 @@ void Emulators::slopes(const Vector &base_scores, const std::vector<Applied> &on
     const Point p = point_at(base, effect, a.scores);
     for (std::size_t f = 0; f < base_.size(); ++f) {
       const GaussianProcess &g = effects_[std::size_t(a.effect)][f];
-      MeanSlopes s = g.slopes_at(p.input, p.amplitudes);
-      s.variance_amplitudes += share * g.packing_variance() * 2.0 * p.amplitudes;
+      const MeanSlopes s = g.slopes_at(p.input, p.amplitudes);
       const Eigen::Index row = first + Eigen::Index(f);
       out.here.mean[row] += s.here.mean;
-      out.here.variance[row] +=
-          s.here.variance + share * g.packing_variance() * p.amplitudes.squaredNorm();
+      out.here.variance[row] += s.here.variance;
+      out.here.scatter[row] += g.packing_variance() * p.amplitudes.squaredNorm();
       out.mean.row(row).head(n) += s.mean_inputs.head(n).cwiseProduct(per_score).transpose();
       out.variance.row(row).head(n) +=
           s.variance_inputs.head(n).cwiseProduct(per_score).transpose();
@@ -202,7 +202,9 @@ void Emulators::slopes(const Vector &base_scores, const std::vector<Applied> &on
         const double strength =
             q.strength_slope(q.prior.value(a.scores[j])) * q.prior.value_slope(a.scores[j]);
         out.mean(row, column + j) += strength * s.mean_amplitudes[amplitude];
-        out.variance(row, column + j) += strength * s.variance_amplitudes[amplitude++];
+        out.variance(row, column + j) += strength * s.variance_amplitudes[amplitude];
+        out.scatter(row, column + j) +=
+            strength * 2.0 * g.packing_variance() * p.amplitudes[amplitude++];
       }
     }
     column += a.scores.size();

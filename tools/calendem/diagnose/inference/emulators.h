@@ -19,14 +19,13 @@ public:
   Emulators(const Bank &bank, const Matrix &features);
 
   /// Adds to the features from `first` on. Several effects add up: what they do to each other is
-  /// not in it. The variance holds the emulators' and, times `share`, what the effects add to the
-  /// scatter between packings. `of`: of the whole, or of what the effects change only.
-  void predict(const Vector &base_scores, const std::vector<Applied> &on, double share, int first,
+  /// not in it. `of`: of the whole, or of what the effects change only.
+  void predict(const Vector &base_scores, const std::vector<Applied> &on, int first,
                Prediction &out, Part of = Part::whole) const;
 
   /// The same and its derivatives, into the rows from `first` on.
-  void slopes(const Vector &base_scores, const std::vector<Applied> &on, double share, int first,
-              Slopes &out, Part of = Part::whole) const;
+  void slopes(const Vector &base_scores, const std::vector<Applied> &on, int first, Slopes &out,
+              Part of = Part::whole) const;
 
   const std::vector<GaussianProcess> &base() const { return base_; }
   const std::vector<GaussianProcess> &effect(int which) const { return effects_[which]; }

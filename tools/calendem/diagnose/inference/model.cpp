@@ -193,25 +193,25 @@ Problem Model::problem(const Vector &values, Part of) const {
       share * of_specimens(scatter_.covariance, {map_.get()}, settings_.specimens);
   p.correlation = Matrix::Identity(all, all);
   p.correlation.topLeftCorner(n, n) = correlation_;
+  p.added_scatter = Matrix::Zero(all, all);
+  p.added_scatter.topLeftCorner(n, n) =
+      share * of_specimens(correlation_, {map_.get()}, settings_.specimens);
   p.degrees_of_freedom = mixed_degrees(p.measurement, p.scatter, scatter_.degrees_of_freedom);
   p.base_parameters = base_parameters_;
   p.effects = effects_;
   p.discrepancy = map_->discrepancy(unknown_covariance(observables_, sd_));
-  p.predict = [learnt = emulators_, share, all, of](const Vector &base,
-                                                    const std::vector<Applied> &on) {
-    Prediction out{Vector::Zero(all), Vector::Zero(all)};
-    learnt->predict(base, on, share, 0, out, of);
+  p.predict = [learnt = emulators_, all, of](const Vector &base, const std::vector<Applied> &on) {
+    Prediction out{Vector::Zero(all), Vector::Zero(all), Vector::Zero(all)};
+    learnt->predict(base, on, 0, out, of);
     return out;
   };
-  p.slopes = [learnt = emulators_, share, all, of](const Vector &base,
-                                                   const std::vector<Applied> &on) {
+  p.slopes = [learnt = emulators_, all, of](const Vector &base, const std::vector<Applied> &on) {
     Eigen::Index scores = base.size();
     for (const Applied &a : on)
       scores += a.scores.size();
-    Slopes out{Matrix::Zero(all, scores),
-               Matrix::Zero(all, scores),
-               {Vector::Zero(all), Vector::Zero(all)}};
-    learnt->slopes(base, on, share, 0, out, of);
+    const Matrix none = Matrix::Zero(all, scores);
+    Slopes out{none, none, none, {Vector::Zero(all), Vector::Zero(all), Vector::Zero(all)}};
+    learnt->slopes(base, on, 0, out, of);
     return out;
   };
   return p;
@@ -243,16 +243,19 @@ std::vector<Extension> Model::extensions(const Vector &values) const {
     };
     p.scatter = joined(p.scatter, share * extra.scatter);
     p.correlation = joined(p.correlation, extra.correlation);
+    p.added_scatter = joined(p.added_scatter,
+                             share * of_specimens(extra.correlation, {map_.get(), extra.map.get()},
+                                                  settings_.specimens));
     const int first = int(p.blocks.size());
     for (int f = 0; f < added; ++f)
       p.features.push_back({first + extra.map->features()[std::size_t(f)].block, true});
     p.blocks.insert(p.blocks.end(), extra.map->blocks().begin(), extra.map->blocks().end());
     p.slopes = nullptr; // those are of the old features only
-    p.predict = [first = emulators_, second = extra.emulators, share, old,
+    p.predict = [first = emulators_, second = extra.emulators, old,
                  all](const Vector &base, const std::vector<Applied> &on) {
-      Prediction out{Vector::Zero(all), Vector::Zero(all)};
-      first->predict(base, on, share, 0, out);
-      second->predict(base, on, share, old, out);
+      Prediction out{Vector::Zero(all), Vector::Zero(all), Vector::Zero(all)};
+      first->predict(base, on, 0, out);
+      second->predict(base, on, old, out);
       return out;
     };
     list.push_back({extra.candidate.what, extra.candidate.cost, std::move(p)});

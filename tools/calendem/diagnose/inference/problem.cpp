@@ -20,7 +20,9 @@ Slopes by_differences(const Problem &problem, const Vector &base, const std::vec
     for (double &v : a.scores)
       scores.push_back(&v);
   const auto features = Eigen::Index(problem.features.size()), n = Eigen::Index(scores.size());
-  Slopes s{Matrix(features, n), Matrix(features, n), problem.predict(base, on)};
+  Slopes s{Matrix(features, n), Matrix(features, n), {}, problem.predict(base, on)};
+  if (s.here.scatter.size() > 0)
+    s.scatter.resize(features, n);
   for (Eigen::Index j = 0; j < n; ++j) {
     double &moved = *scores[std::size_t(j)];
     const double here = moved;
@@ -31,8 +33,33 @@ Slopes by_differences(const Problem &problem, const Vector &base, const std::vec
     moved = here;
     s.mean.col(j) = (above.mean - below.mean) / (2.0 * kStep);
     s.variance.col(j) = (above.variance - below.variance) / (2.0 * kStep);
+    if (s.scatter.size() > 0)
+      s.scatter.col(j) = (above.scatter - below.scatter) / (2.0 * kStep);
   }
   return s;
+}
+
+/// A covariance of elements sd r sd of two features.
+Matrix scaled_by(const Matrix &correlation, const Vector &variance) {
+  const Vector sd = variance.cwiseSqrt();
+  return sd.asDiagonal() * correlation * sd.asDiagonal();
+}
+
+/// What such a covariance adds to the derivatives of a misfit.
+void add_slopes(const Matrix &correlation, const Vector &variance, const Matrix &along,
+                const Vector &pulled, const Matrix &inverse, Misfit &m) {
+  const Vector sd = variance.cwiseSqrt();
+  const Vector inverse_sd = (sd.array() > 0.0).select(sd.cwiseInverse(), 0.0);
+  const Matrix sd_slopes = 0.5 * inverse_sd.asDiagonal() * along;
+  const Vector of_square = (correlation * pulled.cwiseProduct(sd)).cwiseProduct(pulled);
+  const Vector of_determinant = inverse.cwiseProduct(correlation) * sd;
+  m.square_slopes -= 2.0 * sd_slopes.transpose() * of_square;
+  m.determinant_slopes += 2.0 * sd_slopes.transpose() * of_determinant;
+}
+
+Matrix correlation_of(const Problem &problem, Eigen::Index features) {
+  return problem.correlation.size() > 0 ? problem.correlation
+                                        : Matrix::Identity(features, features);
 }
 
 } // namespace
@@ -75,18 +102,12 @@ Misfit misfit_of(const Problem &problem, const Vector &observed, const Predictio
   m.square = apart.dot(pulled);
   m.log_determinant = 2.0 * Matrix(factor.matrixL()).diagonal().array().log().sum();
   const Matrix inverse = factor.solve(Matrix::Identity(apart.size(), apart.size()));
-  const Vector sd = prediction.variance.cwiseSqrt();
-  const Vector inverse_sd = (sd.array() > 0.0).select(sd.cwiseInverse(), 0.0);
-  const Matrix sd_slopes = 0.5 * inverse_sd.asDiagonal() * slopes.variance;
-  // An element of the errors' covariance is sd r sd of two features.
-  Vector of_square = pulled.cwiseProduct(sd), of_determinant = inverse.diagonal().cwiseProduct(sd);
-  if (problem.correlation.size() != 0) {
-    of_square = problem.correlation * of_square;
-    of_determinant = inverse.cwiseProduct(problem.correlation) * sd;
-  }
-  of_square = of_square.cwiseProduct(pulled);
-  m.square_slopes = -2.0 * (slopes.mean.transpose() * pulled + sd_slopes.transpose() * of_square);
-  m.determinant_slopes = 2.0 * sd_slopes.transpose() * of_determinant;
+  m.square_slopes = -2.0 * slopes.mean.transpose() * pulled;
+  m.determinant_slopes = Vector::Zero(m.square_slopes.size());
+  add_slopes(correlation_of(problem, apart.size()), prediction.variance, slopes.variance, pulled,
+             inverse, m);
+  if (prediction.scatter.size() > 0)
+    add_slopes(problem.added_scatter, prediction.scatter, slopes.scatter, pulled, inverse, m);
   return m;
 }
 
@@ -103,15 +124,15 @@ Vector drawn(const Problem &problem, const Vector &base, const std::vector<Appli
   return p.mean + factor.matrixL() * Vector(stretch * normal);
 }
 
-Matrix emulator_errors(const Problem &problem, const Vector &variance) {
-  if (problem.correlation.size() == 0)
-    return variance.asDiagonal();
-  const Vector sd = variance.cwiseSqrt();
-  return sd.asDiagonal() * problem.correlation * sd.asDiagonal();
+Matrix errors_of(const Problem &problem, const Prediction &prediction) {
+  Matrix out = scaled_by(correlation_of(problem, prediction.variance.size()), prediction.variance);
+  if (prediction.scatter.size() > 0)
+    out += scaled_by(problem.added_scatter, prediction.scatter);
+  return out;
 }
 
 Matrix covariance_about(const Problem &problem, const Prediction &prediction) {
-  return problem.measurement + problem.scatter + emulator_errors(problem, prediction.variance);
+  return problem.measurement + problem.scatter + errors_of(problem, prediction);
 }
 
 Linearised linearise(const Problem &problem, const Vector &base) {

@@ -22,13 +22,14 @@ enum class Part { whole, change };
 /// Of all features.
 struct Prediction {
   Vector mean;
-  Vector variance; ///< of the emulators, and of the scatter the effects add
+  Vector variance; ///< of the emulators
+  Vector scatter;  ///< variance that the effects add between cells; empty: none
 };
 
 /// A prediction and its derivatives along the scores, the base parameters' and then the effects' in
 /// order: features x scores.
 struct Slopes {
-  Matrix mean, variance;
+  Matrix mean, variance, scatter; ///< scatter: empty where the prediction's is
   Prediction here;
 };
 
@@ -51,6 +52,8 @@ struct Problem {
   Matrix measurement;                  ///< covariance that is known
   Matrix scatter;                      ///< of the packings, estimated
   Matrix correlation;                  ///< of the emulators' errors between features; empty: none
+  /// Of the scatter that effects add, times the share of a cell's variance that the sample has.
+  Matrix added_scatter;
   double degrees_of_freedom = 1e6;     ///< of the t distribution of observed - predicted
   int base_parameters = 0;             ///< number of scores of the base model
   std::vector<ModelledEffect> effects; ///< measurement faults too
@@ -73,10 +76,10 @@ Problem without_effect(const Problem &problem, int effect);
 Vector drawn(const Problem &problem, const Vector &base, const std::vector<Applied> &on,
              Random &random);
 
-/// Covariance of emulators' errors of these variances, correlated as the problem says.
-Matrix emulator_errors(const Problem &problem, const Vector &variance);
+/// Covariance of the emulators' errors and of the scatter that effects add.
+Matrix errors_of(const Problem &problem, const Prediction &prediction);
 
-/// Of observed - predicted: measurement, scatter and the emulators' errors.
+/// Of observed - predicted: measurement, scatter and the prediction's errors.
 Matrix covariance_about(const Problem &problem, const Prediction &prediction);
 
 /// Square of observed - predicted in the inverse covariance, and ln of that covariance's

@@ -42,7 +42,7 @@ struct Term {
 };
 
 /// Draws of the base parameters over all places, each as often as it is probable.
-Matrix over_places(const Problem &problem, const Linearised &base, const std::vector<Term> &terms,
+Matrix over_places(const Problem &problem, const std::vector<Term> &terms,
                    const std::map<std::string, double> &of_place) {
   const Eigen::Index count = terms.front().judged.evidence.draws.cols();
   Matrix out(problem.base_parameters, count);
@@ -50,13 +50,16 @@ Matrix over_places(const Problem &problem, const Linearised &base, const std::ve
   Eigen::Index next = 0;
   for (const Term &t : terms) {
     passed += of_place.at(t.place);
-    const bool last = &t == &terms.back();
-    const Eigen::Index first = next;
-    while (next < count && (last || (double(next) + 0.5) / double(count) <= passed))
-      ++next;
-    if (next > first)
-      out.middleCols(first, next - first) =
-          base_beside_unknown(problem, base, t.judged, t.anywhere).middleCols(first, next - first);
+    const Eigen::Index end =
+        &t == &terms.back() ? count
+                            : std::min(count, Eigen::Index(std::lround(passed * double(count))));
+    if (end > next && t.place == kUnseenPlace)
+      out.middleCols(next, end - next) =
+          spread_over(t.judged.evidence.draws, end - next).topRows(problem.base_parameters);
+    else if (end > next)
+      out.middleCols(next, end - next) =
+          base_beside_unknown(problem, t.judged, t.anywhere, end - next);
+    next = std::max(next, end);
   }
   return out;
 }
@@ -86,7 +89,7 @@ Judged judge_unknown(const Problem &problem, const WhichSettings &settings,
   for (const Term &t : terms)
     best.of_place[t.place] += std::exp(t.log_mass - top) / sum;
   best.below_limits = best.of_place[kUnseenPlace]; // more of it once limits are known
-  best.base_draws = over_places(problem, w.base, terms, best.of_place);
+  best.base_draws = over_places(problem, terms, best.of_place);
   const double shift = top + std::log(sum) - best.evidence.log_evidence;
   best.evidence.log_evidence += shift;
   best.evidence.laplace += shift;
