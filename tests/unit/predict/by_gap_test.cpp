@@ -122,6 +122,22 @@ TEST(ByGap, PressuresBeyondTheBanksAreReported) {
   EXPECT_NEAR(at[1].pressure.median, 20.0, 1e-6);
 }
 
+TEST(ByGap, WhereNoDrawIsWithinTheBanksPressuresNothingIsSaid) {
+  const Film film = made_film("x", 46.0, 2.0);
+  const double solid = made_film_bank().solid_column(film);
+  const auto refused = [&](double gap) {
+    try {
+      check_reached(under_gaps(made_film_bank(), exact(), film, {gap}));
+    } catch (const Failure &e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refused(solid / 0.92).find("more than 300 MPa"), std::string::npos);
+  EXPECT_NE(refused(solid / 0.56).find("less than 20 MPa"), std::string::npos);
+  EXPECT_EQ(refused(solid / 0.7), "");
+}
+
 TEST(ByGap, AGapWithoutPoresOrWithoutTouchIsRefused) {
   const Film film = made_film("x", 46.0, 2.0);
   const double solid = made_film_bank().solid_column(film);

@@ -47,8 +47,10 @@ std::vector<GapDraws> films_at_gaps(const AskedFilms &a, const FilmOptions &o, M
   const std::vector<double> gaps = values_of("--gap", o.gaps, "um");
   std::vector<GapDraws> out;
   if (o.runs == 0) {
-    for (const Film &f : a.films)
+    for (const Film &f : a.films) {
       out.push_back(under_gaps(a.model.bank, a.model.calibration, f, gaps));
+      check_reached(out.back());
+    }
     return out;
   }
   for (const int passes : passes_of(o))

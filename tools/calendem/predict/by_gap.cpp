@@ -9,6 +9,7 @@ namespace calendem {
 namespace {
 
 constexpr int kGrid = 41;
+constexpr double kNearlyAll = 0.99;
 
 /// Of one draw at one gap: the logarithm of its pressure, and other numbers at that pressure.
 struct Met {
@@ -168,6 +169,20 @@ GapDraws under_gaps(const FilmBank &bank, const Calibration &c, const Film &film
     porosities.push_back(1.0 - out.solid / gap);
   add_met(curves, std::vector<std::vector<double>>(curves.load.size(), porosities), out);
   return out;
+}
+
+void check_reached(const GapDraws &draws) {
+  for (std::size_t k = 0; k < draws.gaps.size(); ++k)
+    if (std::max(draws.below[k], draws.above[k]) > kNearlyAll) {
+      const bool below = draws.below[k] > draws.above[k];
+      throw Failure(
+          kBadInput,
+          fmt::format("--gap {:g}: {} takes {} than {:g} MPa there, where the bank {}: nothing can "
+                      "be said of it. Ask for {}, or simulate it (--runs 16).",
+                      draws.gaps[k], draws.film.name, below ? "less" : "more",
+                      below ? draws.lowest : draws.highest, below ? "begins" : "ends",
+                      below ? "less" : "more"));
+    }
 }
 
 std::vector<AtGap> at_gaps(const GapDraws &draws) {

@@ -56,6 +56,9 @@ GapDraws under_gaps(const FilmBank &bank, const Calibration &calibration, const 
 /// Without draws yet. Throws as under_gaps.
 GapDraws gaps_of(const FilmBank &bank, const Film &film, const std::vector<double> &gaps);
 
+/// Throws Failure(2) for a gap whose pressure no draw has within the bank's.
+void check_reached(const GapDraws &draws);
+
 std::vector<AtGap> at_gaps(const GapDraws &draws);
 /// The porosity after release follows from gap and springback.
 GuessesOf numbers_at_gaps(const GapDraws &draws);

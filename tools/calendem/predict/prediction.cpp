@@ -145,8 +145,9 @@ std::vector<Chance> chances_from(const std::vector<double> &settings, const Gues
                 inverse = of(FilmNumber::InverseTortuosity);
   const bool any_tortuosity = target.tortuosity_below >= kMostTortuosity;
   if (!any_tortuosity && inverse.size() != after.size())
-    throw Failure(kBadInput, "the bank has no tortuosities (tortuosity = \"yes\" in its file), so "
-                             "that none can be asked for.");
+    throw Failure(kBadInput,
+                  "--tortuosity-below: no tortuosity is known. A bank has it with tortuosity = "
+                  "\"yes\" in its file, a run where its pores connect.");
   std::vector<Chance> out;
   for (std::size_t k = 0; k < settings.size(); ++k) {
     Chance chance;
