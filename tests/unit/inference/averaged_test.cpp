@@ -5,6 +5,7 @@
 #include "diagnose/inference/hypothesis.h"
 #include "linear_world.h"
 #include <gtest/gtest.h>
+#include <set>
 
 namespace calendem::inference {
 namespace {
@@ -123,8 +124,9 @@ TEST(Averaged, WhatTheUnknownMayDoInAParametersPlaceIsNotKnown) {
   unknown.hypothesis = {Hypothesis::unknown, {}, "unknown", 0.0};
   unknown.evidence.draws = Matrix::Constant(2, kDraws, kUnknownSize.score(kSize));
   unknown.evidence.mode = Vector::Zero(2);
+  Random random(3, 3);
   const Matrix draws =
-      base_beside_unknown(problem, unknown, Matrix::Ones(kFeatures, kFeatures), kDraws);
+      base_beside_unknown(problem, unknown, Matrix::Ones(kFeatures, kFeatures), kDraws, random);
   const double weight = kFeatures / (1.0 + kSize * kSize * kFeatures);
   const double mean = draws.row(0).mean(), variance = 1.0 / (1.0 + weight);
   EXPECT_NEAR(mean, 5.0 * weight * variance, 3.0 * std::sqrt(variance / kDraws));
@@ -155,9 +157,10 @@ TEST(Averaged, BesideTheUnknownParametersBendAndEffectsErr) {
   unknown.hypothesis = {Hypothesis::unknown, {0}, "unknown", 0.0};
   unknown.hypothesis.size = 1.0;
   unknown.evidence.mode = Vector::Zero(2);
+  Random random(3, 3);
   unknown.evidence.draws = Matrix::Zero(2, 10);
   const Matrix anywhere = 0.25 * Matrix::Ones(kFeatures, kFeatures);
-  const Matrix draws = base_beside_unknown(problem, unknown, anywhere, kDraws);
+  const Matrix draws = base_beside_unknown(problem, unknown, anywhere, kDraws, random);
   double sum = 0.0, first = 0.0, second = 0.0;
   for (double s = -6.0; s <= 6.0; s += 0.002) {
     const Prediction p = problem.predict(Vector::Constant(1, s), {{0, Vector::Zero(1)}});
@@ -177,8 +180,15 @@ TEST(Averaged, BesideTheUnknownParametersBendAndEffectsErr) {
 
 TEST(Averaged, DrawsAreTakenFromAllOfThem) {
   const Matrix all = Vector::LinSpaced(10, 0.0, 9.0).transpose();
-  EXPECT_EQ(spread_over(all, 2), (Matrix(1, 2) << 2.0, 7.0).finished());
-  EXPECT_EQ(spread_over(all, 10), all);
+  Random random(1, 2);
+  EXPECT_EQ(spread_over(all, 10, random), all);
+  std::set<double> firsts;
+  for (int k = 0; k < 200; ++k) { // any of five is missed once in 10^19
+    const Matrix two = spread_over(all, 2, random);
+    EXPECT_EQ(two(0, 1) - two(0, 0), 5.0);
+    firsts.insert(two(0, 0));
+  }
+  EXPECT_EQ(firsts.size(), 5u);
 }
 
 } // namespace

@@ -155,6 +155,23 @@ TEST(Truths, SharedSamplesAreRunOnceWithoutACause) {
   EXPECT_NE(runs.of_truths[6 * 2], runs.of_truths[0]);
 }
 
+// Bonds are as stiff as their particles unless a change makes them softer.
+TEST(Truths, WhatAChangeSetsFollowsItsOwnInOtherTruths) {
+  std::string text = kRound;
+  text.replace(text.find("cohesion"), 8, "soft_bonds");
+  Round round = round_of(text);
+  round.bank.parameters[0].keys = {"case.material.am.youngs_modulus_GPa"};
+  const Study study = truth_runs(round, draw_truths(round, "secret")).study;
+  std::size_t soft = 0;
+  for (const StudyRun &run : study.runs) {
+    const double bond = run.settings.number("bond.youngs_modulus_GPa");
+    soft += bond == 30.0;
+    EXPECT_TRUE(bond == 30.0 || bond == run.settings.number("material.am.youngs_modulus_GPa"));
+  }
+  EXPECT_GT(soft, 0u);
+  EXPECT_LT(soft, study.runs.size());
+}
+
 // Sets are few; half of two lie in each half of every prior, and which is which differs from parameter to parameter.
 TEST(Truths, SetsOfSharedSamplesCoverThePriors) {
   std::string text = kRound;

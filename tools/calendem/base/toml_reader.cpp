@@ -265,6 +265,11 @@ void Settings::follow(const std::string &name, const std::string &other) {
   follows_[name] = other;
 }
 
+std::string Settings::followed_by(const std::string &name) const {
+  const auto at = follows_.find(name);
+  return at == follows_.end() ? "" : at->second;
+}
+
 int Settings::line(const std::string &name) const {
   const auto at = lines_.find(name);
   return at == lines_.end() ? 0 : at->second;

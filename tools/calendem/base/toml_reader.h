@@ -44,6 +44,8 @@ public:
   void set(const std::string &name, const std::string &value);
   /// The key has the value of another, and keeps up with it.
   void follow(const std::string &name, const std::string &other);
+  /// The key that this one follows; empty: none.
+  std::string followed_by(const std::string &name) const;
   /// The key is what others, which have values, leave of a hundred, and keeps up with them.
   void leave(const std::string &name, const std::vector<std::string> &others);
   const std::map<std::string, std::string> &all() const { return values_; }

@@ -65,8 +65,8 @@ Changes of_bonds_and_contacts() {
           {{"case.effects.collector_indentation.yield_pressure_GPa", "1.5"}}),
       set("soft_bonds", "bonds far softer than the particles",
           {{"case.bond.youngs_modulus_GPa", "30"}}),
-      scaled("sticky_particles", "active material of twice the cohesion energy density",
-             {"case.material.am.ced_J_m3"}, 2.0),
+      scaled("sticky_particles", "active material of 1.8 times the cohesion energy density",
+             {"case.material.am.ced_J_m3"}, 1.8),
   };
 }
 

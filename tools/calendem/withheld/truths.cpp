@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <numeric>
+#include <set>
 
 namespace calendem {
 namespace {
@@ -98,10 +99,17 @@ private:
   }
 };
 
+/// Every key that some truth moves, with the value of the bank's recipe and case.
+struct Usual {
+  std::map<std::string, std::string> values;
+  std::map<std::string, std::string> follows; ///< key, the one that it follows unless it is changed
+};
+
 /// Keys that the truth changes beyond the bank's own, with their values; all but the packing.
 std::map<std::string, std::string> changed_keys(const Round &round, const Truth &t,
-                                                const std::map<std::string, std::string> &usual) {
-  std::map<std::string, std::string> out = usual;
+                                                const Usual &usual) {
+  std::map<std::string, std::string> out = usual.values;
+  std::set<std::string> hidden;
   for (std::size_t k = 0; k < round.bank.parameters.size(); ++k)
     for (const std::string &key : round.bank.parameters[k].keys)
       out[key] = fmt::format("{}", t.base[k]);
@@ -109,21 +117,27 @@ std::map<std::string, std::string> changed_keys(const Round &round, const Truth 
     for (const std::string &key : find_effect(name).parameter.keys)
       out[find_effect(name).column(key)] = fmt::format("{}", value);
   for (const std::string &name : t.hidden)
-    for (const ChangedKey &c : find_hidden(name)->keys)
+    for (const ChangedKey &c : find_hidden(name)->keys) {
       out[c.key] =
           c.value.empty() ? fmt::format("{:.6g}", c.factor * std::stod(out.at(c.key))) : c.value;
+      hidden.insert(c.key);
+    }
+  for (const auto &[key, other] : usual.follows)
+    if (const auto at = out.find(other); at != out.end() && !hidden.count(key))
+      out[key] = at->second;
   return out;
 }
 
-/// Every key that some truth moves, with the value of the bank's recipe and case.
-std::map<std::string, std::string> usual_values(const Round &round,
-                                                const std::vector<Truth> &truths) {
+Usual usual_values(const Round &round, const std::vector<Truth> &truths) {
   const Settings recipe = read_recipe(round.bank.recipe_file).settings;
   const Settings settings = read_case(round.bank.case_file);
-  std::map<std::string, std::string> out;
+  Usual out;
   const auto add = [&](const std::string &key) {
-    const std::string bare = key.substr(key.find('.') + 1);
-    out[key] = key[0] == 'r' ? recipe.text(bare) : settings.text(bare);
+    const std::size_t dot = key.find('.') + 1;
+    const Settings &of = key[0] == 'r' ? recipe : settings;
+    out.values[key] = of.text(key.substr(dot));
+    if (const std::string other = of.followed_by(key.substr(dot)); !other.empty())
+      out.follows[key] = key.substr(0, dot) + other;
   };
   for (const BankParameter &p : round.bank.parameters)
     std::for_each(p.keys.begin(), p.keys.end(), add);
@@ -248,8 +262,8 @@ TruthRuns truth_runs(const Round &round, const std::vector<Truth> &truths) {
   study.recipe_file = round.bank.recipe_file;
   study.case_file = round.bank.case_file;
   study.keep_all = false;
-  const auto usual = usual_values(round, truths);
-  for (const auto &[key, value] : usual)
+  const Usual usual = usual_values(round, truths);
+  for (const auto &[key, value] : usual.values)
     study.columns.push_back(key);
   study.columns.insert(study.columns.end(), {"recipe.seed", "case.platen.max_pressure_MPa"});
   std::vector<std::vector<std::string>> rows;

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/inference/base_beside_unknown.h"
-#include "base/random.h"
 #include "diagnose/inference/scatter.h"
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
 namespace calendem::inference {
 namespace {
 
-constexpr std::uint64_t kPurpose = 0xba5e; // of the stream of draws
-constexpr int kCandidates = 16;            // of each draw
+constexpr int kCandidates = 16;  // of each draw
 constexpr double kDegrees = 6.0; // of their t distribution: tails heavier than the posterior's
 constexpr int kSteps = 5;        // towards where the posterior is largest
 
@@ -29,28 +28,28 @@ double log_density(const Problem &problem, const Beside &beside, const Vector &s
          0.5 * scores.squaredNorm();
 }
 
-/// The linear posterior.
+/// The posterior of the model that is linear about a point.
 struct Line {
   Vector mean;
   Matrix root; ///< of its covariance
 
-  Line(const Problem &problem, const Beside &beside, const Linearised &about) {
-    const Prediction p = problem.predict(about.at, beside.on);
-    const auto n = about.at.size();
-    const Cholesky covariance(covariance_about(problem, p) + beside.discrepancy);
-    const Matrix weights = covariance.solve(about.sensitivity).transpose();
-    const Cholesky precision(Matrix::Identity(n, n) + weights * about.sensitivity);
-    mean = precision.solve(weights * (problem.observed - p.mean + about.sensitivity * about.at));
+  Line(const Problem &problem, const Beside &beside, const Vector &at) {
+    const Slopes all = slopes_of(problem, at, beside.on);
+    const auto n = at.size();
+    const Matrix slopes = all.mean.leftCols(n);
+    const Cholesky covariance(covariance_about(problem, all.here) + beside.discrepancy);
+    const Matrix weights = covariance.solve(slopes).transpose();
+    const Cholesky precision(Matrix::Identity(n, n) + weights * slopes);
+    mean = precision.solve(weights * (problem.observed - all.here.mean + slopes * at));
     root = precision.matrixL().transpose().solve(Matrix::Identity(n, n));
   }
 };
 
-/// The base model about the middle of the posterior beside this draw: Gauss and Newton's steps.
-Linearised middle(const Problem &problem, const Beside &beside, const Vector &start) {
-  Linearised about = linearise(problem, start);
+/// Of the posterior beside this draw: Gauss and Newton's steps.
+Vector middle(const Problem &problem, const Beside &beside, Vector at) {
   for (int step = 0; step < kSteps; ++step)
-    about = linearise(problem, Line(problem, beside, about).mean);
-  return about;
+    at = Line(problem, beside, at).mean;
+  return at;
 }
 
 Vector one_of(const Problem &problem, const Beside &beside, const Line &line, Random &random) {
@@ -77,24 +76,24 @@ Vector one_of(const Problem &problem, const Beside &beside, const Line &line, Ra
 
 } // namespace
 
-Matrix spread_over(const Matrix &draws, Eigen::Index count) {
+Matrix spread_over(const Matrix &draws, Eigen::Index count, Random &random) {
+  const double first = random.uniform(), step = double(draws.cols()) / double(count);
   Matrix out(draws.rows(), count);
   for (Eigen::Index k = 0; k < count; ++k)
-    out.col(k) = draws.col((2 * k + 1) * draws.cols() / (2 * count));
+    out.col(k) = draws.col(std::min(draws.cols() - 1, Eigen::Index((double(k) + first) * step)));
   return out;
 }
 
 Matrix base_beside_unknown(const Problem &problem, const Judged &unknown, const Matrix &anywhere,
-                           Eigen::Index count) {
+                           Eigen::Index count, Random &random) {
   const Hypothesis &h = unknown.hypothesis;
   const auto beside_at = [&](const Vector &scores) {
     const double size = h.size > 0.0 ? h.size : kUnknownSize.value(scores[scores.size() - 1]);
     return Beside{applied_at(problem, h, scores), size * size * anywhere};
   };
   const Vector &mode = unknown.evidence.mode;
-  const Linearised about = middle(problem, beside_at(mode), mode.head(problem.base_parameters));
-  const Matrix draws = spread_over(unknown.evidence.draws, count);
-  Random random(0, kPurpose);
+  const Vector about = middle(problem, beside_at(mode), mode.head(problem.base_parameters));
+  const Matrix draws = spread_over(unknown.evidence.draws, count, random);
   Matrix out(problem.base_parameters, count);
   for (Eigen::Index k = 0; k < count; ++k) {
     const Beside beside = beside_at(draws.col(k));

@@ -52,7 +52,8 @@ struct Problem {
   Matrix measurement;                  ///< covariance that is known
   Matrix scatter;                      ///< of the packings, estimated
   Matrix correlation;                  ///< of the emulators' errors between features; empty: none
-  /// Of the scatter that effects add, times the share of a cell's variance that the sample has.
+  /// Correlation of the scatter that effects add, times the share of a cell's variance that the
+  /// sample's mean keeps; 0 between specimens.
   Matrix added_scatter;
   double degrees_of_freedom = 1e6;     ///< of the t distribution of observed - predicted
   int base_parameters = 0;             ///< number of scores of the base model

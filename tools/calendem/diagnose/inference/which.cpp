@@ -13,6 +13,8 @@ namespace calendem::inference {
 
 namespace {
 
+constexpr std::uint64_t kOfPlaces = 0xba5e; // of the stream of base parameters beside the unknown
+
 Judged judge(const Problem &problem, const Hypothesis &hypothesis, const Matrix &unknown,
              const WhichSettings &settings) {
   Judged j;
@@ -46,6 +48,7 @@ Matrix over_places(const Problem &problem, const std::vector<Term> &terms,
                    const std::map<std::string, double> &of_place) {
   const Eigen::Index count = terms.front().judged.evidence.draws.cols();
   Matrix out(problem.base_parameters, count);
+  Random random(0, kOfPlaces);
   double passed = 0.0;
   Eigen::Index next = 0;
   for (const Term &t : terms) {
@@ -55,10 +58,10 @@ Matrix over_places(const Problem &problem, const std::vector<Term> &terms,
                             : std::min(count, Eigen::Index(std::lround(passed * double(count))));
     if (end > next && t.place == kUnseenPlace)
       out.middleCols(next, end - next) =
-          spread_over(t.judged.evidence.draws, end - next).topRows(problem.base_parameters);
+          spread_over(t.judged.evidence.draws, end - next, random).topRows(problem.base_parameters);
     else if (end > next)
       out.middleCols(next, end - next) =
-          base_beside_unknown(problem, t.judged, t.anywhere, end - next);
+          base_beside_unknown(problem, t.judged, t.anywhere, end - next, random);
     next = std::max(next, end);
   }
   return out;
