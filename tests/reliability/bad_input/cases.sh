@@ -311,6 +311,13 @@ curve_in_other_units() { # of an experiment: mm, Pa, another separator, stages t
   expect 0 calendem validate "$work/experiment.toml"
   curve 'displacement_um,pressure_MPa\n0,0\n20,1.5e8\n'
   refused experiment.toml ":8: '" "pressure_MPa goes to 1.5e+08, max_pressure_MPa is 150"
+  sed -i -e 's/"pressure"/"displacement"/' -e '/^max_pressure/d' "$work/experiment.toml"
+  local pressures
+  for pressures in '0\n20,40000' '0\n20,0' '0\n20,-40'; do
+    curve "displacement_um,pressure_MPa\n0,$pressures\n"
+    refused experiment.toml ":7: '" "0.1 to 2000 MPa are those of a press"
+  done
+  sed -i -e 's/"displacement"/"pressure"/' -e '/^curve =/i max_pressure_MPa = 150' "$work/experiment.toml"
   curve 'displacement_um;pressure_MPa\n0;0\n20,1;150\n'
   refused experiment.toml "Columns are separated by commas, decimals by points"
   curve 'displacement_um,pressure_MPa,stage\n20,150,unloading\n19,10,unloading\n0,0,loading\n20,150,loading\n'
@@ -415,6 +422,12 @@ nothing_to_measure() {
   expect 2 calendem measure "$work/image.mhd" -o /proc/calendem
   says "/proc/calendem" "with -o"
   expect 0 calendem measure "$work/image.mhd" -o "$work/out" # an empty image is one
+  expect 2 calendem measure "$work/image.mhd" -o "$work/out" --cbd-label 5
+  says "no voxel is left for --cbd-label = 5"
+  expect 2 calendem measure "$work/image.mhd" -o "$work/out" --background 3
+  says "no voxel is left for --background = 3"
+  expect 2 calendem measure "$work/misspelt"
+  says "misspelt: no such file or folder"
 }
 no_mpirun() {
   a_case "$electrode"

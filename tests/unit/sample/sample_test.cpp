@@ -90,6 +90,31 @@ TEST_F(SampleOfRuns, CellsThatTurnApartAreRefused) {
   EXPECT_NE(refusal(runs, OneFor::Pressure).find("to 20.000 MPa"), std::string::npos);
 }
 
+TEST_F(SampleOfRuns, CellsOfOtherMaterialsAreRefused) {
+  const std::vector<std::string> runs = {spring("a", 20, 16), spring("b", 22, 16)};
+  const auto with = [&](const char *keys) {
+    write("b/case.toml",
+          std::string(
+              "electrode = \"none\"\n[platen]\ncontrol = \"thickness\"\nthickness_um = 16\n") +
+              keys);
+    return refusal(runs, OneFor::Gap);
+  };
+  EXPECT_NE(with("[effects.machine_compliance]\num_per_MPa = 0.1\n").find("are of one material"),
+            std::string::npos);
+  EXPECT_EQ(with("[bond]\nseed = 7\n"), "");
+}
+
+TEST_F(SampleOfRuns, NothingButASampleIsWrittenOver) {
+  const std::vector<std::string> runs = {spring("a", 20, 16), spring("b", 22, 16)};
+  make_sample(runs, OneFor::Gap, in("out"));
+  EXPECT_EQ(refusal(runs, OneFor::Gap), "");
+  for (const char *file : {"out/curve_raw.csv", "out/electrode.data"}) {
+    write(file, "");
+    EXPECT_NE(refusal(runs, OneFor::Gap).find("would overwrite"), std::string::npos);
+    std::filesystem::remove(in(file));
+  }
+}
+
 TEST_F(SampleOfRuns, WhatIsNoRunIsRefusedWithEveryReason) {
   const std::string twice = spring("a", 20, 16, "compression,16,16,0.75\n");
   const std::string said = refusal({twice, in("none")}, OneFor::Gap);

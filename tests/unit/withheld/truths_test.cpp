@@ -299,6 +299,9 @@ TEST(Truths, MistakesOfARoundAreReported) {
           "interventions: 'noise' is no effect of the bank", "thickness_um is -1", "[least, most]"})
       EXPECT_NE(message.find(part), std::string::npos) << part << "\nis not in\n" << message;
   }
+  EXPECT_THROW(round_of("[round]\nbank = \"bank.toml\"\nnull_packings = 0\nnull_draws = 0\n"
+                        "shared_samples = \"yes\"\n"),
+               Failure);
 }
 
 } // namespace

@@ -282,6 +282,7 @@ void check_stages(const std::string &path, const CsvTable &table, int line, Mist
 /// A curve in another unit is off by a power of ten: far beyond what the rest of the file allows.
 void check_units(const std::string &path, const CsvTable &table, const Experiment &e,
                  const Condition &c, int line, Mistakes &mistakes) {
+  constexpr double kLeastPressure = 0.1, kMostPressure = 2000.0; // as of max_pressure_MPa
   constexpr double kOff = 3.0;        // factor between the curve's largest pressure and the stated
   constexpr double kLeastWay = 0.005; // of the film's thickness
   constexpr double kMostWay = 10.0;   // a press that gives way moves farther than the film is thick
@@ -290,6 +291,10 @@ void check_units(const std::string &path, const CsvTable &table, const Experimen
     return *std::max_element(v.begin(), v.end());
   };
   const double p = largest("pressure_MPa"), d = largest("displacement_um");
+  if (!(p >= kLeastPressure && p <= kMostPressure))
+    mistakes.add(line, fmt::format("'{}': pressure_MPa goes to {:g}; {:g} to {:g} MPa are those of "
+                                   "a press. Is the column in MPa, and compression positive?",
+                                   path, p, kLeastPressure, kMostPressure));
   if (c.max_pressure_MPa &&
       (p > kOff * c.max_pressure_MPa->value || p * kOff < c.max_pressure_MPa->value))
     mistakes.add(line, fmt::format("'{}': pressure_MPa goes to {:g}, max_pressure_MPa is {:g}. Is "

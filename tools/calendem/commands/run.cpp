@@ -84,6 +84,11 @@ void stop_if_of_another(const std::string &folder, const std::string &electrode)
 
 void collect_folder(const std::string &folder, const std::string &electrode) {
   const Settings settings = read_settings(folder + "/settings.txt", electrode);
+  if (!fs::is_directory(folder + "/vtk"))
+    throw Failure(kBadInput, fmt::format("'{}' has no folder vtk: its frames are needed to collect "
+                                         "it. A study that keeps tables only has removed them; run "
+                                         "it again.",
+                                         folder));
   const ElectrodeFacts facts = read_electrode(settings.text("electrode"));
   stop_if_of_another(folder, settings.text("electrode"));
   write_file(

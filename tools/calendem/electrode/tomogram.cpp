@@ -255,6 +255,11 @@ TomogramSpec read_tomogram_spec(const std::string &file) {
     mistakes.add(0, fmt::format("the image would have {:.2g} voxels of 4 bytes; at most 1e9 are "
                                 "made. Take a smaller image or larger voxels.",
                                 voxels));
+  if (t.min_diameter < 2.0 * t.voxel)
+    mistakes.add(0, fmt::format("particles.min_um = {} is less than two voxels of {} um: such a "
+                                "particle would not be seen. Take larger particles or smaller "
+                                "voxels.",
+                                t.min_diameter, t.voxel));
   if (t.min_diameter >= t.max_diameter)
     mistakes.add(0, fmt::format("particles.min_um = {} must be below max_um = {}.", t.min_diameter,
                                 t.max_diameter));

@@ -25,9 +25,28 @@ StructureMeasures measure_phases(const PhaseImage &image, const Density &density
   return m;
 }
 
+namespace {
+
+/// With a label that no voxel has all results are those of another image.
+void check_labels(const std::string &file, const PhaseImage &image, const MeasureOptions &options) {
+  const PhaseFractions fraction = phase_fractions(image);
+  const auto refuse = [&](const char *option, std::int32_t label) {
+    throw Failure(kBadInput, fmt::format("'{}': no voxel is left for {} = {}. Give the label that "
+                                         "the image has for it.",
+                                         file, option, label));
+  };
+  if (fraction.pore == 0.0)
+    refuse("--background", options.background);
+  if (options.cbd_label && fraction.cbd == 0.0)
+    refuse("--cbd-label", *options.cbd_label);
+}
+
+} // namespace
+
 StructureMeasures measure_image(const std::string &file, const MeasureOptions &options) {
   const PhaseImage image = phases_of(read_label_image(file, options.voxel_um.value_or(0.0)),
                                      options.background, options.cbd_label);
+  check_labels(file, image, options);
   const double solid_in_cbd = 1.0 - options.nanoporosity.value_or(NAN);
   StructureMeasures m = measure_phases(image, {1.0, solid_in_cbd}, options);
   m.moment = "image";

@@ -272,7 +272,9 @@ nlohmann::json provenance(const std::string &folder, const Rows &rows, const Set
       {"liggghts", facts.program.empty() ? "not known" : facts.program},
       {"input_scripts", hash_of_folder(input_scripts() + "/common")},
       {"hashes", "64-bit FNV-1a"}};
-  if (facts.stopped_because.empty())
+  if (facts.stopped_because.empty() && !s["finished"].get<bool>())
+    s["stopped_because"] = "the scripts did not reach their end";
+  else if (facts.stopped_because.empty())
     s["failed_checks"] = failed_checks(rows, settings, e, count_rows(folder + "/breaks.csv"));
   else
     s["stopped_because"] = facts.stopped_because;

@@ -321,6 +321,21 @@ std::string case_of(const std::vector<Cell> &cells, const Pressed &sample) {
   return write_toml(settings, case_keys(), fmt::format("# a sample of {} cells\n", cells.size()));
 }
 
+/// Cells of one sample differ in their packing, the seed of their strengths and what ends the run.
+void check_materials(const std::vector<std::string> &runs, const std::vector<Cell> &cells,
+                     Mistakes &mistakes) {
+  for (std::size_t k = 1; k < cells.size(); ++k)
+    for (const auto &[key, value] : cells[0].settings.all()) {
+      const std::string &other = cells[k].settings.text(key);
+      const bool material = key.rfind("material.", 0) == 0 || key.rfind("bond.", 0) == 0 ||
+                            key.rfind("effects.", 0) == 0;
+      if (material && key != "bond.seed" && other != value)
+        mistakes.add(0, fmt::format("'{}' has {} = {}, '{}' has {}: cells of one sample are of one "
+                                    "material.",
+                                    runs[0], key, value, runs[k], other));
+    }
+}
+
 std::vector<Cell> read_cells(const std::vector<std::string> &runs, OneFor shared) {
   Mistakes mistakes("sample");
   std::vector<Cell> cells;
@@ -331,9 +346,21 @@ std::vector<Cell> read_cells(const std::vector<std::string> &runs, OneFor shared
   for (const std::string &run : runs)
     cells.push_back(read_cell(run, mistakes));
   mistakes.stop_if_any();
+  check_materials(runs, cells, mistakes);
   check_turns(runs, cells, shared, mistakes);
   mistakes.stop_if_any();
   return cells;
+}
+
+/// What has another meaning or more files than a sample is not written over.
+void must_not_hold_another(const std::string &folder) {
+  namespace fs = std::filesystem;
+  const bool run = fs::exists(folder + "/curve_raw.csv"),
+             electrode = fs::exists(folder + "/electrode.data");
+  if (run || electrode)
+    throw Failure(kBadInput, fmt::format("'{}' holds {}, which a sample would overwrite. Give "
+                                         "another folder with -o.",
+                                         folder, run ? "a run" : "an electrode"));
 }
 
 } // namespace
@@ -353,6 +380,7 @@ void make_sample(const std::vector<std::string> &runs, OneFor shared, const std:
   make_output_folder(folder);
   for (const std::string &run : runs)
     must_not_be(folder, run, "a run of the sample");
+  must_not_hold_another(folder);
   write_file(folder + "/curve.csv", sample.curve());
   write_file(folder + "/electrode.json", electrode.dump(2) + "\n");
   write_file(folder + "/case.toml", case_of(cells, sample));

@@ -40,6 +40,9 @@ public:
     out.shared_samples =
         text(t, {"shared_samples", "", "no", 0, 0, "",
                  "truths with a cause on the samples of the nulls", "no|yes"}) == "yes";
+    if (out.shared_samples && out.null_packings == 0)
+      mistakes_.add(line_of(t), "shared_samples: null_packings is 0, but the samples are those of "
+                                "the nulls. Give at least 1.");
     if (out.null_draws < out.null_packings)
       mistakes_.add(line_of(t), fmt::format("null_draws is {}, null_packings {}: every packing "
                                             "needs a draw.",

@@ -47,7 +47,7 @@ Confounding confounding(const Problem &problem, const Which &which,
                         const ConfoundingSettings &settings);
 
 /// Whitened by the recalibrated covariance. What is expected to be seen of a rival has that
-/// covariance, I here, and the errors of its emulators.
+/// covariance, I here, the errors of its emulators and the scatter that its effects add.
 struct Signature {
   std::vector<Applied> on; ///< empty: none
   Vector mean;

@@ -48,8 +48,8 @@ struct Judged {
   double below_limits = 0.0;
   /// Of unknown: share of its probability that rests on nothing known fitting the data.
   double by_misfit = 0.0;
-  /// Of unknown: scores of the base parameters where it may move what they move, too; one for each
-  /// draw of the evidence. Empty: those of the evidence.
+  /// Of unknown: scores of the base parameters where it may move what they move, too; as many draws
+  /// as of the evidence, over all places. Empty: those of the evidence.
   Matrix base_draws;
   std::vector<ShortRuns> short_runs; ///< of its effects, where it fits best
 };
