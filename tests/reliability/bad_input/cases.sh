@@ -669,7 +669,7 @@ report_in_place_of_results() {
   expect 0 run
   for name in summary.html curve.csv electrode.html; do
     expect 2 calendem report "$work/run" -o "$work/run/$name"
-    says "ends in .html and is not summary, electrode or structure"
+    says "ends in .html and is none of design, electrode, gap"
   done
   printf '{' >"$work/run/electrode.json"
   expect 2 calendem report "$work/run"

@@ -76,6 +76,8 @@ TEST_F(ImageObservables, MacroPorosityWhereCbdIsLabelled) {
   EXPECT_NEAR(list[0].measured, 50.0, 1e-9);
   experiment_.labels_pore = 7;
   EXPECT_NEAR(after(image)[0].measured, 25.0, 1e-9);
+  experiment_.labels_pore = 9; // no voxel has it
+  EXPECT_THROW(after(image), calendem::Failure);
 }
 
 // Requirement: of two whole particles one has a gap; the one at the image's side does not count.

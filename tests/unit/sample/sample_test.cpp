@@ -84,6 +84,19 @@ TEST_F(SampleOfRuns, UnderOnePressureHeightsAreAveraged) {
   EXPECT_NEAR(run.thickness_after, 20.95, 1e-9); // 0.2 MPa
 }
 
+// What a packing took to make is no part of it.
+TEST_F(SampleOfRuns, APackingThatWasMadeTwiceIsOne) {
+  make_sample({spring("a", 20, 16)}, OneFor::Gap, in("run"));
+  const auto packing = [&](const char *identity, double took) {
+    write("run/electrode.json", fmt::format("{{\"recipe\": {{}}, \"identity\": \"{}\", "
+                                            "\"wall_clock_s\": {}}}",
+                                            identity, took));
+    return read_simulated_run(in("run")).electrode_hash;
+  };
+  EXPECT_EQ(packing("one", 5.0), packing("one", 3.0));
+  EXPECT_NE(packing("one", 5.0), packing("another", 5.0));
+}
+
 TEST_F(SampleOfRuns, CellsThatTurnApartAreRefused) {
   const std::vector<std::string> runs = {spring("a", 20, 16), spring("b", 22, 17)};
   EXPECT_NE(refusal(runs, OneFor::Gap).find("to 16.000 um"), std::string::npos);

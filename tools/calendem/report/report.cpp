@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <iostream>
+#include <set>
 
 namespace calendem {
 extern const char *const kPageHtml;
@@ -215,11 +216,12 @@ void write_report(const std::vector<std::string> &directories, std::string page)
     page = directories.size() == 1 ? (fs::path(directories[0]) / "report.html").string()
                                    : "report.html";
   const fs::path ending = fs::path(page).extension(), stem = fs::path(page).stem();
-  if (ending != ".html" || stem == "summary" || stem == "electrode" || stem == "structure")
-    throw Failure(kBadInput, fmt::format("-o is '{}'. Give a name that ends in .html and is not "
-                                         "summary, electrode or structure: the page's data go to "
-                                         "the same name with .json.",
-                                         page));
+  const std::set<std::string> of_others = {"summary", "electrode", "structure",  "gap",
+                                           "model",   "design",    "prediction", "shrink"};
+  if (ending != ".html" || of_others.count(stem.string()))
+    throw Failure(kBadInput, fmt::format("-o is '{}'. Give a name that ends in .html and is none "
+                                         "of {}: the page's data go to the same name with .json.",
+                                         page, fmt::join(of_others, ", ")));
   const Report report = make_report(std::move(runs), command_line(directories, page));
   for (const auto &run : report.runs) {
     for (const Mistake &note : run.notes.list())

@@ -76,6 +76,9 @@ template <class Value> double sd_by_quarters(const PhaseImage &image, Value valu
 PhaseImage read(const Experiment &e, const std::string &file) {
   const PhaseImage image =
       phases_of(read_label_image(file, e.labels_voxel_um), e.labels_pore, e.labels_cbd);
+  if (phase_fractions(image).pore == 0.0)
+    throw Failure(kBadInput, fmt::format("{}: no voxel has the label labels_pore = {}. Correct it.",
+                                         file, e.labels_pore));
   if (e.labels_cbd && phase_fractions(image).cbd == 0.0)
     throw Failure(kBadInput, fmt::format("{}: no voxel has the label labels_cbd = {}. Correct it, "
                                          "or leave it out if the image shows no CBD.",
