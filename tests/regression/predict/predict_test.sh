@@ -77,7 +77,7 @@ refuses() { # WORDS ARGUMENTS...
 refuses "the bank has 20 to 300" predict model/model.json film.toml --pressure 5
 refuses "without pores is" predict model/model.json film.toml --gap 30
 refuses "thick before it is pressed" predict model/model.json film.toml --gap 90
-refuses "nothing can be said of it" predict model/model.json film.toml --gap 80
+refuses "nothing can be said of it" predict model/model.json film.toml --gap 71
 refuses "give um as" predict model/model.json film.toml --gap narrow
 refuses "a range is LOW:HIGH" predict model/model.json film.toml --pressure 80:20
 refuses "give MPa as 20,50,80" predict model/model.json film.toml --pressure twenty
