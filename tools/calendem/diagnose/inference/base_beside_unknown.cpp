@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/inference/base_beside_unknown.h"
+#include "diagnose/inference/hypothesis.h"
 #include "diagnose/inference/scatter.h"
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
@@ -12,32 +13,32 @@ constexpr int kCandidates = 16;  // of each draw
 constexpr double kDegrees = 6.0; // of their t distribution: tails heavier than the posterior's
 constexpr int kSteps = 5;        // towards where the posterior is largest
 
-/// What is the same for all candidates of one draw of the unknown.
+/// One draw of the unknown, whose base parameters are to be drawn.
 struct Beside {
-  std::vector<Applied> on;
-  Matrix discrepancy;
-};
+  const Problem &problem;
+  const Hypothesis &hypothesis;
+  const Likelihood &likelihood; ///< with the discrepancy anywhere
+  Vector scores;
 
-double log_density(const Problem &problem, const Beside &beside, const Vector &scores) {
-  const Prediction p = problem.predict(scores, beside.on);
-  const Cholesky factor(covariance_about(problem, p) + beside.discrepancy);
-  const Matrix lower = factor.matrixL();
-  const double square = factor.matrixL().solve(problem.observed - p.mean).squaredNorm();
-  return log_student_t(square, 2.0 * lower.diagonal().array().log().sum(), int(p.mean.size()),
-                       problem.degrees_of_freedom) -
-         0.5 * scores.squaredNorm();
-}
+  Vector with(const Vector &base) const {
+    Vector out = scores;
+    out.head(base.size()) = base;
+    return out;
+  }
+};
 
 /// The posterior of the model that is linear about a point.
 struct Line {
   Vector mean;
   Matrix root; ///< of its covariance
 
-  Line(const Problem &problem, const Beside &beside, const Vector &at) {
-    const Slopes all = slopes_of(problem, at, beside.on);
+  Line(const Beside &beside, const Vector &at) {
+    const Vector scores = beside.with(at);
+    const Problem &problem = beside.problem;
+    const Slopes all = slopes_of(problem, at, applied_at(problem, beside.hypothesis, scores));
     const auto n = at.size();
     const Matrix slopes = all.mean.leftCols(n);
-    const Cholesky covariance(covariance_about(problem, all.here) + beside.discrepancy);
+    const Cholesky covariance(beside.likelihood.covariance(scores, all.here));
     const Matrix weights = covariance.solve(slopes).transpose();
     const Cholesky precision(Matrix::Identity(n, n) + weights * slopes);
     mean = precision.solve(weights * (problem.observed - all.here.mean + slopes * at));
@@ -46,13 +47,13 @@ struct Line {
 };
 
 /// Of the posterior beside this draw: Gauss and Newton's steps.
-Vector middle(const Problem &problem, const Beside &beside, Vector at) {
+Vector middle(const Beside &beside, Vector at) {
   for (int step = 0; step < kSteps; ++step)
-    at = Line(problem, beside, at).mean;
+    at = Line(beside, at).mean;
   return at;
 }
 
-Vector one_of(const Problem &problem, const Beside &beside, const Line &line, Random &random) {
+Vector one_of(const Beside &beside, const Line &line, Random &random) {
   const auto n = line.mean.size();
   const boost::math::chi_squared squares(kDegrees);
   Matrix all(n, kCandidates);
@@ -63,7 +64,7 @@ Vector one_of(const Problem &problem, const Beside &beside, const Line &line, Ra
       v = random.normal();
     off *= std::sqrt(kDegrees / quantile(squares, random.uniform()));
     all.col(c) = line.mean + line.root * off;
-    weight[c] = log_density(problem, beside, all.col(c)) -
+    weight[c] = beside.likelihood.log(beside.with(all.col(c))) - 0.5 * all.col(c).squaredNorm() -
                 log_student_t(off.squaredNorm(), 0.0, int(n), kDegrees);
   }
   weight = (weight.array() - weight.maxCoeff()).exp();
@@ -86,18 +87,17 @@ Matrix spread_over(const Matrix &draws, Eigen::Index count, Random &random) {
 
 Matrix base_beside_unknown(const Problem &problem, const Judged &unknown, const Matrix &anywhere,
                            Eigen::Index count, Random &random) {
-  const Hypothesis &h = unknown.hypothesis;
+  const Likelihood likelihood(problem, unknown.hypothesis, anywhere);
   const auto beside_at = [&](const Vector &scores) {
-    const double size = h.size > 0.0 ? h.size : kUnknownSize.value(scores[scores.size() - 1]);
-    return Beside{applied_at(problem, h, scores), size * size * anywhere};
+    return Beside{problem, unknown.hypothesis, likelihood, scores};
   };
   const Vector &mode = unknown.evidence.mode;
-  const Vector about = middle(problem, beside_at(mode), mode.head(problem.base_parameters));
+  const Vector about = middle(beside_at(mode), mode.head(problem.base_parameters));
   const Matrix draws = spread_over(unknown.evidence.draws, count, random);
   Matrix out(problem.base_parameters, count);
   for (Eigen::Index k = 0; k < count; ++k) {
     const Beside beside = beside_at(draws.col(k));
-    out.col(k) = one_of(problem, beside, Line(problem, beside, about), random);
+    out.col(k) = one_of(beside, Line(beside, about), random);
   }
   return out;
 }

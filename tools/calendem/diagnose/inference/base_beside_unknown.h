@@ -19,8 +19,9 @@ Matrix spread_over(const Matrix &draws, Eigen::Index count, Random &random);
 /// linear model, where Gauss and Newton's steps from the unknown's mode lead,
 ///   precision 1 + J^T C^-1 J, mean precision^-1 J^T C^-1 (observed - predicted + J at),
 /// C the errors' covariance and the discrepancy's; one of 16 is taken with a probability
-/// proportional to its posterior density over the density that it was drawn from. Kennedy and O'Hagan, J. R. Stat. Soc. B 63 (2001) 425, section 4.5, for one
-/// size at a time; sampling-importance resampling: Rubin, Bayesian Statistics 3 (1988) 395.
+/// proportional to its posterior density over the density that it was drawn from. Kennedy and
+/// O'Hagan, J. R. Stat. Soc. B 63 (2001) 425, section 4.5, for one size at a time;
+/// sampling-importance resampling: Rubin, Bayesian Statistics 3 (1988) 395.
 Matrix base_beside_unknown(const Problem &problem, const Judged &unknown, const Matrix &anywhere,
                            Eigen::Index count, Random &random);
 
