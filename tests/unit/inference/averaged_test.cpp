@@ -18,7 +18,8 @@ WhichSettings quick() {
   s.noise = false;
   s.evidence.samples = 128;
   s.priors.pair_share = 0.0;
-  s.pair_seeds = 0;
+  s.pairs = 0;
+  s.beside = 0;
   return s;
 }
 

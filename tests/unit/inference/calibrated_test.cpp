@@ -75,7 +75,8 @@ TEST_P(Calibrated, ProbabilitiesOfTheUnknownAndOfTheNamed) {
   settings.noise = false;
   settings.evidence.samples = 64;
   settings.priors.pair_share = 0.0;
-  settings.pair_seeds = 0;
+  settings.pairs = 0;
+  settings.beside = 0;
   Stated unknown, named, visible;
   for (int w = 0; w < kWorlds; ++w) {
     LinearWorld world(kFeatures, 2, kEffects, std::uint64_t(5000 + w));

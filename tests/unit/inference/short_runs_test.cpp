@@ -33,7 +33,8 @@ Which found(double cosine, double end, double amplitude, bool instrument = false
   WhichSettings settings;
   settings.noise = false;
   settings.evidence.samples = 128;
-  settings.pair_seeds = 0;
+  settings.pairs = 0;
+  settings.beside = 0;
   Which w = which(problem, settings);
   EXPECT_EQ(w.claim, "effect 1") << w.why;
   set_short_runs(w, problem);

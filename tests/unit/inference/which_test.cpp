@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/messages.h"
 #include "diagnose/inference/which.h"
 #include "linear_world.h"
 #include <gtest/gtest.h>
@@ -11,7 +12,8 @@ WhichSettings quick() {
   s.noise = false;
   s.evidence.samples = 128;
   s.priors.pair_share = 0.0;
-  s.pair_seeds = 0;
+  s.pairs = 0;
+  s.beside = 0;
   return s;
 }
 
@@ -170,7 +172,7 @@ TEST(Which, AnUnknownBesideAKnownEffectIsUnknown) {
   Problem problem = world.problem(world.mean_of(1) + world.mean_of(2) - world.centre);
   problem.effects.resize(2);
   WhichSettings settings = quick();
-  settings.pair_seeds = 2;
+  settings.beside = 2;
   const Which found = which(problem, settings);
   EXPECT_EQ(found.claim, "unknown");
   EXPECT_GT(found.of("unknown").probability, 0.95);
@@ -183,11 +185,36 @@ TEST(Which, TwoEffectsAtOnceAreAPair) {
   world.amplitude = 9.0;
   const Vector data = world.mean_of(0) + world.mean_of(2) - world.centre;
   WhichSettings settings = quick();
-  settings.pair_seeds = 2;
+  settings.pairs = 2;
   settings.priors.pair_share = 0.2;
   const Which found = which(world.problem(data), settings);
   EXPECT_EQ(found.claim, "effect 0 + effect 2");
   EXPECT_GT(found.inclusion.at("effect 2"), 0.98); // a hundredth is left for what nothing predicts
+}
+
+// Each of two decoys fits the sum of two effects better than either of them alone; only both
+// together fit it.
+TEST(Which, APairIsFoundAlthoughNeitherOfItsEffectsFitsBest) {
+  LinearWorld world(12, 2, 6, 14);
+  world.amplitude = 9.0;
+  Matrix axes = Matrix::Zero(12, 6);
+  axes.leftCols(2).setIdentity();
+  for (int decoy = 2; decoy < 4; ++decoy) {
+    axes.col(decoy).head(2).setConstant(std::sqrt(0.4));
+    axes(decoy, decoy) = std::sqrt(0.2);
+  }
+  axes.bottomRightCorner(2, 2).setIdentity();
+  world.signatures = Cholesky(world.covariance).matrixL() * axes;
+  const Vector data = world.mean_of(0) + world.mean_of(1) - world.centre;
+  WhichSettings settings = quick();
+  settings.pairs = 2;
+  settings.priors.pair_share = 0.2;
+  const Which found = which(world.problem(data), settings);
+  for (const char *half : {"effect 0", "effect 1"})
+    for (const char *decoy : {"effect 2", "effect 3"})
+      EXPECT_GT(found.of(decoy).evidence.log_evidence, found.of(half).evidence.log_evidence);
+  EXPECT_EQ(found.claim, "effect 0 + effect 1");
+  EXPECT_THROW(found.of("effect 4 + effect 5"), Failure); // not worth an integral
 }
 
 TEST(Which, UnderstatedNoise) {
@@ -318,9 +345,14 @@ TEST(Decide, AnEffectIsNamedByWhatAllItsPairsHave) {
   EXPECT_EQ(w.beside[0].effect, "b");
   EXPECT_NEAR(w.beside[0].probability, pair / (2.0 * pair + alone), 1e-12);
   EXPECT_NEAR(w.beside[0].prior, 0.1 / 1.1, 1e-12);
-  const Which without_c = decided(0.0, 0.5, 3.0); // e^-1 times the evidence of a alone
-  ASSERT_EQ(without_c.beside.size(), 1u);
-  EXPECT_EQ(without_c.beside[0].effect, "b");
+  // Excluded: less than a twentieth of the evidence of all in which a acts without c.
+  const double rest = (pair + alone) / (0.1 + alone); // over that of a alone
+  const double least = 4.0 + std::log(0.05 * rest);
+  for (const bool excluded : {false, true}) {
+    const Which without_c = decided(0.0, 0.5, least + (excluded ? -0.01 : 0.01));
+    ASSERT_EQ(without_c.beside.size(), excluded ? 1u : 2u);
+    EXPECT_EQ(without_c.beside[0].effect, "b");
+  }
   const Which open = decided(6.0); // b alone does as well
   EXPECT_EQ(open.claim, "undecided");
   EXPECT_TRUE(open.beside.empty());

@@ -9,9 +9,11 @@ namespace calendem::inference {
 namespace {
 
 constexpr double kCredible = 0.95;
-constexpr double kCounts = 0.01;  // probability of a hypothesis that bears on the claim
-constexpr double kFewest = 30.0;  // effective samples of its evidence
-constexpr double kExcluded = 0.5; // of its prior, below which an effect beside others is excluded
+constexpr double kCounts = 0.01; // probability of a hypothesis that bears on the claim
+constexpr double kFewest = 30.0; // effective samples of its evidence
+// Bayes factor below which an effect beside others is excluded: one that acts gets so little in at
+// most 5 % of cases (Royall, J. Am. Stat. Assoc. 95 (2000) 760), however weak it may be.
+constexpr double kExcluded = 0.05;
 // Of the unknown's prior, what is known by nothing but that no prediction fits: the p of the best is
 // then distributed as p^kMisfit.
 constexpr double kByMisfit = 0.25, kMisfit = 0.1;
@@ -272,6 +274,8 @@ double prior_of(const Which &w, const std::vector<int> &effects) {
   return sum;
 }
 
+double odds(double probability) { return probability / (1.0 - probability); }
+
 void set_beside(Which &w) {
   w.beside.clear();
   const std::vector<int> claimed = claimed_effects(w);
@@ -286,7 +290,7 @@ void set_beside(Which &w) {
     both.push_back(j.hypothesis.on[0]);
     const Companion c{j.hypothesis.name, lead_of(w, both).probability / acts,
                       prior_of(w, both) / prior};
-    if (c.prior > 0.0 && c.probability >= kExcluded * c.prior)
+    if (c.prior > 0.0 && odds(c.probability) >= kExcluded * odds(c.prior))
       w.beside.push_back(c);
   }
   std::stable_sort(w.beside.begin(), w.beside.end(), [](const Companion &a, const Companion &b) {

@@ -4,6 +4,7 @@
 #include "base/random.h"
 #include "diagnose/inference/base_beside_unknown.h"
 #include "diagnose/inference/confounding.h"
+#include "diagnose/inference/pairs.h"
 #include "diagnose/inference/scatter.h"
 #include <algorithm>
 #include <cmath>
@@ -99,13 +100,6 @@ Judged judge_unknown(const Problem &problem, const WhichSettings &settings,
   return best;
 }
 
-std::string joined(const Problem &problem, const std::vector<int> &on) {
-  std::string name = problem.effects[on[0]].name;
-  for (std::size_t k = 1; k < on.size(); ++k)
-    name += " + " + problem.effects[on[k]].name;
-  return name;
-}
-
 /// Effects by the evidence for them, the best first; none if the base model beats them all.
 std::vector<int> ranked_effects(const Which &so_far) {
   std::vector<std::pair<double, int>> singles;
@@ -120,17 +114,19 @@ std::vector<int> ranked_effects(const Which &so_far) {
   return out;
 }
 
-/// The best effects joined with every other.
-std::vector<Hypothesis> greedy_pairs(const Problem &problem, const std::vector<int> &ranked,
-                                     int seeds) {
-  std::vector<Hypothesis> pairs;
-  for (int s = 0; s < std::min(seeds, int(ranked.size())); ++s)
-    for (int o = s + 1; o < int(ranked.size()); ++o) {
-      std::vector<int> on{ranked[s], ranked[o]};
-      std::sort(on.begin(), on.end());
-      pairs.push_back({Hypothesis::effects, on, joined(problem, on), 0.0});
-    }
-  return pairs;
+/// Evidence of those pairs that have none yet: of one effect with every other where it is given
+/// (otherwise -1), and of the most promising.
+void judge_pairs(const Problem &problem, const std::vector<Promise> &pairs, int with, int promising,
+                 const WhichSettings &settings, Which &w) {
+  int rank = 0;
+  for (const Promise &p : pairs) {
+    const bool wanted = rank++ < promising || p.pair.on[0] == with || p.pair.on[1] == with;
+    const bool known = std::any_of(w.judged.begin(), w.judged.end(), [&](const Judged &j) {
+      return j.hypothesis.name == p.pair.name;
+    });
+    if (wanted && !known)
+      w.judged.push_back(judge(problem, p.pair, Matrix(), settings));
+  }
 }
 
 } // namespace
@@ -145,20 +141,27 @@ const Judged &Which::of(const std::string &name) const {
 Which which(const Problem &problem, const WhichSettings &settings) {
   Which w;
   const Matrix nothing;
+  const auto effects = int(problem.effects.size());
   w.judged.push_back(judge(problem, {Hypothesis::none, {}, "none", 0.0}, nothing, settings));
   w.judged[0].below_limits = 1.0;
   w.base = linearise(problem, w.judged[0].evidence.mode);
   if (settings.noise)
     w.judged.push_back(judge(problem, {Hypothesis::noise, {}, "noise", 0.0}, nothing, settings));
-  for (int e = 0; e < int(problem.effects.size()); ++e)
+  for (int e = 0; e < effects; ++e)
     w.judged.push_back(judge(problem, {Hypothesis::effects, {e}, problem.effects[e].name, 0.0},
                              nothing, settings));
   std::vector<int> ranked = ranked_effects(w);
-  for (const Hypothesis &pair : greedy_pairs(problem, ranked, settings.pair_seeds))
-    w.judged.push_back(judge(problem, pair, nothing, settings));
-  ranked.resize(std::min(ranked.size(), std::size_t(settings.pair_seeds)));
+  const std::vector<Promise> pairs =
+      settings.pairs > 0 ? promising_pairs(problem, w) : std::vector<Promise>();
+  judge_pairs(problem, pairs, ranked.empty() ? -1 : ranked[0], settings.pairs, settings, w);
+  ranked.resize(std::min(ranked.size(), std::size_t(settings.beside)));
   w.judged.push_back(judge_unknown(problem, settings, ranked, w));
-  decide(w, settings, int(problem.effects.size()));
+  decide(w, settings, effects);
+  for (int e = 0; e < effects; ++e) // what may act beside it
+    if (problem.effects[std::size_t(e)].name == w.claim) {
+      judge_pairs(problem, pairs, e, 0, settings, w);
+      decide(w, settings, effects);
+    }
   return w;
 }
 

@@ -19,8 +19,9 @@ struct Priors {
 
 struct WhichSettings {
   Priors priors;
-  bool noise = true;  ///< "noise" (understated errors) is a hypothesis
-  int pair_seeds = 2; ///< best single effects that are joined with all others and unknown
+  bool noise = true; ///< "noise" (understated errors) is a hypothesis
+  int pairs = 20;    ///< most promising pairs that are computed, beside those of the best effect
+  int beside = 2;    ///< best single effects beside which the unknown is sought
   double claim_probability = 0.8; ///< a name is claimed from here on
   double adequacy = 0.05;         ///< and only with at least this p
   /// Points of a curve show how large errors are; without them noise is not claimed: a single
@@ -75,8 +76,8 @@ struct Which {
   std::vector<Judged> judged;     ///< most probable first
   std::vector<std::string> set95; ///< most probable first, until 95 %
   std::map<std::string, double> inclusion; ///< of each effect: alone or in a pair
-  /// Where effects are claimed: others that these data do not exclude beside them, as their
-  /// probability there is at least half of what it was before the data. Most probable first.
+  /// Where effects are claimed: others that these data do not exclude beside them, as the odds that
+  /// they act too are at least a twentieth of what they were before the data. Most probable first.
   std::vector<Companion> beside;
   std::vector<Sensitivity> sensitivity;
   Linearised base; ///< about the recalibrated base model
