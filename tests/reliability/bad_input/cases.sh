@@ -684,6 +684,23 @@ another_case_in_folder() {
   says "holds a run of another case" "bond.tensile_strength_MPa: then 500, now 300"
   grep -q '"finished": true' "$work/run/summary.json" || fail "the finished run was touched"
 }
+another_recipe_in_folder() {
+  cp -r "$electrode" "$work/packed"
+  sed 's/^seed = 3$/seed = 4/' "$shared/packing/recipe.toml" >"$work/recipe.toml"
+  expect 2 calendem pack "$work/recipe.toml" -o "$work/packed" --ranks 1
+  says "'$work/packed' holds an electrode of another recipe" "seed: then 3, now 4" "--force"
+  diff -r "$electrode" "$work/packed" || fail "the electrode was touched"
+  expect 0 calendem pack "$shared/packing/recipe.toml" -o "$work/packed" --ranks 1
+  says "already holds this electrode"
+  cp "$bin/liggghts" "$work/another" # the same recipe by another program is packed again, as ever
+  echo >>"$work/another"
+  expect 0 calendem pack "$shared/packing/recipe.toml" -o "$work/packed" --ranks 1 --liggghts "$work/another"
+  says "densifying"
+  expect 0 calendem pack "$work/recipe.toml" -o "$work/packed" --ranks 1 --force
+  grep -q '"seed": "4"' "$work/packed/electrode.json" || fail "--force did not pack"
+  expect 0 calendem pack "$work/recipe.toml" -o "$work/packed" --ranks 1 --force
+  says "already holds this electrode"
+}
 disk_full_at_start() {
   full_disk 2
   a_case "$electrode" "${quick[@]}"

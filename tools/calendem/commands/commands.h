@@ -16,7 +16,7 @@ class Validator;
 
 namespace calendem {
 
-void add_pack_verb(CLI::App &app);      ///< pack SPEC.toml -o DIR [--seed N] [--ranks N]
+void add_pack_verb(CLI::App &app);      ///< pack SPEC.toml -o DIR [--seed N] [--ranks N] [--force]
 void add_dry_verb(CLI::App &app);       ///< dry SPEC.toml -o DIR
 void add_tomogram_verb(CLI::App &app);  ///< tomogram SPEC.toml -o FILE.mhd
 void add_run_verb(CLI::App &app);       ///< run CASE.toml -o DIR [--ranks N] [--resume]

@@ -189,6 +189,7 @@ void add_tomogram_verb(CLI::App &app) {
     std::string spec, file;
   };
   auto a = std::make_shared<Arguments>();
+  verb->add_flag("--force", a->options.force, "overwrite an electrode of another recipe");
   CLI::App *verb =
       app.add_subcommand("tomogram", "Make a synthetic label image whose particles are known");
   verb->footer(list_of_keys(tomogram_keys()));

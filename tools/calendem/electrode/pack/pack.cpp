@@ -3,6 +3,7 @@
 #include "base/liggghts_job.h"
 #include "base/output_folder.h"
 #include "base/provenance.h"
+#include "base/run_folder.h"
 #include "electrode/pack/electrode_files.h"
 #include "electrode/pack/measured_bodies.h"
 #include "physics/pi.h"
@@ -11,6 +12,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
@@ -125,13 +127,48 @@ std::string packing_tools(const std::string &liggghts) {
   return version() + hash_of_file(liggghts) + hash_of_file(input_scripts() + "/in.pack");
 }
 
-std::string packing_identity(const Recipe &recipe, const std::string &tools) {
-  std::string text = tools;
+namespace {
+
+/// The settings that a packing depends on.
+std::map<std::string, std::string> settings_of(const Recipe &recipe) {
+  std::map<std::string, std::string> out;
   for (const auto &[key, value] : recipe.settings.all())
     if ((recipe.shapes.given() || key.rfind("shapes.", 0) != 0) &&
         (recipe.structure.given() || key.rfind("structure.", 0) != 0))
-      text += key + "=" + value + "\n";
-  return hash_of_text(text + hash_of_shapes(recipe) + hash_of_structure(recipe.structure));
+      out[key] = value;
+  return out;
+}
+
+std::string hash_of_sources(const Recipe &recipe) {
+  return hash_of_shapes(recipe) + hash_of_structure(recipe.structure);
+}
+
+/// Another program makes the same electrode; one of another recipe would be lost.
+void stop_if_of_another_recipe(const std::string &folder, const Recipe &recipe) {
+  const nlohmann::json old = RunFolder(folder).object("electrode.json");
+  if (!old.is_object() || !old.contains("recipe"))
+    return;
+  const auto then = old["recipe"].get<std::map<std::string, std::string>>();
+  std::string text;
+  for (const auto &[key, now] : settings_of(recipe))
+    if (const auto at = then.find(key); at != then.end() && at->second != now)
+      text += fmt::format("\n  {}: then {}, now {}", key, at->second, now);
+  const std::string sources = hash_of_sources(recipe);
+  if (text.empty() && old.value("sources", sources) != sources)
+    text = "\n  the files of [shapes] or [structure]";
+  if (!text.empty())
+    throw Failure(kBadInput, fmt::format("'{}' holds an electrode of another recipe. Give another "
+                                         "-o, or --force to overwrite it. What differs:{}",
+                                         folder, text));
+}
+
+} // namespace
+
+std::string packing_identity(const Recipe &recipe, const std::string &tools) {
+  std::string text = tools;
+  for (const auto &[key, value] : settings_of(recipe))
+    text += key + "=" + value + "\n";
+  return hash_of_text(text + hash_of_sources(recipe));
 }
 
 namespace {
@@ -159,6 +196,8 @@ void pack_electrode(const Recipe &as_given, PackOptions o) {
     fmt::print("pack: {} already holds this electrode\n", o.folder);
     return;
   }
+  if (!o.force)
+    stop_if_of_another_recipe(o.folder, as_given);
   const auto begin = std::chrono::steady_clock::now();
   const PackInput in = read_input(as_given);
   check_machine(in.recipe, o);
@@ -187,6 +226,8 @@ void pack_electrode(const Recipe &as_given, PackOptions o) {
     throw;
   }
   j["identity"] = identity;
+  if (const std::string sources = hash_of_sources(as_given); !sources.empty())
+    j["sources"] = sources;
   write_file(summary, j.dump(2) + "\n");
 }
 

@@ -16,6 +16,7 @@ struct PackOptions {
   std::string folder;
   std::string liggghts;
   int ranks = 2;
+  bool force = false; ///< an electrode of another recipe may be overwritten
 };
 
 /// Hash of everything that a packing depends on: recipe, its sources' files, packing_tools.
