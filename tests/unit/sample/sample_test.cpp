@@ -112,9 +112,33 @@ TEST_F(SampleOfRuns, CellsOfOtherMaterialsAreRefused) {
               keys);
     return refusal(runs, OneFor::Gap);
   };
-  EXPECT_NE(with("[effects.machine_compliance]\num_per_MPa = 0.1\n").find("are of one material"),
+  EXPECT_NE(with("[effects.machine_compliance]\num_per_MPa = 0.1\n")
+                .find("are of one recipe and material"),
             std::string::npos);
   EXPECT_EQ(with("[bond]\nseed = 7\n"), "");
+}
+
+// Loading and seed differ from cell to cell, as does the name; what the sample's recipe says is
+// true of all.
+TEST_F(SampleOfRuns, CellsOfOtherRecipesAreRefused) {
+  const std::vector<std::string> runs = {spring("a", 20, 16), spring("b", 22, 16)};
+  const auto with = [&](const char *name, const char *key, const char *value) {
+    write(std::string(name) + "/electrode.json",
+          fmt::format("{{\"loading_mg_cm2\": 4, \"recipe\": {{\"{}\": \"{}\"}}}}", key, value));
+  };
+  for (const char *key : {"density.am_g_cm3", "composition.am_weight_percent", "cell.x_um",
+                          "coating.porosity_total_percent"}) {
+    with("a", key, "40");
+    with("b", key, "41");
+    const std::string said = refusal(runs, OneFor::Gap);
+    EXPECT_NE(said.find(fmt::format("{} = 40", key)), std::string::npos) << said;
+    EXPECT_NE(said.find("has 41"), std::string::npos) << said;
+  }
+  for (const char *key : {"name", "seed", "coating.loading_mg_cm2"}) {
+    with("a", key, "4");
+    with("b", key, "5");
+    EXPECT_EQ(refusal(runs, OneFor::Gap), "");
+  }
 }
 
 TEST_F(SampleOfRuns, NothingButASampleIsWrittenOver) {

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 
 namespace calendem {
@@ -209,13 +210,6 @@ void check_turns(const std::vector<std::string> &folders, const std::vector<Cell
                                       : "platen.max_pressure_MPa"));
 }
 
-template <class Value> double mean(const std::vector<Cell> &cells, Value value) {
-  double sum = 0.0;
-  for (const Cell &c : cells)
-    sum += value(c);
-  return sum / double(cells.size());
-}
-
 /// The sample's own numbers, and what a press with these instruments shows of them.
 struct Pressed {
   std::vector<SampleRow> rows;
@@ -321,19 +315,28 @@ std::string case_of(const std::vector<Cell> &cells, const Pressed &sample) {
   return write_toml(settings, case_keys(), fmt::format("# a sample of {} cells\n", cells.size()));
 }
 
-/// Cells of one sample differ in their packing, the seed of their strengths and what ends the run.
-void check_materials(const std::vector<std::string> &runs, const std::vector<Cell> &cells,
-                     Mistakes &mistakes) {
-  for (std::size_t k = 1; k < cells.size(); ++k)
-    for (const auto &[key, value] : cells[0].settings.all()) {
-      const std::string &other = cells[k].settings.text(key);
-      const bool material = key.rfind("material.", 0) == 0 || key.rfind("bond.", 0) == 0 ||
-                            key.rfind("effects.", 0) == 0;
-      if (material && key != "bond.seed" && other != value)
+/// Recipe and material, but for seeds and loading: cells of one sample have it in common.
+std::map<std::string, std::string> common_to_cells(const Cell &c) {
+  auto out = c.electrode.value("recipe", std::map<std::string, std::string>());
+  for (const auto &[key, value] : c.settings.all())
+    if (key.rfind("material.", 0) == 0 || key.rfind("bond.", 0) == 0 ||
+        key.rfind("effects.", 0) == 0)
+      out[key] = value;
+  for (const char *own : {"name", "seed", "coating.loading_mg_cm2", "bond.seed"})
+    out.erase(own);
+  return out;
+}
+
+void check_alike(const std::vector<std::string> &runs, const std::vector<Cell> &cells,
+                 Mistakes &mistakes) {
+  for (std::size_t k = 1; k < cells.size(); ++k) {
+    auto other = common_to_cells(cells[k]);
+    for (const auto &[key, value] : common_to_cells(cells[0]))
+      if (other[key] != value)
         mistakes.add(0, fmt::format("'{}' has {} = {}, '{}' has {}: cells of one sample are of one "
-                                    "material.",
-                                    runs[0], key, value, runs[k], other));
-    }
+                                    "recipe and material, whatever their loading.",
+                                    runs[0], key, value, runs[k], other[key]));
+  }
 }
 
 std::vector<Cell> read_cells(const std::vector<std::string> &runs, OneFor shared) {
@@ -346,7 +349,7 @@ std::vector<Cell> read_cells(const std::vector<std::string> &runs, OneFor shared
   for (const std::string &run : runs)
     cells.push_back(read_cell(run, mistakes));
   mistakes.stop_if_any();
-  check_materials(runs, cells, mistakes);
+  check_alike(runs, cells, mistakes);
   check_turns(runs, cells, shared, mistakes);
   mistakes.stop_if_any();
   return cells;
