@@ -329,6 +329,32 @@ curve_in_other_units() { # of an experiment: mm, Pa, another separator, stages t
   curve '\xef\xbb\xbfdisplacement_um,pressure_MPa\n0,0\n20,150\n' # as spreadsheets write it
   expect 0 calendem validate "$work/experiment.toml"
 }
+slices_missing() { # of an image that an experiment gives by a pattern
+  printf '%s\n' '[coating]' 'loading_mg_cm2 = 4' | file recipe.toml
+  printf '%s\n' '[experiment]' 'name = "x"' 'electrode = "recipe.toml"' '[[condition]]' 'id = "a"' \
+    'control = "pressure"' 'max_pressure_MPa = 100' 'labels_after = "s_%03d.tif"' | file experiment.toml
+  refused experiment.toml ":8: labels_after" "s_%03d.tif: no file has such a name" "s_000.tif or s_001.tif"
+  touch "$work"/s_00{2,4}.tif
+  refused experiment.toml ":8: labels_after" "s_%03d.tif: slice 3 is missing (s_003.tif); there are 2 to 4"
+  expect 2 calendem measure "$work/s_%03d.tif" -o "$work/out"
+  says "slice 3 is missing (s_003.tif)"
+  [ ! -e "$work/out" ] || fail "a folder was made for nothing"
+}
+image_on_full_disk() { # a limit on the length of a file stands for the disk
+  printf '%s\n' '[image]' x_um=6 y_um=6 z_um=6 '[particles]' median_um=2.5 min_um=2 max_um=3 | file tomogram.toml
+  local ending
+  for ending in mha mhd vti; do
+    expect 2 bash -c 'trap "" XFSZ; ulimit -f 2; "$@"' - "$bin/calendem" tomogram "$work/tomogram.toml" -o "$work/a.$ending"
+    says "$work/a.$ending: cannot be written"
+    [ "$(ls "$work")" = $'said\ntomogram.toml' ] || fail "part of an image is left: $(ls "$work")"
+    echo "kept" >"$work/a.$ending"
+    expect 2 bash -c 'trap "" XFSZ; ulimit -f 2; "$@"' - "$bin/calendem" tomogram "$work/tomogram.toml" -o "$work/a.$ending"
+    [ "$(cat "$work/a.$ending")" = kept ] || fail "what was there is lost"
+    expect 0 calendem tomogram "$work/tomogram.toml" -o "$work/a.$ending"
+    expect 0 calendem measure "$work/a.$ending" -o "$work/out" --without-tortuosity
+    rm -r "$work"/a.* "$work/out"
+  done
+}
 
 # ---- command line and machine
 ranks_not_a_number() {
@@ -667,6 +693,8 @@ files_of_others() { # nothing is replaced that the command did not write
 report_in_place_of_results() {
   a_case "$electrode" "${quick[@]}"
   expect 0 run
+  expect 2 calendem report "$work/run" -o "$work/nowhere/page.html"
+  says "there is no folder '$work/nowhere'"
   for name in summary.html curve.csv electrode.html; do
     expect 2 calendem report "$work/run" -o "$work/run/$name"
     says "ends in .html and is none of design, electrode, gap"

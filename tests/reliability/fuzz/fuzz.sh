@@ -14,7 +14,7 @@ cd "$core"
 sources=(base/*.cpp electrode/*.cpp electrode/*/*.cpp simulate/study_file.cpp diagnose/bank/bank_{spec,table}.cpp
   diagnose/compare/simulated_run.cpp diagnose/inference/{bank,numerics,quantities}.cpp withheld/round_file.cpp)
 image_sources=(electrode/structure/{data_rows,image_header,label_image,tiff_image,vti_header}.cpp
-  base/{messages,provenance}.cpp)
+  base/{image_series,messages,provenance}.cpp)
 for source in "${sources[@]}" "${image_sources[@]}"; do # said by every run of the tests, not only by --all
   [ -f "$source" ] || { echo "FAILED: $core/$source, which is to be built here, is not there" >&2; exit 1; }
 done

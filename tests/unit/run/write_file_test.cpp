@@ -48,6 +48,17 @@ TEST(WriteFile, ProcessesMayWriteTheSameFileAtOnce) {
   EXPECT_EQ(files, 1);
 }
 
+TEST(WriteFile, AFolderThatIsNotThereIsNamed) {
+  const std::string folder = (calendem_test::test_folder() / "none").string();
+  try {
+    write_file(folder + "/a.txt", kContent);
+    FAIL() << "written";
+  } catch (const Failure &f) {
+    EXPECT_NE(std::string(f.what()).find("there is no folder '" + folder + "'"), std::string::npos)
+        << f.what();
+  }
+}
+
 TEST(WriteFile, WhatCannotBeWrittenLeavesNothing) {
   const auto folder = calendem_test::test_folder();
   std::filesystem::create_directory(folder / "taken"); // a folder of that name: no file can be it

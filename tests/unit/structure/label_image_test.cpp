@@ -2,6 +2,7 @@
 #include "electrode/structure/label_image.h"
 #include "support.h"
 #include <fmt/format.h>
+#include <regex>
 #include <tiffio.h>
 
 namespace {
@@ -140,14 +141,39 @@ TEST(LabelImage, WhatIsNoLabelImageIsRefusedWithTheRemedy) {
   expect_parts(refusal([&] { read_label_image(grey); }), {"(0, 0, 1) is 0.5", "whole number"});
 }
 
+// A spacing of 1 is one, unless the header has none.
+TEST(LabelImage, VoxelsOfOneMicrometreAreStatedOrNot) {
+  const fs::path folder = test_folder();
+  LabelImage image = sample();
+  image.voxel.setOnes();
+  for (const char *name : {"a.vti", "a.mhd", "a.mha"}) {
+    const std::string file = (folder / name).string();
+    write_label_image(image, file);
+    EXPECT_EQ(read_label_image(file).voxel, Eigen::Vector3d::Ones()) << name;
+    std::string text = bytes_of(file);
+    const std::string field =
+        name == std::string("a.vti") ? " Spacing=\"1 1 1\"" : "ElementSpacing = 1 1 1\n";
+    const size_t at = text.find(field);
+    ASSERT_NE(at, std::string::npos) << text.substr(0, 600);
+    std::ofstream(file, std::ios::binary) << text.erase(at, field.size());
+    expect_parts(refusal([&] { read_label_image(file); }),
+                 {name, "voxel size", "shapes.voxel_size_um"});
+    EXPECT_EQ(read_label_image(file, 1.0).voxel.x(), 1.0);
+  }
+  std::string nrrd = bytes_of(kData + "/unu_gzip.nrrd");
+  const std::regex spacings("(spacings|space directions): [^\n]*\n");
+  ASSERT_TRUE(std::regex_search(nrrd, spacings));
+  const std::string file = (folder / "a.nrrd").string();
+  std::ofstream(file, std::ios::binary) << std::regex_replace(nrrd, spacings, "spacings: 1 1 1\n");
+  EXPECT_EQ(read_label_image(file).voxel, Eigen::Vector3d::Ones());
+  std::ofstream(file, std::ios::binary) << std::regex_replace(nrrd, spacings, "");
+  expect_parts(refusal([&] { read_label_image(file); }), {"voxel size"});
+}
+
 TEST(LabelImage, VoxelSizeMustBeKnownAndPlausible) {
   const fs::path folder = test_folder();
   const std::string file = (folder / "a.mha").string();
   LabelImage image = sample();
-  image.voxel.setOnes();
-  write_label_image(image, file);
-  expect_parts(refusal([&] { read_label_image(file); }), {"voxel size", "shapes.voxel_size_um"});
-  EXPECT_EQ(read_label_image(file, 1.0).voxel.x(), 1.0);
   image.voxel.setConstant(0.3e-3); // in mm
   write_label_image(image, file);
   expect_parts(refusal([&] { read_label_image(file); }), {"0.0003", "0.001 to 10 um", "mm"});

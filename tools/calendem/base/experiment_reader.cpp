@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/experiment.h"
+#include "base/image_series.h"
 #include "base/table_reader.h"
 #include "base/toml_reader.h"
 #include <algorithm>
@@ -47,8 +48,13 @@ private:
     const std::string name = **t.get(key.name)->as_string();
     std::error_code none;
     const bool image = key.name.rfind("labels_", 0) == 0;
-    if (image && path.find('%') != std::string::npos) // slices: who reads them looks for them
-      return path;
+    try {
+      if (image && files_of_series(path) != std::vector<std::string>{path})
+        return path;
+    } catch (const Failure &f) {
+      mistakes_.add(line_of(*t.get(key.name)), fmt::format("{}: {}", key.name, f.what()));
+      return "";
+    }
     if (!fs::exists(path, none))
       mistakes_.add(line_of(*t.get(key.name)),
                     fmt::format("{} = \"{}\": there is no file '{}'. Paths are relative to this "

@@ -52,6 +52,14 @@ std::string text_of_file(const std::string &file) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
+bool ends_with(const std::string &file, const std::string &text) {
+  std::ifstream in(file, std::ios::binary);
+  std::string tail(text.size() + 10, ' ');
+  in.seekg(-std::streamoff(tail.size()), std::ios::end);
+  in.read(tail.data(), std::streamsize(tail.size()));
+  return in && tail.find(text) != std::string::npos;
+}
+
 std::string hash_of_file(const std::string &file) {
   std::ifstream in(file, std::ios::binary);
   if (!in)
@@ -96,14 +104,24 @@ std::string liggghts_program() {
   return (fs::exists(installed) ? installed : program_folder() / "liggghts").string();
 }
 
-void write_file(const std::string &given, const std::string &content) {
-  std::error_code no_link;
+std::string place_of(const std::string &given) {
+  std::error_code none;
   const std::string name =
-      fs::is_symlink(given, no_link) ? fs::weakly_canonical(given, no_link).string() : given;
-  if (fs::exists(name, no_link) && !fs::is_regular_file(name, no_link))
+      fs::is_symlink(given, none) ? fs::weakly_canonical(given, none).string() : given;
+  if (fs::exists(name, none) && !fs::is_regular_file(name, none))
     throw Failure(kBadInput, fmt::format("'{}' is not a regular file and cannot be written. Give "
                                          "another name.",
                                          given));
+  const fs::path folder = fs::path(name).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder, none))
+    throw Failure(kBadInput, fmt::format("cannot write '{}': there is no folder '{}'. Make it, or "
+                                         "give another name.",
+                                         given, folder.string()));
+  return name;
+}
+
+void write_file(const std::string &given, const std::string &content) {
+  const std::string name = place_of(given);
   // Of this process: tasks of a cluster may write the same file at the same time.
   static const unsigned host = std::random_device{}(); // pids of two machines may be the same
   const std::string part = fmt::format("{}.{}-{:08x}.part", name, getpid(), host);

@@ -34,6 +34,13 @@ std::string liggghts_program();
 /// The file's bytes; empty if it cannot be read.
 std::string text_of_file(const std::string &file);
 
+/// The text is in the file's last line or close to its end: that of a file that is cut is not.
+bool ends_with(const std::string &file, const std::string &text);
+
+/// Where a file of that name is written: what a link points to. Throws Failure(2) where that is no
+/// regular file, or in no folder.
+std::string place_of(const std::string &given);
+
 /// Writes via a file of this process beside it that is renamed when complete, so that several may
 /// write it at once; a link stays one. Throws Failure(2) on a full disk, or where `name` is no
 /// regular file.

@@ -252,6 +252,18 @@ void check_nrrd(const std::string &file) {
     check_length(file, count(n) * double(size), there);
 }
 
+bool states_voxel_size(const std::string &file) {
+  const std::string ending = image_ending(file);
+  if (ending == ".vti")
+    return states_voxel_size_of_vti(file);
+  if (is_tiff(file))
+    return false;
+  const bool meta = ending == ".mhd" || ending == ".mha";
+  const ImageHeader h(file, meta ? "=" : ": ");
+  return meta ? h.has("ElementSpacing") || h.has("ElementSize")
+              : h.has("spacings") || h.has("space directions");
+}
+
 long unpacked_bytes(const std::string &file, long offset, long length, long most) {
   constexpr int kAnyHeader = 47; // zlib's or gzip's, the largest window
   std::vector<char> in(1 << 16), out(1 << 18);

@@ -29,6 +29,10 @@ void check_meta_image(const std::string &file);
 void check_nrrd(const std::string &file);
 void check_vti(const std::string &file); ///< as far as its first MB says
 
+/// The header of a file that passed its check gives the spacing; VTK takes 1 where it does not.
+bool states_voxel_size(const std::string &file);
+bool states_voxel_size_of_vti(const std::string &file);
+
 /// The lines "name = value" (MetaImage, separator "=") or "name: value" (NRRD, ": ") up to the
 /// data.
 class ImageHeader {

@@ -7,9 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
-#include <map>
-#include <regex>
+#include <unistd.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkIntArray.h>
@@ -141,11 +139,15 @@ void append(const std::string &file, LabelImage &out) {
 }
 
 void set_voxel_size(const std::string &file, double voxel_um, LabelImage &image) {
-  const bool stated = !is_tiff(file) && image.voxel != Eigen::Vector3d::Ones();
   if (voxel_um > 0.0)
     image.voxel.setConstant(voxel_um);
-  else if (!stated)
+  else if (!states_voxel_size(file))
     refuse_image(file, fmt::format("the file states no voxel size. Give {}.", kVoxelSizeKeys));
+  else if (image.voxel == Eigen::Vector3d::Ones())
+    fmt::print(stderr,
+               "note: {}: its header says voxels of 1 um. Some programs write that when they do "
+               "not know: if so, give {}.\n",
+               file, kVoxelSizeKeys);
   image.voxel = image.voxel.cwiseAbs();
   if (image.voxel.minCoeff() < 1e-3 || image.voxel.maxCoeff() > 10.0)
     refuse_image(file,
@@ -154,15 +156,45 @@ void set_voxel_size(const std::string &file, double voxel_um, LabelImage &image)
                              image.voxel[0], image.voxel[1], image.voxel[2], kVoxelSizeKeys));
 }
 
-template <class Writer>
-void write_with(vtkNew<Writer> &writer, vtkImageData *data, const std::string &file) {
+template <class Writer> bool write_with(vtkImageData *data, const std::string &file) {
   Complaints complaints;
+  vtkNew<Writer> writer;
   writer->SetFileName(file.c_str());
   writer->SetInputData(data);
   writer->Write();
-  if (writer->GetErrorCode() != 0 || !std::filesystem::exists(file) ||
-      std::filesystem::file_size(file) == 0)
-    refuse_image(file, "cannot be written. Check the folder, its rights and the disk.");
+  return writer->GetErrorCode() == 0;
+}
+
+/// VTK's writers do not always say that the disk was full.
+bool write_whole(vtkImageData *data, const std::string &file) {
+  if (image_ending(file) == ".vti")
+    return write_with<vtkXMLImageDataWriter>(data, file) && ends_with(file, "</VTKFile>");
+  try {
+    const bool written = write_with<vtkMetaImageWriter>(data, file);
+    check_meta_image(file);
+    return written;
+  } catch (const Failure &) {
+    return false;
+  }
+}
+
+/// Header and data are written in a folder of their own and take their place when they are whole.
+void write_in_place(vtkImageData *data, const std::string &file) {
+  namespace fs = std::filesystem;
+  const fs::path place = place_of(file),
+                 folder = fmt::format("{}.{}.part", place.string(), getpid());
+  const std::string header = folder / place.filename();
+  std::error_code error, none;
+  fs::create_directory(folder, error);
+  const bool whole = !error && write_whole(data, header);
+  if (whole)
+    for (const std::string &part : {data_file_of(header), header})
+      if (!part.empty() && !error)
+        fs::rename(part, place.parent_path() / fs::path(part).filename(), error);
+  fs::remove_all(folder, none);
+  if (!whole || error)
+    refuse_image(file, "cannot be written. Check the folder, its rights and the disk. What was "
+                       "there before is kept.");
 }
 
 } // namespace
@@ -189,16 +221,11 @@ void write_label_image(const LabelImage &image, const std::string &file) {
   values->SetArray(const_cast<int *>(image.label.data()), vtkIdType(image.label.size()), 1);
   data->GetPointData()->SetScalars(values);
   const std::string ending = image_ending(file);
-  if (ending == ".vti") {
-    vtkNew<vtkXMLImageDataWriter> writer;
-    write_with(writer, data, file);
-  } else if (ending == ".mhd" || ending == ".mha") {
-    vtkNew<vtkMetaImageWriter> writer;
-    write_with(writer, data, file);
-  } else
+  if (ending != ".vti" && ending != ".mhd" && ending != ".mha")
     refuse_image(
         file,
         fmt::format("'{}' is not written; give a name that ends in .mhd, .mha or .vti.", ending));
+  write_in_place(data, file);
 }
 
 namespace fs = std::filesystem;
@@ -208,54 +235,11 @@ const char *const kEndings[] = {".vti", ".mhd", ".mha", ".nrrd", ".nhdr", ".tif"
 
 } // namespace
 
-std::string image_ending(const std::string &file) {
-  std::string ending = fs::path(file).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), ::tolower);
-  return ending;
-}
-
-bool is_tiff(const std::string &file) { return image_ending(file).rfind(".tif", 0) == 0; }
-
 std::string readable_images() { return fmt::format("{}", fmt::join(kEndings, " ")); }
 
 bool is_readable_image(const std::string &file) {
   const std::string ending = image_ending(file);
   return std::find(std::begin(kEndings), std::end(kEndings), ending) != std::end(kEndings);
-}
-
-std::vector<std::string> files_of_series(const std::string &file) {
-  const std::regex place("%0?[0-9]*d");
-  const std::string name = fs::path(file).filename().string();
-  std::smatch hit;
-  if (!is_tiff(file) || !std::regex_search(name, hit, place))
-    return {file};
-  const std::string before = hit.prefix(), after = hit.suffix();
-  const fs::path folder = fs::absolute(file).parent_path();
-  std::map<long, std::string> slices;
-  if (fs::is_directory(folder))
-    for (const auto &entry : fs::directory_iterator(folder)) {
-      const std::string f = entry.path().filename().string();
-      if (f.size() <= before.size() + after.size() || f.rfind(before, 0) != 0 ||
-          f.compare(f.size() - after.size(), after.size(), after) != 0)
-        continue;
-      const std::string number = f.substr(before.size(), f.size() - before.size() - after.size());
-      if (number.size() < 10 && number.find_first_not_of("0123456789") == std::string::npos)
-        slices[std::stol(number)] = entry.path().string();
-    }
-  if (slices.empty())
-    throw Failure(kBadInput, fmt::format("{}: no file has such a name. Give a pattern like "
-                                         "slice_%04d.tif in a folder that holds the slices.",
-                                         file));
-  const long first = slices.begin()->first, last = slices.rbegin()->first;
-  for (long k = first; k <= last; ++k)
-    if (!slices.count(k))
-      throw Failure(kBadInput, fmt::format("{}: slice {} is missing; there are {} to {}. All "
-                                           "slices in between must be there.",
-                                           file, k, first, last));
-  std::vector<std::string> out;
-  for (const auto &[number, f] : slices)
-    out.push_back(f);
-  return out;
 }
 
 std::string data_file_of(const std::string &header) {

@@ -4,6 +4,7 @@
 #ifndef CALENDEM_ELECTRODE_STRUCTURE_LABEL_IMAGE_H
 #define CALENDEM_ELECTRODE_STRUCTURE_LABEL_IMAGE_H
 
+#include "base/image_series.h"
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
@@ -23,12 +24,13 @@ struct LabelImage {
 
 /// Formats by the file's ending: .vti, .mhd .mha, .nrrd .nhdr, .tif .tiff (one file of many pages,
 /// or a numbered series given as a pattern such as slice_%04d.tif).
-/// `voxel_um` > 0 replaces the voxel size of the file; it is needed for TIFF and for files that
-/// state none (spacing 1). Throws Failure(2) with what is wrong: no file, a format that is not
+/// `voxel_um` > 0 replaces the voxel size of the file; it is needed for TIFF and for files whose
+/// header states none. Throws Failure(2) with what is wrong: no file, a format that is not
 /// read, a file that is cut, labels that are not whole numbers, an implausible voxel size.
 LabelImage read_label_image(const std::string &file, double voxel_um = 0.0);
 
-/// Writes .mhd (with a .zraw beside it), .mha or .vti. Throws Failure(2) where it cannot.
+/// Writes .mhd (with a .zraw beside it), .mha or .vti. Throws Failure(2) where it cannot, as on a
+/// full disk; what was there before is kept.
 void write_label_image(const LabelImage &image, const std::string &file);
 
 /// Endings that can be read, for messages.
@@ -37,16 +39,6 @@ bool is_readable_image(const std::string &file);
 
 /// Hash of the image's files: a pattern's slices, a header and the data it names.
 std::string hash_of_image(const std::string &file);
-
-// Files that make up an image: endings, numbered slices, the data file that a header names.
-
-/// ".mhd" and so on, in small letters.
-std::string image_ending(const std::string &file);
-bool is_tiff(const std::string &file);
-
-/// The file itself, or the slices of a pattern with one %d (%04d), by number. Throws Failure(2) if
-/// none is there or a number is missing in between.
-std::vector<std::string> files_of_series(const std::string &file);
 
 /// Name of the data file that a MetaImage or NRRD header names, with its folder; empty if the data
 /// follow the header. Throws Failure(2) if that file does not exist or the data are in several.

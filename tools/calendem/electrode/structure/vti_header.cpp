@@ -116,15 +116,24 @@ void check_array(const std::string &file, const std::string &text, size_t at, do
     check_blocks(file, text.substr(from, 64), head, encoding, voxels);
 }
 
-} // namespace
-
-void check_vti(const std::string &file) {
-  constexpr long kLook = 1 << 20;     // header and, in most files, all elements
-  constexpr double kPacked = 10000.0; // voxels that the best packing has put into a byte
+std::string beginning_of(const std::string &file) {
+  constexpr long kLook = 1 << 20; // header and, in most files, all elements
   std::string text(kLook, ' ');
   std::ifstream in(file, std::ios::binary);
   in.read(text.data(), kLook);
   text.resize(size_t(in.gcount()));
+  return text;
+}
+
+} // namespace
+
+bool states_voxel_size_of_vti(const std::string &file) {
+  return attribute(element(beginning_of(file), "ImageData"), "Spacing").has_value();
+}
+
+void check_vti(const std::string &file) {
+  constexpr double kPacked = 10000.0; // voxels that the best packing has put into a byte
+  const std::string text = beginning_of(file);
   const std::string image = element(text, "ImageData");
   const Extent whole = extent_of(file, image, "WholeExtent");
   check_axes(file, {whole[1] - whole[0] + 1, whole[3] - whole[2] + 1, whole[5] - whole[4] + 1},
