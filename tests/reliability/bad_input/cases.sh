@@ -329,6 +329,34 @@ curve_in_other_units() { # of an experiment: mm, Pa, another separator, stages t
   curve '\xef\xbb\xbfdisplacement_um,pressure_MPa\n0,0\n20,150\n' # as spreadsheets write it
   expect 0 calendem validate "$work/experiment.toml"
 }
+specimen_impossible() { # values that are allowed one by one, of a film that cannot be
+  cp "$scripts/cases/paper/electrode.toml" "$work/"
+  specimen() { # LINES of the condition
+    printf '%s\n' '[experiment]' 'name = "x"' 'electrode = "electrode.toml"' 'sample_diameter_mm = 11' \
+      'foil_thickness_um = 15' 'foil_density_g_cm3 = 2.7' '[[condition]]' 'id = "a"' 'control = "pressure"' \
+      'max_pressure_MPa = 150' "$@" | file experiment.toml
+  }
+  local value
+  for value in 0 -3 nan inf; do
+    specimen "mass_mg = $value" "loading_mg_cm2 = $value" "thickness_after_um = $value" "thickness_at_max_um = $value"
+    refused experiment.toml ":11: mass_mg is $value" ":12: loading_mg_cm2 is $value" \
+      ":13: thickness_after_um is $value" ":14: thickness_at_max_um is $value"
+  done
+  specimen 'mass_mg = 3'
+  refused experiment.toml "mass_mg = 3 is less than that of the foil"
+  specimen 'mass_mg = 4'
+  refused experiment.toml "mass_mg = 4 is a loading of 0.159 mg/cm2; allowed is 0.5 to 100" "sample_diameter_mm"
+  specimen 'mass_mg = 22300' # in ug
+  refused experiment.toml "mass_mg = 22300 is a loading of 2.35e+04 mg/cm2; allowed is 0.5 to 100"
+  specimen 'thickness_at_max_um = 10' 'thickness_after_um = { value = 25, includes_foil = true }'
+  refused experiment.toml "thickness_at_max_um is 10 um of coating, its solid alone fills 39.86" \
+    "thickness_after_um is 10 um of coating" "Correct the thickness, the loading"
+  specimen 'thickness_after_um = 700'
+  refused experiment.toml "thickness_after_um is 700 um of coating, of which the solid fills 39.86: 94.3 % would be pores" \
+    "at most 90 %"
+  specimen 'mass_mg = 20.44' 'thickness_after_um = { value = 52, sd = 1 }' 'thickness_at_max_um = 50'
+  expect 0 calendem validate "$work/experiment.toml"
+}
 slices_missing() { # of an image that an experiment gives by a pattern
   printf '%s\n' '[coating]' 'loading_mg_cm2 = 4' | file recipe.toml
   printf '%s\n' '[experiment]' 'name = "x"' 'electrode = "recipe.toml"' '[[condition]]' 'id = "a"' \

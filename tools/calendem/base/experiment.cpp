@@ -151,6 +151,66 @@ std::string list_of_experiment_keys() {
   return text;
 }
 
+namespace {
+
+const Key &range_of(std::optional<Measured> Condition::*field) {
+  return std::find_if(quantities().begin(), quantities().end(),
+                      [&](const Quantity &q) { return q.field == field; })
+      ->key;
+}
+
+/// A mass is bound as the loading that it stands for is.
+void check_mass(double loading, const Measured &mass, const std::string &who, int line,
+                Mistakes &mistakes) {
+  const Key &allowed = range_of(&Condition::loading_mg_cm2);
+  if (loading < allowed.low || loading > allowed.high)
+    mistakes.add(line, fmt::format("{}: mass_mg = {:g} is a loading of {:.3g} mg/cm2; allowed is "
+                                   "{:g} to {:g}. Is the mass in mg, and sample_diameter_mm that "
+                                   "of the disc that was weighed?",
+                                   who, mass.value, loading, allowed.low, allowed.high));
+}
+
+/// Loading of the condition's specimen, with its standard deviation.
+Measured loading_of(const Experiment &e, const Condition &c) {
+  if (c.loading_mg_cm2)
+    return *c.loading_mg_cm2;
+  if (c.mass_mg)
+    return {coating_loading_mg_cm2(e, *c.mass_mg), c.mass_mg->sd / sample_area_cm2(e)};
+  return {e.recipe.loading};
+}
+
+} // namespace
+
+void check_thickness(const Experiment &e, const Condition &c, const std::string &who, int line,
+                     Mistakes &mistakes) {
+  constexpr double kFar = 3.0; // standard deviations
+  const double most = range_of(&Condition::porosity_before_percent).high;
+  const Key &allowed = range_of(&Condition::loading_mg_cm2);
+  const Measured loading = loading_of(e, c);
+  const double solid = solid_thickness_um(e, loading.value),
+               solid_sd = solid_thickness_um(e, loading.sd);
+  for (const auto field : {&Condition::thickness_at_max_um, &Condition::thickness_after_um}) {
+    const double coating = c.*field ? coating_thickness_um(e, *(c.*field)) : 0.0;
+    if (e.recipe.file.empty() || coating <= 0.0 || loading.value < allowed.low ||
+        loading.value > allowed.high) // mistakes of their own
+      continue;
+    const double off =
+        kFar * std::hypot((c.*field)->sd, solid_sd, 0.01 * e.specimen_thickness_percent * coating);
+    std::string wrong;
+    if (coating + off < solid)
+      wrong = fmt::format("its solid alone fills {:.2f}", solid);
+    else if (coating - off > solid / (1.0 - 0.01 * most))
+      wrong =
+          fmt::format("of which the solid fills {:.2f}: {:.1f} % would be pores, allowed are at "
+                      "most {:g} % (was the foil measured too? then say includes_foil = true)",
+                      solid, 100.0 * (1.0 - solid / coating), most);
+    if (!wrong.empty())
+      mistakes.add(line, fmt::format("{}: {} is {:g} um of coating, {}, at a loading of {:.4g} "
+                                     "mg/cm2. Correct the thickness, the loading or the recipe.",
+                                     who, range_of(field).name, coating, wrong, loading.value));
+  }
+}
+
 void check_foil(const Experiment &e, const Condition &c, const std::string &who, int line,
                 Mistakes &mistakes) {
   const bool on_thickness = c.thickness_after_um && c.thickness_after_um->includes_foil;
@@ -175,6 +235,8 @@ void check_foil(const Experiment &e, const Condition &c, const std::string &who,
   if (on_mass && coating_loading_mg_cm2(e, *c.mass_mg) <= 0.0)
     mistakes.add(line, fmt::format("{}: mass_mg = {} is less than that of the foil ({:.2f} mg).",
                                    who, c.mass_mg->value, foil_mg_cm2(e) * sample_area_cm2(e)));
+  else if (c.mass_mg)
+    check_mass(coating_loading_mg_cm2(e, *c.mass_mg), *c.mass_mg, who, line, mistakes);
 }
 
 namespace {

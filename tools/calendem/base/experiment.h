@@ -93,6 +93,11 @@ const std::vector<Key> &crushed_keys(); ///< of [[crushed_particle]]
 void check_foil(const Experiment &experiment, const Condition &condition, const std::string &who,
                 int line, Mistakes &mistakes);
 
+/// A coating is as thick as its solid at least, and has not only pores; far beyond the errors one of
+/// the values is wrong.
+void check_thickness(const Experiment &experiment, const Condition &condition,
+                     const std::string &who, int line, Mistakes &mistakes);
+
 /// A CSV file whose displacements, pressures and stages can be those of the condition; `line` is
 /// that of its key.
 void check_curve(const Experiment &experiment, const Condition &condition, int line,

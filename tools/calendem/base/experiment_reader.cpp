@@ -225,6 +225,7 @@ private:
     if (c.control == "roll_gap")
       needs(t.contains("roll_gap_um"), "roll_gap_um");
     check_foil(e_, c, who, line_of(t), mistakes_);
+    check_thickness(e_, c, who, line_of(t), mistakes_);
     check_porosity(c, who, line_of(t));
     if (const auto &cracked = c.cracked_bodies_fraction;
         cracked && cracked->value == 0.0 && cracked->sd == 0.0)

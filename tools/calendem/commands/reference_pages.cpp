@@ -162,7 +162,9 @@ std::string experiment_page() {
                   "\n### Measured values of a condition\n\nA number, `{ value, sd }` or "
                   "`{ value, sd_relative }`. `mass_mg` and `thickness_after_um` also take\n"
                   "`includes_foil`: a mass includes the foil unless it says otherwise, a thickness "
-                  "does not.\n\n" +
+                  "does not.\nMass, loading and thickness must be those of one film: a mass is "
+                  "0.5 to 100 mg/cm² on the disc, and a coating is as thick\nas its solid at "
+                  "least, with pores of 90 % at most.\n\n" +
                   rows(measured) +
                   "\n## `[[crushed_particle]]`\n\nSingle particles of the powder, crushed one by "
                   "one between two plates. `calendem calibrate` learns the strength of\nthe bonds "
