@@ -757,6 +757,25 @@ another_recipe_in_folder() {
   expect 0 calendem pack "$work/recipe.toml" -o "$work/packed" --ranks 1 --force
   says "already holds this electrode"
 }
+collected_again() { # a run's folder: what its summary knows is kept; a frame that is cut is named
+  a_case "$electrode" "${quick[@]}" '[effects.thickness_zero]' offset_um=1
+  expect 0 run
+  cp -r "$work/run" "$work/kept"
+  sed -i 's/$/\r/' "$work/run/settings.txt" # copied by way of Windows
+  expect 0 calendem collect "$work/run"
+  cmp "$work/run/curve.csv" "$work/kept/curve.csv" || fail "the curve is another"
+  diff <(grep -v case_toml "$work/run/summary.json") <(grep -v case_toml "$work/kept/summary.json") || fail "the summary is another"
+  expect 0 run # still the same run
+  says "already holds this run"
+  local frame
+  frame=$(find "$work/run/vtk" -name 'particles_[0-9]*.vtp' -printf '%f\n' | sort -t_ -k2n | tail -n 1)
+  truncate -s -100 "$work/run/vtk/$frame"
+  expect 0 calendem collect "$work/run"
+  says "warning: '$work/run/vtk/$frame' is cut and left out"
+  sed -i 's/^variable sigma_c_MPa.*/variable sigma_c_MPa index 300/' "$work/run/settings.txt" # by plain scripts, of another case
+  expect 0 calendem collect "$work/run"
+  grep -q '"case_hash": ""' "$work/run/summary.json" || fail "another case has the hash of the run before it"
+}
 disk_full_at_start() {
   full_disk 2
   a_case "$electrode" "${quick[@]}"

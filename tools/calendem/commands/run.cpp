@@ -41,7 +41,7 @@ Settings read_settings(const std::string &file, const std::string &electrode) {
   std::map<std::string, std::string> values;
   std::string line, variable, name, index, value;
   while (std::getline(in, line))
-    if (std::istringstream row(line);
+    if (std::istringstream row(line.substr(0, line.find_last_not_of(" \r") + 1));
         row >> variable >> name >> index && std::getline(row >> std::ws, value))
       values[name] = value;
   Mistakes mistakes(file);
@@ -82,8 +82,35 @@ void stop_if_of_another(const std::string &folder, const std::string &electrode)
                               folder, then, now));
 }
 
+/// The folder's case.toml has the settings of these scripts; what they do not know of is taken from
+/// it.
+bool is_of_case(const std::string &folder, Settings &settings) {
+  Mistakes ignored(folder + "/case.toml");
+  const Settings as_run = read_toml(ignored.file(), FileKind::Case, case_keys(), ignored);
+  if (!ignored.empty())
+    return false;
+  for (const Key &key : case_keys())
+    if (key.name != "electrode" && !key.variable.empty() &&
+        as_run.text(key.name) != settings.text(key.name))
+      return false;
+  for (const Key &key : case_keys())
+    if (key.variable.empty())
+      settings.set(key.name, as_run.text(key.name));
+  return true;
+}
+
+/// What only `calendem run` knew of the run, from the summary that it wrote.
+void keep_what_run_knew(const nlohmann::json &before, nlohmann::json &summary) {
+  for (const char *key : {"case_hash", "ranks", "wall_clock_s", "atom_steps_per_second"})
+    if (before.contains(key))
+      summary[key] = before[key];
+  for (const char *key : {"liggghts", "input_scripts"})
+    if (const auto at = nlohmann::json::json_pointer("/provenance") / key; before.contains(at))
+      summary[at] = before[at];
+}
+
 void collect_folder(const std::string &folder, const std::string &electrode) {
-  const Settings settings = read_settings(folder + "/settings.txt", electrode);
+  Settings settings = read_settings(folder + "/settings.txt", electrode);
   if (!fs::is_directory(folder + "/vtk"))
     throw Failure(kBadInput, fmt::format("'{}' has no folder vtk: its frames are needed to collect "
                                          "it. A study that keeps tables only has removed them; run "
@@ -91,13 +118,19 @@ void collect_folder(const std::string &folder, const std::string &electrode) {
                                          folder));
   const ElectrodeFacts facts = read_electrode(settings.text("electrode"));
   stop_if_of_another(folder, settings.text("electrode"));
+  const nlohmann::json before =
+      is_of_case(folder, settings) ? RunFolder(folder).object("summary.json") : nlohmann::json();
   write_file(
       folder + "/case.toml",
       write_toml(settings, case_keys(),
                  fmt::format("# as run by the input scripts; read by calendem {}\n", version())));
   fs::copy_file(settings.text("electrode") + "/electrode.json", folder + "/electrode.json",
                 fs::copy_options::overwrite_existing);
-  const nlohmann::json s = collect(folder, settings, facts, {});
+  nlohmann::json s = collect(folder, settings, facts, {});
+  if (before.is_object() && before.value("steps", s["steps"]) == s["steps"]) {
+    keep_what_run_knew(before, s);
+    write_file(folder + "/summary.json", s.dump(2) + "\n");
+  }
   fmt::print("collect: {} rows of the run up to {:.1f} MPa, {:.2f} % of bonds broken, {}\n",
              read_raw(folder + "/curve_raw.csv").size(), s["max_pressure_MPa"].get<double>(),
              100 * s["broken_fraction_after"].get<double>(),
@@ -156,6 +189,7 @@ void add_pack_verb(CLI::App &app) {
   verb->add_option("--seed", a->seed, "instead of the recipe's")
       ->check(CLI::Range(0L, 4000000000L));
   verb->add_option("--ranks", a->options.ranks, "MPI ranks")->check(CLI::Range(1, 4096));
+  verb->add_flag("--force", a->options.force, "overwrite an electrode of another recipe");
   verb->add_option("--liggghts", a->options.liggghts, "program with the plugin");
   verb->callback([a] {
     Recipe recipe = read_recipe(a->spec);
@@ -189,7 +223,6 @@ void add_tomogram_verb(CLI::App &app) {
     std::string spec, file;
   };
   auto a = std::make_shared<Arguments>();
-  verb->add_flag("--force", a->options.force, "overwrite an electrode of another recipe");
   CLI::App *verb =
       app.add_subcommand("tomogram", "Make a synthetic label image whose particles are known");
   verb->footer(list_of_keys(tomogram_keys()));

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <vtkDataArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -21,13 +20,15 @@ namespace {
 constexpr double kVoxel = 0.2; // um
 constexpr int kAmType = 1, kCbdType = 2;
 
-/// A frame that LIGGGHTS was stopped in lacks its end.
-bool is_whole(const std::filesystem::path &file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string tail(20, ' ');
-  in.seekg(-std::streamoff(tail.size()), std::ios::end);
-  in.read(tail.data(), tail.size());
-  return in && tail.find("</VTKFile>") != std::string::npos;
+/// LIGGGHTS was stopped in a frame that lacks its end, or the disk was full.
+bool is_whole(const std::string &frame) {
+  if (ends_with(frame, "</VTKFile>"))
+    return true;
+  fmt::print(stderr,
+             "warning: '{}' is cut and left out. Go on with calendem run --resume if the run was "
+             "stopped in it, or run the case again.\n",
+             frame);
+  return false;
 }
 
 std::vector<long> steps_of(const std::string &folder, const std::string &family) {
