@@ -326,6 +326,8 @@ curve_in_other_units() { # of an experiment: mm, Pa, another separator, stages t
   refused experiment.toml "stage of row 1 is 'up'; allowed are loading"
   curve 'displacement_um,pressure_MPa,stage\n0,0.3,loading\n0,0.1,unloading\n20,150,unloading\n'
   refused experiment.toml "rows of the stage loading reach 0.3 MPa, the curve 150"
+  curve 'displacement_um,pressure_MPa,pressure_MPa\n0,0,0\n20,150,90\n'
+  refused experiment.toml "has two columns 'pressure_MPa'" "Rename or remove one"
   curve '\xef\xbb\xbfdisplacement_um,pressure_MPa\n0,0\n20,150\n' # as spreadsheets write it
   expect 0 calendem validate "$work/experiment.toml"
 }

@@ -19,6 +19,12 @@ TEST(CsvTable, ReadsColumnsByName) {
   EXPECT_TRUE(table.numbers("c").empty());
 }
 
+TEST(CsvTable, NamesAColumnThatIsThereTwice) {
+  EXPECT_EQ(CsvTable::parse("a,b,,\n1,2,,\n").ambiguous(), "");
+  EXPECT_EQ(CsvTable::parse("a,b, a\n1,2,3\n").ambiguous(),
+            "has two columns 'a'. Rename or remove one.");
+}
+
 // Requirement: a number followed by anything is no number (no unit slips through as a value).
 TEST(CsvTable, NumberMustBeWhole) {
   EXPECT_TRUE(std::isnan(CsvTable::parse("a\n12MPa\n").numbers("a")[0]));

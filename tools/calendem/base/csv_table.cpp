@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <set>
 #include <sstream>
 
 namespace calendem {
@@ -63,6 +64,14 @@ int CsvTable::index_of(const std::string &column) const {
     if (header_[i] == column)
       return static_cast<int>(i);
   return -1;
+}
+
+std::string CsvTable::ambiguous() const {
+  std::set<std::string> seen;
+  for (const std::string &column : header_)
+    if (!column.empty() && !seen.insert(column).second)
+      return "has two columns '" + column + "'. Rename or remove one.";
+  return "";
 }
 
 bool CsvTable::has(const std::string &column) const { return index_of(column) >= 0; }

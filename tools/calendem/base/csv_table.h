@@ -25,6 +25,8 @@ public:
   std::size_t rows() const { return rows_.size(); }
   const std::vector<int> &bad_lines() const { return bad_lines_; }
   int last_line() const { return last_line_; }
+  /// What is wrong and what to do where two columns have one name; empty: nothing.
+  std::string ambiguous() const;
 
 private:
   int index_of(const std::string &column) const;

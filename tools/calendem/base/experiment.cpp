@@ -251,6 +251,8 @@ bool check_columns(const std::string &path, const CsvTable &table, int line, Mis
                                    path, first));
     return false;
   }
+  if (const std::string wrong = table.ambiguous(); !wrong.empty())
+    mistakes.add(line, fmt::format("'{}' {}", path, wrong));
   for (const char *column : {"displacement_um", "pressure_MPa"}) {
     if (!table.has(column)) {
       mistakes.add(

@@ -156,6 +156,8 @@ const CsvTable &RunFolder::table(const std::string &name) {
 
 bool RunFolder::has_columns(const std::string &name, const std::vector<std::string> &columns,
                             Mistakes &mistakes) {
+  if (const std::string wrong = table(name).ambiguous(); !wrong.empty())
+    mistakes.add(path_of(name), "it " + wrong, kCollectAgain);
   std::vector<std::string> missing;
   for (const std::string &column : columns)
     if (!table(name).has(column))
@@ -163,7 +165,7 @@ bool RunFolder::has_columns(const std::string &name, const std::vector<std::stri
   if (!missing.empty())
     mistakes.add(path_of(name), fmt::format("columns missing: {}", fmt::join(missing, ", ")),
                  kCollectAgain);
-  return missing.empty();
+  return missing.empty() && table(name).ambiguous().empty();
 }
 
 bool RunFolder::rows_are_whole(const std::string &name, Mistakes &mistakes, Mistakes &notes) {

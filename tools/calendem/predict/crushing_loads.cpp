@@ -28,6 +28,8 @@ CrushingLoads::CrushingLoads(const std::string &file) {
       throw Failure(kBadInput, fmt::format("{}: its first line has no column {}: {}. Columns are "
                                            "separated by commas.",
                                            file, column, fmt::join(table.header(), ",")));
+  if (const std::string wrong = table.ambiguous(); !wrong.empty())
+    throw Failure(kBadInput, fmt::format("{} {}", file, wrong));
   if (!table.bad_lines().empty())
     throw Failure(kBadInput,
                   fmt::format("{}: line {} has another number of columns than the first. "

@@ -162,6 +162,8 @@ private:
       return group;
     }
     const CsvTable table = CsvTable::parse(text_of_file(file));
+    if (const std::string wrong = table.ambiguous(); !wrong.empty())
+      mistakes_.add(line, fmt::format("{} {}", file, wrong));
     if (table.rows() == 0)
       mistakes_.add(line, fmt::format("{} holds no rows.", file));
     for (const int bad : table.bad_lines())

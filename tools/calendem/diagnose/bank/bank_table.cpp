@@ -203,6 +203,8 @@ BankTable read_bank_table(const BankSpec &spec, const std::string &file) {
     if (there && !t.has(column))
       mistakes.add(
           0, fmt::format("column '{}' is missing. Is this the table of {}?", column, spec.file));
+  if (const std::string wrong = t.ambiguous(); !wrong.empty())
+    mistakes.add(0, "the table " + wrong);
   for (const int line : t.bad_lines())
     mistakes.add(line, "the row has another number of cells than the header.");
   mistakes.stop_if_any();

@@ -156,6 +156,8 @@ void check_columns(const Bank &bank, const CsvTable &table, Mistakes &mistakes) 
   for (const std::string &name : number_columns(bank))
     if (!table.has(name))
       mistakes.add(1, fmt::format("column '{}' is missing; make the bank again", name));
+  if (const std::string wrong = table.ambiguous(); !wrong.empty())
+    mistakes.add(1, "the table " + wrong);
   for (const int line : table.bad_lines())
     mistakes.add(line, fmt::format("not as many cells as the header's {}", table.header().size()));
 }
