@@ -460,6 +460,8 @@ nothing_to_measure() {
   mkdir "$work/empty"
   expect 2 calendem measure "$work/empty"
   says "$work/empty/curve.csv: missing" "calendem run"
+  expect 2 calendem measure "$work/empty" -o "$work/out"
+  [ ! -e "$work/out" ] || fail "a folder was made for nothing"
   expect 2 calendem measure "$work/no.mhd" -o "$work/out"
   says "$work/no.mhd: no such file"
   echo "not an image" >"$work/image.txt"
@@ -470,6 +472,7 @@ nothing_to_measure() {
   head -c 40 /dev/zero >"$work/image.raw"
   expect 2 calendem measure "$work/image.mhd" -o "$work/out"
   says "announces 64 bytes of voxels, 40 are there"
+  [ ! -e "$work/out" ] || fail "a folder was made for nothing"
   expect 1 calendem measure "$work/image.mhd"
   says "--output is required"
   expect 1 calendem measure "$work/image.mhd" -o "$work/out" --voxel-um 0
@@ -777,6 +780,13 @@ collected_again() { # a run's folder: what its summary knows is kept; a frame th
   sed -i 's/^variable sigma_c_MPa.*/variable sigma_c_MPa index 300/' "$work/run/settings.txt" # by plain scripts, of another case
   expect 0 calendem collect "$work/run"
   grep -q '"case_hash": ""' "$work/run/summary.json" || fail "another case has the hash of the run before it"
+}
+images_of_a_moment() {
+  a_case "$electrode" "${quick[@]}"
+  expect 0 run
+  expect 0 calendem measure "$work/run" -o "$work/out" --images --moment max --voxel-um 0.3 --without-tortuosity
+  [ -s "$work/out/max.mha" ] || fail "no image of the moment"
+  [ "$(find "$work/out" -name '*.mha' | wc -l)" -eq 1 ] || fail "images of other moments too"
 }
 disk_full_at_start() {
   full_disk 2

@@ -110,19 +110,6 @@ struct Arguments {
   bool without_tortuosity = false, images = false;
 };
 
-std::string folder_for(const Arguments &a, bool is_run) {
-  if (a.output.empty() && !is_run)
-    throw CLI::RequiredError("--output");
-  std::string folder = a.output.empty() ? a.input : a.output;
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw Failure(kBadInput, fmt::format("cannot write into the folder '{}': {}. Give a folder "
-                                         "that you may write to with -o.",
-                                         folder, error.message()));
-  return folder;
-}
-
 void print(const StructureMeasures &m) {
   const auto percent = [](double v) {
     return std::isfinite(v) ? fmt::format("{:.2f} %", 100 * v) : std::string("not known");
@@ -158,6 +145,8 @@ nlohmann::json provenance(const Arguments &a, bool is_run) {
 /// Every moment as a label image: pores 0, CBD -1, bodies from 1.
 void write_images(const Arguments &a, const std::string &folder) {
   for (const RunMoment &moment : moments_of_run(a.input)) {
+    if (!a.options.moment.empty() && moment.name != a.options.moment)
+      continue;
     const SimulatedStructure &s = moment.structure;
     const std::string file = folder + "/" + moment.name + ".mha";
     write_label_image(
@@ -174,7 +163,9 @@ void measure(Arguments a, const CLI::App &verb) {
                                          a.input));
   if (a.images && !is_run)
     throw Failure(kBadInput, fmt::format("--images is for a run; '{}' is not a folder.", a.input));
-  const std::string folder = folder_for(a, is_run);
+  if (a.output.empty() && !is_run)
+    throw CLI::RequiredError("--output");
+  const std::string folder = a.output.empty() ? a.input : a.output;
   if (a.voxel_um > 0.0)
     a.options.voxel_um = a.voxel_um;
   if (verb.count("--cbd-label") > 0) {
@@ -192,6 +183,7 @@ void measure(Arguments a, const CLI::App &verb) {
     print(m);
     j["moments"].push_back(to_json(m));
   }
+  make_output_folder(folder);
   write_file(folder + "/structure.csv", profile_table(moments));
   write_file(folder + "/structure.json", j.dump(2) + "\n");
   fmt::print("measure: {0}/structure.csv, {0}/structure.json\n", folder);
@@ -220,8 +212,10 @@ void add_measure_verb(CLI::App &app) {
   verb->add_option("--moment", a->options.moment, "of a run, the only one to measure")
       ->check(CLI::IsMember({"before", "max", "after"}));
   verb->add_flag("--without-tortuosity", a->without_tortuosity, "it takes most of the time");
-  verb->add_flag("--images", a->images,
-                 "write a run's moments as label images too: before.mha, max.mha, after.mha");
+  verb->add_flag(
+      "--images", a->images,
+      "write a run's moments, or that of --moment, as label images too: before.mha, max.mha, "
+      "after.mha");
   verb->add_option("--background", a->options.background, "label of an image's pores")
       ->capture_default_str();
   verb->add_option("--cbd-label", a->cbd_label, "label of an image's CBD; without it, all is AM");
