@@ -74,6 +74,8 @@ TEST(Tomogram, MistakesOfItsSpecAreNamed) {
   expect_parts(refusal([] { tomogram_of("[image]\nvoxel_um = 9\nxum = 3\n"); }),
                {"image.voxel_um is 9", "image.xum", "image.x_um"});
   expect_parts(refusal([] { tomogram_of("[particles]\nmin_um = 12\n"); }), {"12", "max_um"});
+  expect_parts(refusal([] { tomogram_of("[particles]\npores = 2.7\n"); }),
+               {"particles.pores is 2.7", "whole number"});
   expect_parts(refusal([] { tomogram_of("[image]\nvoxel_um = 0.3\n[particles]\nmin_um = 0.5\n"); }),
                {"0.5", "two voxels of 0.3 um"});
   expect_parts(refusal([] { tomogram_of("[image]\nvoxel_um = 0.01\n"); }), {"2.7e+10", "1e9"});
