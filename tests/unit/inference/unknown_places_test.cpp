@@ -58,7 +58,7 @@ TEST(UnknownPlaces, SharesSumToAtMostOne) {
     sum += p.share;
   for (const UnknownPlace &p : like(problem, w))
     alike += p.share;
-  // The pairs that were not computed, six less those with the two best, have a tenth of 0.48.
+  // Pairs too far behind have at most a tenth of 0.48.
   EXPECT_LE(sum, 1.0 + 1e-12);
   EXPECT_GT(sum, 1.0 - 0.048 - 1e-12);
   EXPECT_LE(alike, 0.48 + 1e-12);

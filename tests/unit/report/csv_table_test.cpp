@@ -21,6 +21,7 @@ TEST(CsvTable, ReadsColumnsByName) {
 
 TEST(CsvTable, NamesAColumnThatIsThereTwice) {
   EXPECT_EQ(CsvTable::parse("a,b,,\n1,2,,\n").ambiguous(), "");
+  EXPECT_EQ(CsvTable::parse("t,a,t,b\n1,2,1,3\n").ambiguous({"a", "b"}), "");
   EXPECT_EQ(CsvTable::parse("a,b, a\n1,2,3\n").ambiguous(),
             "has two columns 'a'. Rename or remove one.");
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "base/csv_table.h"
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -66,10 +67,11 @@ int CsvTable::index_of(const std::string &column) const {
   return -1;
 }
 
-std::string CsvTable::ambiguous() const {
+std::string CsvTable::ambiguous(const std::vector<std::string> &columns) const {
   std::set<std::string> seen;
   for (const std::string &column : header_)
-    if (!column.empty() && !seen.insert(column).second)
+    if (const bool read = columns.empty() || std::count(columns.begin(), columns.end(), column) > 0;
+        read && !column.empty() && !seen.insert(column).second)
       return "has two columns '" + column + "'. Rename or remove one.";
   return "";
 }

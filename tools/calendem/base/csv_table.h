@@ -25,8 +25,8 @@ public:
   std::size_t rows() const { return rows_.size(); }
   const std::vector<int> &bad_lines() const { return bad_lines_; }
   int last_line() const { return last_line_; }
-  /// What is wrong and what to do where two columns have one name; empty: nothing.
-  std::string ambiguous() const;
+  /// What is wrong and what to do where two columns have one of these names, or any; empty: nothing.
+  std::string ambiguous(const std::vector<std::string> &columns = {}) const;
 
 private:
   int index_of(const std::string &column) const;

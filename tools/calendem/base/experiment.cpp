@@ -170,23 +170,21 @@ void check_mass(double loading, const Measured &mass, const std::string &who, in
                                    who, mass.value, loading, allowed.low, allowed.high));
 }
 
-/// Loading of the condition's specimen, with its standard deviation.
-Measured loading_of(const Experiment &e, const Condition &c) {
-  if (c.loading_mg_cm2)
-    return *c.loading_mg_cm2;
-  if (c.mass_mg)
-    return {coating_loading_mg_cm2(e, *c.mass_mg), c.mass_mg->sd / sample_area_cm2(e)};
-  return {e.recipe.loading};
-}
-
 } // namespace
+
+std::optional<Measured> loading_of(const Experiment &e, const Condition &c) {
+  if (c.mass_mg)
+    return Measured{coating_loading_mg_cm2(e, *c.mass_mg), c.mass_mg->sd / sample_area_cm2(e)};
+  return c.loading_mg_cm2;
+}
 
 void check_thickness(const Experiment &e, const Condition &c, const std::string &who, int line,
                      Mistakes &mistakes) {
-  constexpr double kFar = 3.0; // standard deviations
+  constexpr double kFar = 3.0;  // standard deviations
+  constexpr double kZero = 6.0; // um: as far off as the zero of a gauge that a diagnosis names
   const double most = range_of(&Condition::porosity_before_percent).high;
   const Key &allowed = range_of(&Condition::loading_mg_cm2);
-  const Measured loading = loading_of(e, c);
+  const Measured loading = loading_of(e, c).value_or(Measured{e.recipe.loading});
   const double solid = solid_thickness_um(e, loading.value),
                solid_sd = solid_thickness_um(e, loading.sd);
   for (const auto field : {&Condition::thickness_at_max_um, &Condition::thickness_after_um}) {
@@ -194,16 +192,19 @@ void check_thickness(const Experiment &e, const Condition &c, const std::string 
     if (e.recipe.file.empty() || coating <= 0.0 || loading.value < allowed.low ||
         loading.value > allowed.high) // mistakes of their own
       continue;
-    const double off =
-        kFar * std::hypot((c.*field)->sd, solid_sd, 0.01 * e.specimen_thickness_percent * coating);
+    const double off = kZero + kFar * std::hypot((c.*field)->sd, solid_sd,
+                                                 0.01 * e.specimen_thickness_percent * coating);
     std::string wrong;
     if (coating + off < solid)
       wrong = fmt::format("its solid alone fills {:.2f}", solid);
     else if (coating - off > solid / (1.0 - 0.01 * most))
       wrong =
           fmt::format("of which the solid fills {:.2f}: {:.1f} % would be pores, allowed are at "
-                      "most {:g} % (was the foil measured too? then say includes_foil = true)",
-                      solid, 100.0 * (1.0 - solid / coating), most);
+                      "most {:g} %{}",
+                      solid, 100.0 * (1.0 - solid / coating), most,
+                      field == &Condition::thickness_after_um && !(c.*field)->includes_foil
+                          ? " (was the foil measured too? then say includes_foil = true)"
+                          : "");
     if (!wrong.empty())
       mistakes.add(line, fmt::format("{}: {} is {:g} um of coating, {}, at a loading of {:.4g} "
                                      "mg/cm2. Correct the thickness, the loading or the recipe.",
@@ -251,7 +252,8 @@ bool check_columns(const std::string &path, const CsvTable &table, int line, Mis
                                    path, first));
     return false;
   }
-  if (const std::string wrong = table.ambiguous(); !wrong.empty())
+  if (const std::string wrong = table.ambiguous({"displacement_um", "pressure_MPa", "stage"});
+      !wrong.empty())
     mistakes.add(line, fmt::format("'{}' {}", path, wrong));
   for (const char *column : {"displacement_um", "pressure_MPa"}) {
     if (!table.has(column)) {

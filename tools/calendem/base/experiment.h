@@ -93,6 +93,9 @@ const std::vector<Key> &crushed_keys(); ///< of [[crushed_particle]]
 void check_foil(const Experiment &experiment, const Condition &condition, const std::string &who,
                 int line, Mistakes &mistakes);
 
+/// Loading of the condition's specimen: from its mass, or as stated. [mg/cm2]
+std::optional<Measured> loading_of(const Experiment &experiment, const Condition &condition);
+
 /// A coating is as thick as its solid at least, and has not only pores; far beyond the errors one of
 /// the values is wrong.
 void check_thickness(const Experiment &experiment, const Condition &condition,

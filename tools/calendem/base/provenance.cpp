@@ -120,11 +120,14 @@ std::string place_of(const std::string &given) {
   return name;
 }
 
+std::string part_of(const std::string &name) {
+  static const unsigned host = std::random_device{}(); // pids of two machines may be the same
+  return fmt::format("{}.{}-{:08x}.part", name, getpid(), host);
+}
+
 void write_file(const std::string &given, const std::string &content) {
   const std::string name = place_of(given);
-  // Of this process: tasks of a cluster may write the same file at the same time.
-  static const unsigned host = std::random_device{}(); // pids of two machines may be the same
-  const std::string part = fmt::format("{}.{}-{:08x}.part", name, getpid(), host);
+  const std::string part = part_of(name);
   std::ofstream out(part, std::ios::binary);
   out << content;
   out.close();

@@ -37,6 +37,10 @@ std::string text_of_file(const std::string &file);
 /// The text is in the file's last line or close to its end: that of a file that is cut is not.
 bool ends_with(const std::string &file, const std::string &text);
 
+/// Name beside it for what is not whole yet; of this process, as tasks of a cluster may write the same
+/// file at the same time.
+std::string part_of(const std::string &name);
+
 /// Where a file of that name is written: what a link points to. Throws Failure(2) where that is no
 /// regular file, or in no folder.
 std::string place_of(const std::string &given);

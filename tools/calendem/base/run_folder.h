@@ -15,6 +15,9 @@
 
 namespace calendem {
 
+/// In electrode.json: the settings as the recipe gave them; "recipe" has what a structure changed too.
+constexpr const char *kRecipeGiven = "recipe_given";
+
 using Column = std::vector<double>;
 
 struct Curve {

@@ -150,26 +150,27 @@ std::string experiment_page() {
       out += row(key);
     return out;
   };
-  return page("Keys of an experiment",
-              "An experiment file contains the measured data for `calendem compare`, "
-              "`calendem diagnose` and\n`calendem calibrate`. `calendem validate` reports every "
-              "mistake in it.",
-              "\n## `[experiment]`\n\n" + rows(head_keys()) +
-                  "| `split` | none | `{ train = [ids], test = [ids] }` | ids of the conditions to "
-                  "calibrate on, and of those held out |\n"
-                  "\n## `[[condition]]`\n\nOne table for each sample or pressure.\n\n" +
-                  rows(condition_keys()) +
-                  "\n### Measured values of a condition\n\nA number, `{ value, sd }` or "
-                  "`{ value, sd_relative }`. `mass_mg` and `thickness_after_um` also take\n"
-                  "`includes_foil`: a mass includes the foil unless it says otherwise, a thickness "
-                  "does not.\nMass, loading and thickness must be those of one film: a mass is "
-                  "0.5 to 100 mg/cm² on the disc, and a coating is as thick\nas its solid at "
-                  "least, with pores of 90 % at most.\n\n" +
-                  rows(measured) +
-                  "\n## `[[crushed_particle]]`\n\nSingle particles of the powder, crushed one by "
-                  "one between two plates. `calendem calibrate` learns the strength of\nthe bonds "
-                  "from them, the other verbs do not compare them.\n\n" +
-                  rows(crushed_keys()));
+  return page(
+      "Keys of an experiment",
+      "An experiment file contains the measured data for `calendem compare`, "
+      "`calendem diagnose` and\n`calendem calibrate`. `calendem validate` reports every "
+      "mistake in it.",
+      "\n## `[experiment]`\n\n" + rows(head_keys()) +
+          "| `split` | none | `{ train = [ids], test = [ids] }` | ids of the conditions to "
+          "calibrate on, and of those held out |\n"
+          "\n## `[[condition]]`\n\nOne table for each sample or pressure.\n\n" +
+          rows(condition_keys()) +
+          "\n### Measured values of a condition\n\nA number, `{ value, sd }` or "
+          "`{ value, sd_relative }`. `mass_mg` and `thickness_after_um` also take\n"
+          "`includes_foil`: a mass includes the foil unless it says otherwise, a thickness "
+          "does not.\nA mass must be 0.5 to 100 mg/cm² on the disc. A coating must be as "
+          "thick as its solid and have at most 90 % of pores; 6 µm\nfor a wrong zero of the "
+          "gauge and three standard deviations are allowed for.\n\n" +
+          rows(measured) +
+          "\n## `[[crushed_particle]]`\n\nSingle particles of the powder, crushed one by "
+          "one between two plates. `calendem calibrate` learns the strength of\nthe bonds "
+          "from them, the other verbs do not compare them.\n\n" +
+          rows(crushed_keys()));
 }
 
 std::string unit_of(const Effect &e) {

@@ -173,9 +173,17 @@ void measure(Arguments a, const CLI::App &verb) {
     a.options.nanoporosity = 0.01 * a.nanoporosity_percent;
   }
   a.options.tortuosity = !a.without_tortuosity;
-  const std::vector<StructureMeasures> moments =
-      is_run ? measure_run(a.input, a.options)
-             : std::vector<StructureMeasures>{measure_image(a.input, a.options)};
+  const bool is_new = !std::filesystem::exists(folder);
+  make_output_folder(folder); // it may not be possible, and what follows takes long
+  std::vector<StructureMeasures> moments;
+  try {
+    moments = is_run ? measure_run(a.input, a.options)
+                     : std::vector<StructureMeasures>{measure_image(a.input, a.options)};
+  } catch (...) {
+    if (std::error_code none; is_new)
+      std::filesystem::remove(folder, none);
+    throw;
+  }
   nlohmann::json j = {{"definitions", structure_definitions()},
                       {"moments", nlohmann::json::array()},
                       {"provenance", provenance(a, is_run)}};
@@ -183,7 +191,6 @@ void measure(Arguments a, const CLI::App &verb) {
     print(m);
     j["moments"].push_back(to_json(m));
   }
-  make_output_folder(folder);
   write_file(folder + "/structure.csv", profile_table(moments));
   write_file(folder + "/structure.json", j.dump(2) + "\n");
   fmt::print("measure: {0}/structure.csv, {0}/structure.json\n", folder);

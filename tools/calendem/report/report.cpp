@@ -32,8 +32,8 @@ RunPart part_of(Run &run) {
   part.unfinished = run.unfinished;
   part.headline = headline_of(run);
   part.facts = facts_of(run.summary, {"provenance", "contact_range"});
-  part.electrode = facts_of(
-      run.electrode, {"provenance", "recipe", "sphericity_histogram", "identity", "sources"});
+  part.electrode = facts_of(run.electrode, {"provenance", "recipe", kRecipeGiven,
+                                            "sphericity_histogram", "identity", "sources"});
   part.structure = structure_table(run);
   part.validity = validity_table(run);
   part.provenance = facts_of(run.summary.value("provenance", json::object()), {});

@@ -317,10 +317,18 @@ std::string case_of(const std::vector<Cell> &cells, const Pressed &sample) {
 
 /// Recipe and material, but for seeds and loading: cells of one sample have it in common.
 std::map<std::string, std::string> common_to_cells(const Cell &c) {
-  auto out = c.electrode.value("recipe", std::map<std::string, std::string>());
+  using Texts = std::map<std::string, std::string>;
+  const auto starts = [](const std::string &key, std::initializer_list<const char *> with) {
+    return std::any_of(with.begin(), with.end(),
+                       [&](const char *start) { return key.rfind(start, 0) == 0; });
+  };
+  Texts out;
+  for (const auto &[key, value] :
+       c.electrode.value(kRecipeGiven, c.electrode.value("recipe", Texts())))
+    if (!starts(key, {"structure.", "shapes."})) // their files may lie anywhere
+      out[key] = value;
   for (const auto &[key, value] : c.settings.all())
-    if (key.rfind("material.", 0) == 0 || key.rfind("bond.", 0) == 0 ||
-        key.rfind("effects.", 0) == 0)
+    if (starts(key, {"material.", "bond.", "effects."}))
       out[key] = value;
   for (const char *own : {"name", "seed", "coating.loading_mg_cm2", "bond.seed"})
     out.erase(own);
@@ -330,12 +338,12 @@ std::map<std::string, std::string> common_to_cells(const Cell &c) {
 void check_alike(const std::vector<std::string> &runs, const std::vector<Cell> &cells,
                  Mistakes &mistakes) {
   for (std::size_t k = 1; k < cells.size(); ++k) {
-    auto other = common_to_cells(cells[k]);
+    const auto all = common_to_cells(cells[k]);
     for (const auto &[key, value] : common_to_cells(cells[0]))
-      if (other[key] != value)
+      if (const auto other = all.find(key); other != all.end() && other->second != value)
         mistakes.add(0, fmt::format("'{}' has {} = {}, '{}' has {}: cells of one sample are of one "
                                     "recipe and material, whatever their loading.",
-                                    runs[0], key, value, runs[k], other[key]));
+                                    runs[0], key, value, runs[k], other->second));
   }
 }
 

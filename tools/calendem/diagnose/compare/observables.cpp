@@ -278,12 +278,6 @@ bool by_pressure(const Condition &c) {
   return c.max_pressure_MPa && (c.control == "pressure" || c.control == "roll_gap");
 }
 
-std::optional<Measured> loading_of(const Experiment &e, const Condition &c) {
-  if (c.mass_mg)
-    return Measured{coating_loading_mg_cm2(e, *c.mass_mg), c.mass_mg->sd / sample_area_cm2(e)};
-  return c.loading_mg_cm2;
-}
-
 std::vector<Observable> points_of_curve(const Experiment &e, const Condition &c, double largest,
                                         Branch branch) {
   const std::optional<Measured> loading = loading_of(e, c);

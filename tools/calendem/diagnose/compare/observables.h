@@ -47,9 +47,6 @@ std::vector<Observable> observables_of(const Experiment &experiment, const Condi
 /// into.
 bool by_pressure(const Condition &condition);
 
-/// Of the sample [mg/cm2], by its mass if that is given.
-std::optional<Measured> loading_of(const Experiment &experiment, const Condition &condition);
-
 enum class Branch { Loading, Release };
 
 /// The points at which a branch of a curve to `largest` MPa is compared, without measured values.

@@ -11,8 +11,8 @@ namespace {
 constexpr double kCredible = 0.95;
 constexpr double kCounts = 0.01; // probability of a hypothesis that bears on the claim
 constexpr double kFewest = 30.0; // effective samples of its evidence
-// Bayes factor below which an effect beside others is excluded: one that acts gets so little in at
-// most 5 % of cases (Royall, J. Am. Stat. Assoc. 95 (2000) 760), however weak it may be.
+// Bayes factor below which an effect beside others is excluded: of those that act, drawn from the
+// prior, at most 5 % get so little (Royall, J. Am. Stat. Assoc. 95 (2000) 760); of weak ones more.
 constexpr double kExcluded = 0.05;
 // Of the unknown's prior, what is known by nothing but that no prediction fits: the p of the best is
 // then distributed as p^kMisfit.

@@ -8,7 +8,7 @@ namespace calendem::inference {
 
 namespace {
 
-constexpr int kPoints = 12; // of each effect's prior
+constexpr int kPoints = 16; // of each effect's prior
 
 /// What an effect changes at each point of its prior, about one point of the base parameters.
 std::vector<Prediction> changes_of(const Problem &problem, const Vector &base, int effect,

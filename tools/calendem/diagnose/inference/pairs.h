@@ -14,7 +14,7 @@ struct Promise {
 };
 
 /// All pairs, the most promising first. The estimate is the mean of the likelihood over a grid of
-/// both effects' scores, 12 points of the prior each, the base model linear about the fit of one of
+/// both effects' scores, 16 points of the prior each, the base model linear about the fit of one of
 /// them alone and integrated in closed form; of the two such estimates the larger. Two effects that
 /// hide each other are found so, although neither fits alone. `so_far`: the single effects' fits.
 std::vector<Promise> promising_pairs(const Problem &problem, const Which &so_far);

@@ -155,13 +155,21 @@ Which which(const Problem &problem, const WhichSettings &settings) {
       settings.pairs > 0 ? promising_pairs(problem, w) : std::vector<Promise>();
   judge_pairs(problem, pairs, ranked.empty() ? -1 : ranked[0], settings.pairs, settings, w);
   ranked.resize(std::min(ranked.size(), std::size_t(settings.beside)));
-  w.judged.push_back(judge_unknown(problem, settings, ranked, w));
-  decide(w, settings, effects);
+  const auto finish = [&] {
+    w.judged.push_back(judge_unknown(problem, settings, ranked, w));
+    decide(w, settings, effects);
+  };
+  finish();
+  const std::size_t so_far = w.judged.size();
   for (int e = 0; e < effects; ++e) // what may act beside it
-    if (problem.effects[std::size_t(e)].name == w.claim) {
+    if (problem.effects[std::size_t(e)].name == w.claim)
       judge_pairs(problem, pairs, e, 0, settings, w);
-      decide(w, settings, effects);
-    }
+  if (w.judged.size() > so_far) {
+    w.judged.erase(std::find_if(w.judged.begin(), w.judged.end(), [](const Judged &j) {
+      return j.hypothesis.kind == Hypothesis::unknown;
+    }));
+    finish();
+  }
   return w;
 }
 

@@ -146,9 +146,9 @@ std::string hash_of_sources(const Recipe &recipe) {
 /// Another program makes the same electrode; one of another recipe would be lost.
 void stop_if_of_another_recipe(const std::string &folder, const Recipe &recipe) {
   const nlohmann::json old = RunFolder(folder).object("electrode.json");
-  if (!old.is_object() || !old.contains("recipe"))
+  if (!old.is_object() || !old.contains(kRecipeGiven))
     return;
-  const auto then = old["recipe"].get<std::map<std::string, std::string>>();
+  const auto then = old[kRecipeGiven].get<std::map<std::string, std::string>>();
   std::string text;
   for (const auto &[key, now] : settings_of(recipe))
     if (const auto at = then.find(key); at != then.end() && at->second != now)
@@ -167,7 +167,7 @@ void stop_if_of_another_recipe(const std::string &folder, const Recipe &recipe) 
 std::string packing_identity(const Recipe &recipe, const std::string &tools) {
   std::string text = tools;
   for (const auto &[key, value] : settings_of(recipe))
-    text += key + "=" + value + "\n";
+    text += fmt::format("{}={}\n", key, value);
   return hash_of_text(text + hash_of_sources(recipe));
 }
 
@@ -226,6 +226,7 @@ void pack_electrode(const Recipe &as_given, PackOptions o) {
     throw;
   }
   j["identity"] = identity;
+  j[kRecipeGiven] = settings_of(as_given);
   if (const std::string sources = hash_of_sources(as_given); !sources.empty())
     j["sources"] = sources;
   write_file(summary, j.dump(2) + "\n");

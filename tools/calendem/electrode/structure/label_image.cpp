@@ -7,7 +7,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
-#include <unistd.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkIntArray.h>
@@ -181,8 +180,7 @@ bool write_whole(vtkImageData *data, const std::string &file) {
 /// Header and data are written in a folder of their own and take their place when they are whole.
 void write_in_place(vtkImageData *data, const std::string &file) {
   namespace fs = std::filesystem;
-  const fs::path place = place_of(file),
-                 folder = fmt::format("{}.{}.part", place.string(), getpid());
+  const fs::path place = place_of(file), folder = part_of(place.string());
   const std::string header = folder / place.filename();
   std::error_code error, none;
   fs::create_directory(folder, error);
