@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/messages.h"
 #include "diagnose/inference/pairs.h"
 #include "diagnose/inference/scatter.h"
 #include "linear_world.h"
@@ -6,6 +7,15 @@
 
 namespace calendem::inference {
 namespace {
+
+WhichSettings quick() {
+  WhichSettings s;
+  s.noise = false;
+  s.evidence.samples = 128;
+  s.pairs = 2;
+  s.beside = 0;
+  return s;
+}
 
 // The base model's scores are far from 0 and recalibration takes up much of the effects. The grid's 16
 // quantiles have 0.93 of the prior's variance: where ln of the likelihood has the slope g along an
@@ -17,10 +27,8 @@ TEST(Pairs, TheEstimateIsTheEvidenceInALinearWorld) {
   const Vector data = world.mean_of(0) + world.mean_of(3) - world.centre +
                       world.sensitivity * Vector{{2.0, -1.5, 1.0}};
   const Problem problem = world.problem(data);
-  WhichSettings settings;
-  settings.noise = false;
-  settings.evidence.samples = 64;
-  settings.pairs = settings.beside = 0;
+  WhichSettings settings = quick();
+  settings.pairs = 0;
   const std::vector<Promise> all = promising_pairs(problem, which(problem, settings));
   ASSERT_EQ(all.size(), 6u);
   for (std::size_t k = 0; k < all.size(); ++k) {
@@ -38,6 +46,30 @@ TEST(Pairs, TheEstimateIsTheEvidenceInALinearWorld) {
                                        2.0 * lower.diagonal().array().log().sum(), 6, kNormal);
     EXPECT_NEAR(all[k].log_evidence, exact, 0.05) << all[k].pair.name;
   }
+}
+
+// Each of two decoys fits the sum of two effects better than either of them alone; only both
+// together fit it.
+TEST(Pairs, OneIsFoundAlthoughNeitherOfItsEffectsFitsBest) {
+  LinearWorld world(12, 2, 6, 14);
+  world.amplitude = 9.0;
+  Matrix axes = Matrix::Zero(12, 6);
+  axes.leftCols(2).setIdentity();
+  for (int decoy = 2; decoy < 4; ++decoy) {
+    axes.col(decoy).head(2).setConstant(std::sqrt(0.4));
+    axes(decoy, decoy) = std::sqrt(0.2);
+  }
+  axes.bottomRightCorner(2, 2).setIdentity();
+  world.signatures = Cholesky(world.covariance).matrixL() * axes;
+  const Vector data = world.mean_of(0) + world.mean_of(1) - world.centre;
+  WhichSettings settings = quick();
+  settings.priors.pair_share = 0.2;
+  const Which found = which(world.problem(data), settings);
+  for (const char *half : {"effect 0", "effect 1"})
+    for (const char *decoy : {"effect 2", "effect 3"})
+      EXPECT_GT(found.of(decoy).evidence.log_evidence, found.of(half).evidence.log_evidence);
+  EXPECT_EQ(found.claim, "effect 0 + effect 1");
+  EXPECT_THROW(found.of("effect 4 + effect 5"), Failure); // not worth an integral
 }
 
 // A decoy fits best alone. The claim is an effect that acts with one of two alike ones: all its
@@ -59,11 +91,7 @@ TEST(Pairs, AllOfTheClaimedEffectAreComputed) {
   Vector both = Vector::Zero(12);
   both.head(2).setConstant(9.0);
   const Problem problem = world.problem(world.centre + factor.matrixL() * both);
-  WhichSettings settings;
-  settings.noise = false;
-  settings.evidence.samples = 128;
-  settings.pairs = 2;
-  settings.beside = 0;
+  WhichSettings settings = quick();
   settings.priors.pair_share = 0.5;
   const Which found = which(problem, settings);
   EXPECT_GT(found.of("effect 3").evidence.log_evidence, found.of("effect 0").evidence.log_evidence);

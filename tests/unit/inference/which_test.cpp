@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "base/messages.h"
 #include "diagnose/inference/which.h"
 #include "linear_world.h"
 #include <gtest/gtest.h>
@@ -190,31 +189,6 @@ TEST(Which, TwoEffectsAtOnceAreAPair) {
   const Which found = which(world.problem(data), settings);
   EXPECT_EQ(found.claim, "effect 0 + effect 2");
   EXPECT_GT(found.inclusion.at("effect 2"), 0.98); // a hundredth is left for what nothing predicts
-}
-
-// Each of two decoys fits the sum of two effects better than either of them alone; only both
-// together fit it.
-TEST(Which, APairIsFoundAlthoughNeitherOfItsEffectsFitsBest) {
-  LinearWorld world(12, 2, 6, 14);
-  world.amplitude = 9.0;
-  Matrix axes = Matrix::Zero(12, 6);
-  axes.leftCols(2).setIdentity();
-  for (int decoy = 2; decoy < 4; ++decoy) {
-    axes.col(decoy).head(2).setConstant(std::sqrt(0.4));
-    axes(decoy, decoy) = std::sqrt(0.2);
-  }
-  axes.bottomRightCorner(2, 2).setIdentity();
-  world.signatures = Cholesky(world.covariance).matrixL() * axes;
-  const Vector data = world.mean_of(0) + world.mean_of(1) - world.centre;
-  WhichSettings settings = quick();
-  settings.pairs = 2;
-  settings.priors.pair_share = 0.2;
-  const Which found = which(world.problem(data), settings);
-  for (const char *half : {"effect 0", "effect 1"})
-    for (const char *decoy : {"effect 2", "effect 3"})
-      EXPECT_GT(found.of(decoy).evidence.log_evidence, found.of(half).evidence.log_evidence);
-  EXPECT_EQ(found.claim, "effect 0 + effect 1");
-  EXPECT_THROW(found.of("effect 4 + effect 5"), Failure); // not worth an integral
 }
 
 TEST(Which, UnderstatedNoise) {

@@ -318,17 +318,14 @@ std::string case_of(const std::vector<Cell> &cells, const Pressed &sample) {
 /// Recipe and material, but for seeds and loading: cells of one sample have it in common.
 std::map<std::string, std::string> common_to_cells(const Cell &c) {
   using Texts = std::map<std::string, std::string>;
-  const auto starts = [](const std::string &key, std::initializer_list<const char *> with) {
-    return std::any_of(with.begin(), with.end(),
-                       [&](const char *start) { return key.rfind(start, 0) == 0; });
-  };
   Texts out;
   for (const auto &[key, value] :
        c.electrode.value(kRecipeGiven, c.electrode.value("recipe", Texts())))
-    if (!starts(key, {"structure.", "shapes."})) // their files may lie anywhere
+    if (key.rfind("structure.", 0) != 0 && key.rfind("shapes.", 0) != 0) // wherever their files lie
       out[key] = value;
   for (const auto &[key, value] : c.settings.all())
-    if (starts(key, {"material.", "bond.", "effects."}))
+    if (key.rfind("material.", 0) == 0 || key.rfind("bond.", 0) == 0 ||
+        key.rfind("effects.", 0) == 0)
       out[key] = value;
   for (const char *own : {"name", "seed", "coating.loading_mg_cm2", "bond.seed"})
     out.erase(own);
