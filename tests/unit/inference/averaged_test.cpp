@@ -13,16 +13,6 @@ namespace {
 const Prior kScores{Prior::normal, 0.0, 1.0}; // values are the scores
 const std::vector<Parameter> kBase{{"one", kScores, false}, {"two", kScores, false}};
 
-WhichSettings quick() {
-  WhichSettings s;
-  s.noise = false;
-  s.evidence.samples = 128;
-  s.priors.pair_share = 0.0;
-  s.pairs = 0;
-  s.beside = 0;
-  return s;
-}
-
 bool holds(double low, double high, double truth) { return low <= truth && truth <= high; }
 
 /// Share of the 90 % intervals that hold, of both base parameters.

@@ -6,8 +6,20 @@
 #include "base/random.h"
 #include "diagnose/inference/problem.h"
 #include "diagnose/inference/scatter.h"
+#include "diagnose/inference/which.h"
 
 namespace calendem::inference {
+
+/// Few samples; single effects only, and an unknown beside none.
+inline WhichSettings quick() {
+  WhichSettings s;
+  s.noise = false;
+  s.evidence.samples = 128;
+  s.priors.pair_share = 0.0;
+  s.pairs = 0;
+  s.beside = 0;
+  return s;
+}
 
 struct LinearWorld {
   Vector centre;

@@ -6,16 +6,6 @@
 namespace calendem::inference {
 namespace {
 
-WhichSettings quick() {
-  WhichSettings s;
-  s.noise = false;
-  s.evidence.samples = 128;
-  s.priors.pair_share = 0.0;
-  s.pairs = 0;
-  s.beside = 0;
-  return s;
-}
-
 /// Probabilities of none and three effects, by importance sampling, in worlds drawn from the prior.
 struct Calibration {
   int worlds = 0, claims = 0, wrong = 0, covered = 0, intervals = 0, inadequate = 0;

@@ -315,19 +315,16 @@ std::string case_of(const std::vector<Cell> &cells, const Pressed &sample) {
   return write_toml(settings, case_keys(), fmt::format("# a sample of {} cells\n", cells.size()));
 }
 
-/// Recipe and material, but for seeds and loading: cells of one sample have it in common.
+/// Recipe and material, but for seeds, loading and files: cells of one sample have it in common.
 std::map<std::string, std::string> common_to_cells(const Cell &c) {
   using Texts = std::map<std::string, std::string>;
-  Texts out;
-  for (const auto &[key, value] :
-       c.electrode.value(kRecipeGiven, c.electrode.value("recipe", Texts())))
-    if (key.rfind("structure.", 0) != 0 && key.rfind("shapes.", 0) != 0) // wherever their files lie
-      out[key] = value;
+  Texts out = c.electrode.value(kRecipeGiven, c.electrode.value("recipe", Texts()));
   for (const auto &[key, value] : c.settings.all())
     if (key.rfind("material.", 0) == 0 || key.rfind("bond.", 0) == 0 ||
         key.rfind("effects.", 0) == 0)
       out[key] = value;
-  for (const char *own : {"name", "seed", "coating.loading_mg_cm2", "bond.seed"})
+  for (const char *own : {"name", "seed", "coating.loading_mg_cm2", "bond.seed", "structure.file",
+                          "structure.body_map", "shapes.image", "shapes.library"})
     out.erase(own);
   return out;
 }

@@ -20,7 +20,7 @@ struct Priors {
 struct WhichSettings {
   Priors priors;
   bool noise = true; ///< "noise" (understated errors) is a hypothesis
-  int pairs = 20;    ///< most promising pairs that are computed, beside those of the best effect
+  int pairs = 20;    ///< most promising pairs, which are computed; so are those of the best effect
   int beside = 2;    ///< best single effects beside which the unknown is sought
   double claim_probability = 0.8; ///< a name is claimed from here on
   double adequacy = 0.05;         ///< and only with at least this p
