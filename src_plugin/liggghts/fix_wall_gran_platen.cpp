@@ -140,7 +140,7 @@ void FixWallGranPlaten::set_keyword(const std::string &key, const std::string &v
     const std::string message =
         "unknown setting '" + key + " " + value +
         "'; known: side top|bottom, motion hold | motion pressure P | motion position Z | "
-        "motion roll GAP, roll_radius, counter_radius, slip, passes, first_gap, "
+        "motion roll GAP, roll_radius, counter_radius, slip, first_gap, passes, "
         "touch_speed, load_speed, release_speed, touch_pressure, wait, dwell, ramp, lost, lowest, "
         "average, compliance, release yes|no, bridges yes|no";
     error->fix_error(FLERR, this, message.c_str());
@@ -168,6 +168,8 @@ void FixWallGranPlaten::parse() {
                      "a moving platen needs 'touch_speed', 'load_speed' and 'release_speed' > 0");
   if (programme_.lost_fraction >= 1.0)
     error->fix_error(FLERR, this, "'lost' is a fraction of the maximum pressure, below 1");
+  if (programme_.passes < 1.0 || programme_.passes != std::floor(programme_.passes))
+    error->fix_error(FLERR, this, "'passes' must be a whole number, at least 1");
   if (programme_.control == PlatenControl::Pressure && !strcmp(update->unit_style, "micro") &&
       programme_.target > 1e8)
     error->fix_error(
@@ -186,8 +188,6 @@ void FixWallGranPlaten::parse() {
 void FixWallGranPlaten::check_roll() {
   if (programme_.roll.radius <= 0.0)
     error->fix_error(FLERR, this, "'motion roll' needs 'roll_radius' > 0");
-  if (programme_.passes < 1.0 || programme_.passes != std::floor(programme_.passes))
-    error->fix_error(FLERR, this, "'passes' must be a whole number, at least 1");
   if (programme_.first_gap > 0.0 &&
       (programme_.first_gap < programme_.target || programme_.first_gap >= programme_.start))
     error->fix_error(FLERR, this,

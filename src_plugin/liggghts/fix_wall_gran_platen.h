@@ -2,13 +2,13 @@
 // fix ID all wall/gran/platen model hertz tangential history primitive type T zplane Z
 //     side top|bottom motion hold bridges yes|no
 //     side top motion pressure P | position Z2  touch_speed V load_speed V release_speed V
-//          touch_pressure P wait T dwell T ramp T lost F lowest Z average T compliance C
-//          release yes|no
-//     side top motion roll GAP roll_radius R counter_radius R2 slip S passes N first_gap G
+//          touch_pressure P wait T dwell T ramp T passes N lost F lowest Z average T
+//          compliance C release yes|no
+//     side top motion roll GAP roll_radius R counter_radius R2 slip S first_gap G
 //          touch_speed V load_speed V release_speed V ... as above
 //
 // A flat wall of fix wall/gran that moves along z by the programme of physics/platen_motion.h and
-// measures what it carries; it rests at Z until the time `wait`. All contact models of fix wall/gran can be used. Units micro.
+// measures what it carries; it rests at Z until the time `wait` and goes N times. All contact models of fix wall/gran can be used. Units micro.
 // motion roll: as a roll passes over, with GAP in the nip (physics/roll_nip.h); lengths in um, R2
 // 0: flat; S moves the surface along x; the first of N passes has the gap G, 0: GAP. load_speed is
 // the largest speed of closing and of slip. Global vector: 1 stage (0 hold, 1 compression, 2 dwell,
@@ -17,7 +17,7 @@
 //   now, 7 work done on the particles [fJ], 8 closing speed, 9 largest averaged pressure, 10 target
 //   reached, 11 1 when the dwell is over and `release no` holds the platen, 12 averaging window
 //   [us], 13 position averaged as 5 is: what the averaged pressure is compared with, 14 passes
-//   under the roll that are still to come, 15 speed of the surface along x.
+//   that are still to come, 15 speed of the surface along x.
 // bridges yes: the wall holds CBD by the binder bridges of fix bond/bpm, which stands before it.
 // A position is what the machine shows, which is `compliance` [um/kPa] times the pressure further.
 // Load is positive when the wall presses the film. State restarts under the same fix ID.

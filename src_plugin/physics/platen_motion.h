@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Programme of the moving platen: wait; down with a smooth start to a pressure, a thickness or a
-// displacement; dwell; up until contact is lost or the start is reached. Or as a roll passes over
-// the cell, once or several times.
+// displacement; dwell; up until contact is lost or the start is reached; once or several times. Or
+// as a roll passes over the cell.
 //
 // Speeds. `touch` while the averaged pressure is below `touch_pressure`, `load` above, so that the
 // stress wave rho c v stays below the pressure being measured. From one to the other and from rest
@@ -39,7 +39,7 @@ struct PlatenProgramme {
   double lowest = 0.0;         ///< the platen never goes below
   double compliance = 0.0;     ///< of the machine [um/kPa]; a position is what it shows
   RollNip roll;                ///< with control = Roll
-  double passes = 1.0;         ///< under the roll, >= 1
+  double passes = 1.0;         ///< of compression and release, >= 1
   double first_gap = 0.0;      ///< of the first of several passes; 0: the target
   double wait = 0.0;           ///< time until which it rests at its start
 };
@@ -55,7 +55,7 @@ struct PlatenState {
   double rate = 0.0;         ///< smoothed rise of the averaged pressure [kPa/us]
   double last_average = 0.0;
   double reached = 0.0;   ///< 1 if the target was met
-  double passed = 0.0;    ///< passes under the roll that are over
+  double passed = 0.0;    ///< passes that are over
   double web_speed = 0.0; ///< during a pass
 };
 
@@ -122,19 +122,24 @@ inline void compress(const PlatenProgramme &p, PlatenState &s, double average, d
   enter(s, PlatenStage::Dwell, time);
 }
 
+inline bool last_pass(const PlatenProgramme &p, const PlatenState &s) {
+  return s.passed + 1.0 >= p.passes;
+}
+
+/// Contact is lost: down again, or the end.
+inline void end_pass(const PlatenProgramme &p, PlatenState &s, double time) {
+  s.speed = s.web_speed = 0.0;
+  enter(s, last_pass(p, s) ? PlatenStage::Done : PlatenStage::Compression, time);
+  s.passed += 1.0;
+}
+
 inline void relax(const PlatenProgramme &p, PlatenState &s, double average, double time,
                   double dt) {
   s.speed = approach_speed(s.speed, -p.release_speed, p.release_speed, p.ramp_time, dt);
   s.position -= s.speed * dt;
   const bool lost = average < p.lost_fraction * s.max_pressure;
-  if (!lost && s.position < p.start)
-    return;
-  s.speed = 0.0;
-  enter(s, PlatenStage::Done, time);
-}
-
-inline bool last_pass(const PlatenProgramme &p, const PlatenState &s) {
-  return s.passed + 1.0 >= p.passes;
+  if (lost || s.position >= p.start)
+    end_pass(p, s, time);
 }
 
 /// Smallest gap of the pass that is on.
@@ -175,11 +180,8 @@ inline void leave_nip(const PlatenProgramme &p, PlatenState &s, double average, 
                       double dt) {
   pass_on(p, s, dt);
   const bool lost = average < p.lost_fraction * s.max_pressure;
-  if (!lost && s.position < p.start)
-    return;
-  s.speed = s.web_speed = 0.0;
-  enter(s, last_pass(p, s) ? PlatenStage::Done : PlatenStage::Compression, time);
-  s.passed += 1.0;
+  if (lost || s.position >= p.start)
+    end_pass(p, s, time);
 }
 
 /// Speed of the roll's surface along the web; the roll stands while it is held in the nip.
@@ -191,8 +193,8 @@ inline double slip_speed(const PlatenProgramme &p, const PlatenState &s) {
 }
 
 /// One step. `average`: pressure [kPa] averaged over `window` [us]; `time` at the step's end.
-/// `may_release`: false holds the platen in its dwell, a roll in its last nip (a script that ends
-/// after compression).
+/// `may_release`: false holds the platen in the dwell of its last pass, a roll in its last nip (a
+/// script that ends after compression).
 inline void advance(const PlatenProgramme &p, PlatenState &s, double average, double window,
                     double time, double dt, bool may_release) {
   s.max_pressure = std::fmax(s.max_pressure, average);
@@ -204,7 +206,7 @@ inline void advance(const PlatenProgramme &p, PlatenState &s, double average, do
     roll ? enter_nip(p, s, time, dt) : compress(p, s, average, window, time, dt);
     break;
   case PlatenStage::Dwell:
-    if ((may_release || (roll && !last_pass(p, s))) && time - s.stage_start >= p.dwell)
+    if ((may_release || !last_pass(p, s)) && time - s.stage_start >= p.dwell)
       enter(s, PlatenStage::Relaxation, time);
     break;
   case PlatenStage::Relaxation:

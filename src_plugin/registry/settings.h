@@ -88,6 +88,8 @@ inline std::vector<Key> base_settings() {
       {"platen.ramp_us", "ramp_us", "0.5", 0, 1e4, "us",
        "time from rest to full speed; 0: at once"},
       {"platen.dwell_us", "dwell_us", "0", 0, 1e4, "us", "time at the target"},
+      {"platen.presses", "presses", "1", 1, 20, "",
+       "how many times the platen goes to the target and up again", "", false, true},
       {"platen.contact_lost_fraction", "lost_fraction", "0.01", 1e-4, 0.5, "",
        "contact is lost below this fraction of the maximum pressure"},
       {"roll.radius_mm", "roll_radius_mm", "200", 1, 2000, "mm", "radius of the roll on the film"},

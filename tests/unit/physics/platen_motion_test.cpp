@@ -167,6 +167,46 @@ TEST(PlatenMotion, DwellAndRelease) {
   EXPECT_EQ(press.s.position, end);
 }
 
+// Requirement: pressed three times, a film that has set meets its pressure each time without
+// overshoot, with a dwell each; it ends after the third release, not before, and holds in the last
+// dwell if it may not release.
+TEST(PlatenMotion, GoesDownAsOftenAsAsked) {
+  PlatenProgramme p = programme(PlatenControl::Pressure, 6e4);
+  p.passes = 3.0;
+  p.dwell = 1.0;
+  for (const bool may_release : {true, false}) {
+    Press press(p);
+    double set = 0.0; // of a film that springs back by a quarter: stiffer on the way back
+    const Film sets = [&](double x) {
+      const double first = 3e4 * (x - set);
+      if (first > linear(0.25 * x)) // further than before
+        set = std::fmax(set, 0.75 * x);
+      return x > set ? 1.2e5 * (x - set) : 0.0;
+    };
+    std::vector<PlatenStage> stages;
+    std::vector<double> peaks;
+    while (stage_of(press.s) != PlatenStage::Done && press.time < 100.0) {
+      if (stages.empty() || stages.back() != stage_of(press.s)) {
+        stages.push_back(stage_of(press.s));
+        if (stages.back() == PlatenStage::Compression)
+          peaks.push_back(0.0);
+      }
+      press.step(sets, may_release);
+      peaks.back() = std::fmax(peaks.back(), press.pressure);
+    }
+    const auto c = PlatenStage::Compression, d = PlatenStage::Dwell, r = PlatenStage::Relaxation;
+    std::vector<PlatenStage> all = {c, d, r, c, d, r, c, d, r};
+    if (!may_release)
+      all.pop_back();
+    EXPECT_EQ(stages, all);
+    ASSERT_EQ(peaks.size(), 3u);
+    for (const double peak : peaks) {
+      EXPECT_GE(peak, 6e4);
+      EXPECT_LT(peak, 1.01 * 6e4);
+    }
+  }
+}
+
 // Requirement: a sticky film that never lets go ends the release at the start.
 TEST(PlatenMotion, ReleaseEndsAtStart) {
   Press press(programme(PlatenControl::Position, 55.0));

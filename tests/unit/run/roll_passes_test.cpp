@@ -69,19 +69,21 @@ TEST(RollPasses, LineLoadOfALinearFilm) {
 // Requirement: what a roll cannot do is refused, all of it at once.
 TEST(RollPasses, CaseIsChecked) {
   try {
-    case_with("[platen]\ncontrol = \"roll_gap\"\nroll_gap_um = 50\ndwell_us = 1\n[roll]\n"
+    case_with("[platen]\ncontrol = \"roll_gap\"\nroll_gap_um = 50\ndwell_us = 1\npresses = 2\n[roll]\n"
               "first_gap_um = 40\n[effects.machine_compliance]\num_per_MPa = 0.01\n");
     FAIL() << "the case was taken";
   } catch (const std::exception &e) {
     for (const char *said : {"roll.first_gap_um is 40, below platen.roll_gap_um = 50",
-                             "does not stand still in the nip", "is the gap of the loaded rolls"})
+                             "does not stand still in the nip",
+                             "a roll goes over the film roll.passes times", "is the gap of the loaded rolls"})
       EXPECT_NE(std::string(e.what()).find(said), std::string::npos) << e.what();
   }
   try {
-    case_with("[roll]\nline_load_N_mm = 100\n");
+    case_with("[roll]\nline_load_N_mm = 100\npasses = 2\n");
     FAIL() << "the case was taken";
   } catch (const std::exception &e) {
     EXPECT_NE(std::string(e.what()).find("only a roll has a line load"), std::string::npos);
+    EXPECT_NE(std::string(e.what()).find("goes down platen.presses times"), std::string::npos);
   }
 }
 

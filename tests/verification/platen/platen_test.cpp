@@ -282,6 +282,39 @@ TEST(VerificationPlaten, PressureControlOvershootsByLessThanOnePercent) {
   }
 }
 
+// Down to a pressure and up, three times: elastic, so that every time is as the first.
+TEST(VerificationPlaten, PressedThreeTimesAnElasticColumnIsAsItWas) {
+  const double target = 1500.0; // kPa
+  const std::vector<BodySphere> spheres = column(2 * R, false);
+  const double top = top_of(spheres) + kGap;
+  Settings three = motion("pressure", target, top, 0.005);
+  three["passes"] = "3";
+  const CaseRun run = press(
+      spheres, three,
+      {{"bonded", "0"}, {"damping", "0.02"}, {"dt", "2e-4"}, {"steps", "600000"}, {"every", "100"}});
+  ASSERT_TRUE(run.finished()) << run.why();
+  double error[3] = {}, most[3] = {}, stage = 0.0;
+  int pass = -1;
+  for (const Row &r : run.rows("platen.csv")) {
+    pass += r.at("stage") == 1 && stage != 1;
+    stage = r.at("stage");
+    ASSERT_TRUE(pass >= 0 && pass < 3);
+    const double expected = load_of(std::fmax(r.at("moved") - 2 * kGap, 0.0), false);
+    error[pass] =
+        std::fmax(error[pass], std::fabs(r.at("load") - expected) / (target * kSide * kSide));
+    most[pass] = std::fmax(most[pass], r.at("load") / (kSide * kSide));
+  }
+  EXPECT_EQ(pass, 2);
+  EXPECT_EQ(stage, 4);
+  for (int n = 0; n < 3; ++n) {
+    std::printf("pass %d: largest pressure %.6g kPa, %.1e of it off the closed curve\n", n + 1,
+                most[n], error[n]);
+    EXPECT_LT(error[n], 1e-3); // the wave
+    EXPECT_GE(most[n] / target, 1.0);
+    EXPECT_LT(most[n] / target, 1.01);
+  }
+}
+
 namespace {
 
 // A plate of the cell's size at height z, two cells along x and y: the host's periodic mesh needs

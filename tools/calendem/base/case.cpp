@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <iterator>
+#include <tuple>
 
 namespace calendem {
 namespace {
@@ -191,13 +192,15 @@ void check_roll(const Settings &s, Mistakes &mistakes) {
   if (!s.sound({"platen.control"}))
     return;
   if (s.text("platen.control") != "roll_gap") {
-    for (const auto &[key, why] :
-         {std::pair("roll.line_load_N_mm", "only a roll has a line load"),
-          std::pair("roll.elongation_percent", "the web elongates under a roll only")})
-      if (s.sound({key}) && s.number(key) > 0.0)
-        mistakes.add(s.line(key), fmt::format("{} is {} and platen.control is \"{}\": {}. "
-                                              "Give control = \"roll_gap\", or 0.",
-                                              key, s.text(key), s.text("platen.control"), why));
+    for (const auto &[key, none, why] :
+         {std::tuple("roll.line_load_N_mm", 0, "only a roll has a line load"),
+          std::tuple("roll.elongation_percent", 0, "the web elongates under a roll only"),
+          std::tuple("roll.passes", 1, "a platen goes down platen.presses times")})
+      if (s.sound({key}) && s.number(key) > none)
+        mistakes.add(s.line(key),
+                     fmt::format("{} is {} and platen.control is \"{}\": {}. "
+                                 "Give control = \"roll_gap\", or {}.",
+                                 key, s.text(key), s.text("platen.control"), why, none));
     return;
   }
   const std::string first = "roll.first_gap_um", gap = "platen.roll_gap_um";
@@ -206,14 +209,15 @@ void check_roll(const Settings &s, Mistakes &mistakes) {
                  fmt::format("{} is {}, below {} = {}: passes go from a wider gap to a narrower "
                              "one. Give at least that, or 0: the same gap in all passes.",
                              first, s.text(first), gap, s.text(gap)));
-  for (const auto &[key, why] :
-       {std::pair("platen.dwell_us", "a roll does not stand still in the nip"),
-        std::pair("effects.machine_compliance.um_per_MPa",
-                  "platen.roll_gap_um is the gap of the loaded rolls, frame and all")})
-    if (s.sound({key}) && s.number(key) > 0.0)
+  for (const auto &[key, none, why] :
+       {std::tuple("platen.dwell_us", 0, "a roll does not stand still in the nip"),
+        std::tuple("platen.presses", 1, "a roll goes over the film roll.passes times"),
+        std::tuple("effects.machine_compliance.um_per_MPa", 0,
+                   "platen.roll_gap_um is the gap of the loaded rolls, frame and all")})
+    if (s.sound({key}) && s.number(key) > none)
       mistakes.add(s.line(key), fmt::format("{} is {} and platen.control is \"roll_gap\": {}. "
-                                            "Give 0.",
-                                            key, s.text(key), why));
+                                            "Give {}.",
+                                            key, s.text(key), why, none));
 }
 
 const char *const kSpeeds[] = {"platen.speed_m_s", "platen.touch_speed_m_s",
