@@ -7,6 +7,8 @@
 #ifndef CALENDEM_PHYSICS_MOVING_AVERAGE_H
 #define CALENDEM_PHYSICS_MOVING_AVERAGE_H
 
+#include <cmath>
+
 namespace calendem {
 
 struct MovingAverage {
@@ -21,7 +23,7 @@ struct MovingAverage {
 
   void set_window(double samples) {
     const double length = samples / kBlocks;
-    block_length = length < 1.0 ? 1.0 : static_cast<double>(static_cast<long>(length + 0.5));
+    block_length = length < 1.0 ? 1.0 : std::round(length);
   }
 
   /// Returns true when a block was completed.

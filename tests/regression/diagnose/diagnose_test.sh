@@ -145,6 +145,20 @@ cp far/gap.json before.json
 diagnose split.toml -o far --bank bank.toml --packings 2 >/dev/null
 cmp before.json far/gap.json || fail "the same runs gave another gap.json"
 
+# A held-out film that is pressed again: the bank makes such runs, the models are run again so (51 runs).
+if [ -n "${CALENDEM_HEAVY:-}" ]; then
+  { cat bank.toml; printf '[[pressing]]\nname = "again"\nwhat = "pressed twice"\nsettings = { "platen.presses" = 2 }\n'
+    printf 'pressures_MPa = [50]\nbase_points = 9\neffect_points = 6\n'; } >again.toml
+  "$bin/calendem" bank again.toml -o again --jobs 2 >again.log || { cat again.log; fail "a bank of films pressed again"; }
+  [ "$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "pressing") c = k } $c == "again"' again/bank.csv | wc -l)" = 15 ] ||
+    fail "the table has not 15 runs pressed again"
+  sed 's/^id = "p50"/&\npressing = "again"/' split.toml >split_again.toml
+  diagnose split_again.toml -o far_again --bank again.toml --table again/bank.csv --packings 2 --jobs 2 >again.log ||
+    { cat again.log; fail "exit status $?"; }
+  mapfile -t pressed < <(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "case.platen.presses") c = k } NR > 1 { print $c }' far_again/rerun/study.csv)
+  [ "${pressed[*]}" = "2 2 2 2 2 2" ] || fail "the models were pressed ${pressed[*]} times"
+fi
+
 # A label image of the held-out sample, here a frame of the base model's first packing, beside the models that are run
 # again: as calendem compare finds it, and off by as many deviations of image and mean.
 mapfile -t ids < <(awk -F, '$2 == "done" { print $3 }' far/rerun/study.csv)

@@ -11,7 +11,7 @@ mkdir -p "$2"
 work=$(cd "$2" && pwd)
 cd "$core"
 # The readers, and of the library electrode all that two of them are linked with.
-sources=(base/*.cpp electrode/*.cpp electrode/*/*.cpp simulate/study_file.cpp diagnose/bank/bank_{spec,table}.cpp
+sources=(base/*.cpp electrode/*.cpp electrode/*/*.cpp simulate/study_file.cpp diagnose/bank/bank_{spec,study,table}.cpp
   diagnose/compare/simulated_run.cpp diagnose/inference/{bank,numerics,quantities}.cpp withheld/round_file.cpp)
 image_sources=(electrode/structure/{data_rows,image_header,label_image,tiff_image,vti_header}.cpp
   base/{image_series,messages,provenance}.cpp)

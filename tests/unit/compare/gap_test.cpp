@@ -113,6 +113,19 @@ TEST(FindGap, PressureCountsByTheSlopeOfTheRun) {
   EXPECT_NEAR(gap.rows[0].sd, std::hypot(1.2, 0.3), 1e-9);
 }
 
+// A film pressed once and one pressed twice are no two packings of one condition.
+TEST(FindGap, RunsPressedInDifferentWaysAreNotAveraged) {
+  std::vector<SimulatedRun> runs = {pressed_to(150, 0.31, "a"), pressed_to(150, 0.29, "b"),
+                                    pressed_to(80, 0.34, "a")};
+  EXPECT_EQ(find_gap(paper(), runs).rows.size(), 2u);
+  runs[1].way = "platen.presses = 2";
+  const Gap gap = find_gap(paper(), runs);
+  EXPECT_EQ(gap.rows.size(), 1u);
+  EXPECT_TRUE(std::any_of(gap.not_said.begin(), gap.not_said.end(), [](const std::string &s) {
+    return s.find("pressed in different ways") != std::string::npos;
+  }));
+}
+
 TEST(FindGap, ScatterIsPooledOverConditionsAndRunsOfOnePackingAreOne) {
   const Gap gap = find_gap(paper(), {pressed_to(150, 0.31, "a"), pressed_to(150, 0.33, "b"),
                                      pressed_to(150, 0.33, "b"), pressed_to(80, 0.34, "a"),
@@ -266,4 +279,19 @@ TEST(GapPage, HoldsItsNumbers) {
 }
 
 } // namespace
+// Of the film pressed twice, the second dwell: 80 and 70 of 100 MPa are its last quarter.
+TEST(PressureLeft, IsThatOfTheLastQuarterOfTheLastDwell) {
+  std::vector<std::string> stage = {"compression", "compression", "dwell",
+                                    "relaxation",  "compression", "compression"};
+  std::vector<double> pressure = {50, 90, 10, 1, 60, 100};
+  EXPECT_TRUE(std::isnan(pressure_left(stage, pressure)));
+  for (const double p : {95.0, 93.0, 92.0, 90.0, 85.0, 82.0, 80.0, 70.0}) {
+    stage.push_back("dwell");
+    pressure.push_back(p);
+  }
+  stage.push_back("relaxation");
+  pressure.push_back(5);
+  EXPECT_DOUBLE_EQ(pressure_left(stage, pressure), 0.75);
+}
+
 } // namespace calendem

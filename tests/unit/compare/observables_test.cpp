@@ -127,6 +127,28 @@ TEST(Observables, ThePeakOfACoarseCurveCounts) {
   EXPECT_EQ(of_curve(rows)[3].name, "displacement at 112 MPa"); // 75 % of 150
 }
 
+// Of a film that was pressed twice, the first loading and the last release; the turns between are no
+// outliers, and nothing jumps.
+TEST(Observables, OfTwoPressesTheFirstLoadingAndTheLastRelease) {
+  std::string rows = "displacement_um,pressure_MPa,stage\n";
+  const auto add = [&](double from, double to, int pressure, const std::string &stage) {
+    rows += std::to_string(from + (to - from) * 0.01 * pressure) + "," + std::to_string(pressure) +
+            "," + stage + "\n";
+  };
+  for (int p = 0; p <= 100; p += 10)
+    add(0.0, 20.0, p, "loading");
+  for (int p = 90; p >= 0; p -= 10)
+    add(16.0, 20.0, p, "unloading");
+  for (int p = 10; p <= 100; p += 10)
+    add(17.0, 22.0, p, "loading");
+  for (int p = 90; p >= 0; p -= 10)
+    add(18.0, 22.0, p, "unloading");
+  const auto all = of_curve(rows);
+  ASSERT_EQ(all.size(), 7u);
+  EXPECT_NEAR(all[2].measured, 10.0, 1e-9); // half of the pressure
+  EXPECT_NEAR(all[5].measured, 20.0, 1e-9);
+}
+
 // A roll gap counts by its pressure, a curve by its largest displacement.
 TEST(Belongs, ControlsThatARunCanHave) {
   SimulatedRun r = pressed_to(150, 0.3, "a");

@@ -53,6 +53,7 @@ TEST(ExperimentData, ConditionsThatTheBankLacksAreReported) {
   e.conditions.push_back(other);
   other.id = "d";
   other.control = "displacement";
+  other.max_pressure_MPa.reset();
   e.conditions.push_back(other);
   const ExperimentData data = data_of(e, made_bank(), {});
   EXPECT_EQ(data.experiment.of.size(), 6u);
@@ -60,6 +61,23 @@ TEST(ExperimentData, ConditionsThatTheBankLacksAreReported) {
        {"p60: the bank's runs do not dwell; its 5 s", "p60: label images",
         "p90: 90 MPa lies outside the bank's 30 to 60 MPa", "d: control = \"displacement\""})
     EXPECT_TRUE(reported(data, part)) << part;
+}
+
+// The same film at the same pressure, however the platen was told to go there; of a gap alone the bank
+// says nothing.
+TEST(ExperimentData, AFilmPressedToAGapIsThatAtItsPressure) {
+  Experiment e = made_experiment(kTruth);
+  e.conditions[0].max_pressure_MPa->sd = e.conditions[1].max_pressure_MPa->sd = 1.0;
+  const ExperimentData by_pressure = data_of(e, made_bank(), {});
+  for (Condition &c : e.conditions)
+    c.control = "thickness";
+  const ExperimentData by_gap = data_of(e, made_bank(), {});
+  EXPECT_TRUE(reported(by_gap, "p60: it was pressed to a thickness"));
+  EXPECT_FALSE(reported(by_pressure, "it was pressed to"));
+  EXPECT_EQ(by_gap.experiment.values, by_pressure.experiment.values);
+  EXPECT_EQ(by_gap.experiment.covariance, by_pressure.experiment.covariance);
+  ASSERT_EQ(by_gap.bank.runs.size(), by_pressure.bank.runs.size());
+  EXPECT_EQ(by_gap.bank.runs[0].values, by_pressure.bank.runs[0].values);
 }
 
 // As the bank's own run would show it, reported where the bank has none.
@@ -353,7 +371,7 @@ TEST(ExperimentData, NothingToCompareIsBadInput) {
     FAIL();
   } catch (const Failure &f) {
     EXPECT_EQ(f.exit_status(), kBadInput);
-    EXPECT_NE(std::string(f.what()).find("control = \"pressure\""), std::string::npos);
+    EXPECT_NE(std::string(f.what()).find("max_pressure_MPa within the bank's"), std::string::npos);
   }
 }
 

@@ -35,7 +35,7 @@ SimulatedRun run_to(double pressure) {
   const BankRow *best = nullptr;
   double least = INFINITY;
   for (const BankRow &row : bank().rows) {
-    if (!row.point.effect.empty() || row.run.target != pressure)
+    if (!row.point.effect.empty() || !row.run.pressing.empty() || row.run.target != pressure)
       continue;
     double off = 0.0;
     for (std::size_t p = 0; p < row.point.base.size(); ++p) {

@@ -64,12 +64,13 @@ TEST(PartialBank, APointCountsWhereItHasTheRunsThatAreNeeded) {
     EXPECT_EQ(runs_of(data, "friction"), 12) << pressure;
     EXPECT_FALSE(reported(data, "lack a run")) << pressure;
   }
-  for (const auto &[pressure, runs] : {std::pair(90.0, "60 or 120"), std::pair(120.0, "120")}) {
+  for (const auto &[pressure, runs] :
+       {std::pair(90.0, "60 MPa or 120 MPa"), std::pair(120.0, "120 MPa")}) {
     const ExperimentData data = data_of(at(pressure), table, {});
     EXPECT_EQ(runs_of(data, "friction"), 6) << pressure;
     EXPECT_EQ(runs_of(data, ""), 24) << pressure;
     EXPECT_TRUE(reported(data, std::string("6 of the bank's 36 points lack a run to ") + runs +
-                                   " MPa, or their base point does, and are left out."))
+                                   ", or their base point does, and are left out."))
         << pressure;
   }
   EXPECT_EQ(data_of(at(120.0), table, {}).bank.runs[0].values[0],
@@ -170,7 +171,7 @@ TEST(PartialBank, InterpolationIsAnErrorOfItsOwn) {
   Experiment cracked = at(90.0);
   cracked.conditions[0].porosity_after_percent.reset();
   cracked.conditions[0].cracked_bodies_fraction = Measured{0.5, 0.03};
-  EXPECT_NEAR(variance(cracked), 0.03 * 0.03 + std::pow(0.09 / 0.7 * by, 2), 1e-12);
+  EXPECT_NEAR(variance(cracked), 0.03 * 0.03 + std::pow(0.12 / 0.7 * by, 2), 1e-12);
 }
 
 } // namespace

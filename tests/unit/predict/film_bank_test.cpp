@@ -239,6 +239,8 @@ TEST(FilmBank, TheFullCellShiftsFilmsOfItsLoading) {
       run.porosity_after -= 0.03;
       table.rows.push_back({point, run});
     }
+  table.rows.push_back(table.rows.back());
+  table.rows.back().run.target = 33.0; // none of the bank's pressures: has no part in it
   const FilmBank shifted(table);
   Film film = made_film("x", 47.97, 2.0);
   const auto after = [&](const FilmBank &bank) {

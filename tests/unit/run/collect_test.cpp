@@ -37,6 +37,20 @@ TEST(GapAtLoss, OfTheLastPass) {
   EXPECT_DOUBLE_EQ(*gap_at_loss(rows, 0.05, 100.0), 19.75);
 }
 
+// Requirement: of presses to one target the last counts, whatever the overshoot; of passes that carry
+// less and less the one that carries most.
+TEST(TopOf, TheLastTimeThatAFilmGetsAsFar) {
+  const auto pressed = [](double first, double second) {
+    return std::vector<RawRow>{row(1, 20.0, 50.0), row(2, 19.0, first), row(3, 20.5, 0.5),
+                               row(1, 19.5, 40.0), row(1, 18.2, 70.0),  row(2, 18.0, second),
+                               row(3, 18.1, 60.0), row(4, 20.0, 0.1)};
+  };
+  EXPECT_EQ(top_of(pressed(100.0, 99.9)).gap, 18.0);
+  EXPECT_EQ(top_of(pressed(100.0, 100.1)).gap, 18.0);
+  EXPECT_EQ(top_of(pressed(100.0, 90.0)).gap, 19.0);
+  EXPECT_EQ(top_of({row(1, 20.0, 10.0), row(3, 21.0, 1.0)}).gap, 20.0);
+}
+
 // The rows that a film of that pressure gives on release, averaged over `window`, 0.1 um apart.
 template <class Film>
 std::vector<RawRow> released(Film film, double from, double speed, double window) {

@@ -69,13 +69,15 @@ TEST(RollPasses, LineLoadOfALinearFilm) {
 // Requirement: what a roll cannot do is refused, all of it at once.
 TEST(RollPasses, CaseIsChecked) {
   try {
-    case_with("[platen]\ncontrol = \"roll_gap\"\nroll_gap_um = 50\ndwell_us = 1\npresses = 2\n[roll]\n"
-              "first_gap_um = 40\n[effects.machine_compliance]\num_per_MPa = 0.01\n");
+    case_with(
+        "[platen]\ncontrol = \"roll_gap\"\nroll_gap_um = 50\ndwell_us = 1\npresses = 2\n[roll]\n"
+        "first_gap_um = 40\n[effects.machine_compliance]\num_per_MPa = 0.01\n");
     FAIL() << "the case was taken";
   } catch (const std::exception &e) {
-    for (const char *said : {"roll.first_gap_um is 40, below platen.roll_gap_um = 50",
-                             "does not stand still in the nip",
-                             "a roll goes over the film roll.passes times", "is the gap of the loaded rolls"})
+    for (const char *said :
+         {"roll.first_gap_um is 40, below platen.roll_gap_um = 50",
+          "does not stand still in the nip", "a roll goes over the film roll.passes times",
+          "is the gap of the loaded rolls"})
       EXPECT_NE(std::string(e.what()).find(said), std::string::npos) << e.what();
   }
   try {

@@ -289,9 +289,12 @@ TEST(VerificationPlaten, PressedThreeTimesAnElasticColumnIsAsItWas) {
   const double top = top_of(spheres) + kGap;
   Settings three = motion("pressure", target, top, 0.005);
   three["passes"] = "3";
-  const CaseRun run = press(
-      spheres, three,
-      {{"bonded", "0"}, {"damping", "0.02"}, {"dt", "2e-4"}, {"steps", "600000"}, {"every", "100"}});
+  const CaseRun run = press(spheres, three,
+                            {{"bonded", "0"},
+                             {"damping", "0.02"},
+                             {"dt", "2e-4"},
+                             {"steps", "600000"},
+                             {"every", "100"}});
   ASSERT_TRUE(run.finished()) << run.why();
   double error[3] = {}, most[3] = {}, stage = 0.0;
   int pass = -1;

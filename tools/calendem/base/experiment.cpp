@@ -83,6 +83,10 @@ const std::vector<Key> &condition_keys() {
       {"specimen", "", "-", 0, 0, "",
        "name of the piece that was pressed, if conditions share one; default: each has its own", "",
        true},
+      {"pressing", "", "-", 0, 0, "",
+       "how it was pressed, if not in the usual way: name of a [[pressing]] of the bank that "
+       "diagnose learns from",
+       "", true},
   };
   return keys;
 }
@@ -115,6 +119,9 @@ const std::vector<Quantity> &quantities() {
         "nanoporosity of the carbon-binder domain after calendering; calibrate learns from it, the "
         "other verbs do not compare it"},
        &Condition::cbd_nanoporosity_after_percent},
+      {{"pressure_left_percent", "", "-", 0, 200, "%",
+        "pressure at the end of a dwell at constant gap, of that at its beginning"},
+       &Condition::pressure_left_percent},
   };
   return list;
 }

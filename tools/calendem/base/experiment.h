@@ -27,9 +27,10 @@ struct Condition {
   std::string id;
   std::string specimen; ///< the piece that was pressed; conditions may share one
   std::string control;  ///< pressure, displacement, thickness or roll_gap
+  std::string pressing; ///< name of a bank's way of pressing; empty: the usual one
   std::optional<Measured> roll_gap_um, displacement_um, thickness_at_max_um, max_pressure_MPa,
       loading_mg_cm2, porosity_before_percent, porosity_after_percent, thickness_after_um, mass_mg,
-      cracked_bodies_fraction, cbd_nanoporosity_after_percent;
+      cracked_bodies_fraction, cbd_nanoporosity_after_percent, pressure_left_percent;
   std::string curve;                       ///< absolute path of a CSV file, empty if none
   double curve_sd_um = 0.0;                ///< of each displacement of the curve; 0: not given
   double curve_drift_um = 0.0;             ///< sd at the curve's end, from 0 at its beginning

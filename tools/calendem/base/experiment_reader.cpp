@@ -130,6 +130,7 @@ private:
     c.curve_drift_um = number(*t, condition_keys()[7]);
     c.curve_zero_um = number(*t, condition_keys()[8]);
     c.specimen = text(*t, condition_keys()[9]);
+    c.pressing = text(*t, condition_keys()[10]);
     if (c.specimen.empty())
       c.specimen = c.id;
     for (const Quantity &q : quantities())

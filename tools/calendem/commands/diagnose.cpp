@@ -186,6 +186,9 @@ void run(Options o) {
   provenance["experiment_file"] = hash_of_file(o.experiment);
   provenance["bank"] = hash_of_file(o.bank);
   provenance["bank_table"] = hash_of_file(o.table);
+  if (const std::string &further = table.spec.further_table;
+      !further.empty() && std::filesystem::equivalent(o.table, table_of(table.spec)))
+    provenance["bank_further_table"] = hash_of_file(further);
   make_output_folder(o.folder);
   write_gap(d.gap, diagnosis_page(d.gap), o.folder);
   print(d);

@@ -25,17 +25,16 @@ struct Options {
 
 /// A study of points and where it goes.
 struct Part {
-  std::vector<BankPoint> points;
+  std::vector<PressedPoint> runs;
   Study study;
   StudyOptions options;
 };
 
 std::vector<Part> parts_of(const BankSpec &spec, const StudyOptions &o) {
-  std::vector<Part> out = {{bank_points(spec), {}, o}};
-  out[0].study = bank_study(spec, out[0].points);
+  std::vector<Part> out = {{bank_runs(spec), {}, o}};
+  out[0].study = pressed_study(spec, out[0].runs);
   if (spec.full_cell.points > 0) {
-    out.push_back({full_cell_points(spec), {}, o});
-    out[1].study = full_cell_study(spec, out[1].points);
+    out.push_back({full_cell_runs(spec), full_cell_study(spec), o});
     out[1].options.folder += "/full_cell";
     out[1].options.further = {"--full-cell"};
   }
@@ -50,11 +49,12 @@ void write_table(const BankSpec &spec, const std::vector<Part> &parts, const std
   for (const Part &part : parts) {
     const std::vector<std::string> folders = finished_runs(part.study, part.options);
     for (std::size_t k = 0; k < folders.size(); ++k)
-      if (folders[k].empty())
+      if (folders[k].empty()) {
         ++missing;
-      else
-        table.rows.push_back(
-            {part.points[k / spec.pressures.size()], read_simulated_run(folders[k])});
+      } else {
+        table.rows.push_back({part.runs[k].point, read_simulated_run(folders[k])});
+        table.rows.back().run.pressing = part.runs[k].name;
+      }
   }
   if (missing > 0)
     fmt::print("bank: {} of {} runs are not there yet; the table holds the others\n", missing,

@@ -64,7 +64,7 @@ std::string name_after_check(const std::string &file) {
     return fmt::format("study of {} runs", read_study(file).runs.size());
   case FileKind::Bank: {
     const BankSpec spec = read_bank_spec(file);
-    return fmt::format("bank of {} runs", bank_study(spec, bank_points(spec)).runs.size());
+    return fmt::format("bank of {} runs", pressed_study(spec, bank_runs(spec)).runs.size());
   }
   case FileKind::Round: {
     const Round round = read_round(file);

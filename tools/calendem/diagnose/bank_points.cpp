@@ -5,14 +5,15 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <set>
 
 namespace calendem {
 
 using inference::Vector;
 
-const BankRow *run_to(double pressure, const PointRuns &runs) {
+const BankRow *run_to(const PressedTo &wanted, const PointRuns &runs) {
   for (const BankRow *row : runs)
-    if (same_pressure(row->run.target, pressure))
+    if (row->run.pressing == wanted.pressing && same_pressure(row->run.target, wanted.pressure))
       return row;
   return nullptr;
 }
@@ -21,16 +22,19 @@ std::optional<SimulatedRun> run_at(const PointRuns &runs, const CoveredCondition
                                    const Shows &see) {
   if (c.runs.empty())
     return std::nullopt;
-  const BankRow *lower = run_to(c.runs.front(), runs), *upper = run_to(c.runs.back(), runs);
+  const std::string &pressing = c.condition.pressing;
+  const BankRow *lower = run_to({c.runs.front(), pressing}, runs),
+                *upper = run_to({c.runs.back(), pressing}, runs);
   if (!lower || !upper)
     return std::nullopt;
   return see(lower == upper ? lower->run : between_runs(lower->run, upper->run, c.pressure));
 }
 
-std::vector<double> pressures_of(const std::string &effect, const BankTable &table) {
+std::vector<double> pressures_of(const std::string &effect, const BankTable &table,
+                                 const std::string &pressing) {
   std::vector<double> out;
   for (const BankRow &row : table.rows)
-    if (row.point.effect == effect)
+    if (row.point.effect == effect && row.run.pressing == pressing)
       out.push_back(row.run.target);
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end(), same_pressure), out.end());
@@ -55,31 +59,33 @@ Points points_of_cell(const BankTable &table) {
   return points;
 }
 
-bool went_to(double pressure, const Points &points, const std::string &effect, int base_point) {
+bool went_to(const PressedTo &wanted, const Points &points, const std::string &effect,
+             int base_point) {
   const auto at = points.find({effect, base_point});
-  return at != points.end() && run_to(pressure, at->second);
+  return at != points.end() && run_to(wanted, at->second);
 }
 
 /// Points of each effect, and of the base model, that went there beside a base point that did.
-std::map<std::string, int> count_to(double pressure, const Points &points) {
+std::map<std::string, int> count_to(const PressedTo &wanted, const Points &points) {
   std::map<std::string, int> count;
   for (const auto &[key, runs] : points)
-    count[key.first] += run_to(pressure, runs) && went_to(pressure, points, "", key.second);
+    count[key.first] += run_to(wanted, runs) && went_to(wanted, points, "", key.second);
   return count;
 }
 
 } // namespace
 
-std::vector<double> pressures_learnt(const BankTable &table, bool with_effects) {
+std::vector<double> pressures_learnt(const BankTable &table, bool with_effects,
+                                     const std::string &pressing) {
   const Points points = points_of_cell(table);
-  const std::vector<double> pressures = pressures_of("", table);
+  const std::vector<double> pressures = pressures_of("", table, pressing);
   std::map<std::string, int> most;
   for (const double p : pressures)
-    for (const auto &[effect, n] : count_to(p, points))
+    for (const auto &[effect, n] : count_to({p, pressing}, points))
       most[effect] = std::max(most[effect], n);
   std::vector<double> out;
   for (const double p : pressures) {
-    const auto count = count_to(p, points);
+    const auto count = count_to({p, pressing}, points);
     const bool enough = std::all_of(count.begin(), count.end(), [&](const auto &of) {
       const int fewest =
           inference::kFewestRuns + (of.first.empty() ? int(table.spec.parameters.size()) : 0);
@@ -101,29 +107,36 @@ std::vector<double> beside(double pressure, const std::vector<double> &pressures
   return {};
 }
 
-std::vector<double> runs_for(const std::vector<CoveredCondition> &all) {
-  std::vector<double> out;
+std::vector<PressedTo> runs_for(const std::vector<CoveredCondition> &all) {
+  std::set<std::pair<std::string, double>> runs;
   for (const CoveredCondition &c : all)
-    out.insert(out.end(), c.runs.begin(), c.runs.end());
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
+    for (const double pressure : c.runs)
+      runs.emplace(c.condition.pressing, pressure);
+  std::vector<PressedTo> out;
+  for (const auto &[pressing, pressure] : runs)
+    out.push_back({pressure, pressing});
   return out;
 }
 
-std::vector<PointRuns> points_of(const BankTable &table, const std::vector<double> &pressures,
+std::vector<PointRuns> points_of(const BankTable &table, const std::vector<PressedTo> &wanted,
                                  std::vector<std::string> &not_said) {
   const Points points = points_of_cell(table);
   std::vector<PointRuns> out;
   for (const auto &[key, runs] : points)
-    if (std::all_of(pressures.begin(), pressures.end(), [&, &of = key](double p) {
-          return went_to(p, points, of.first, of.second) && went_to(p, points, "", of.second);
+    if (std::all_of(wanted.begin(), wanted.end(), [&, &of = key](const PressedTo &to) {
+          return went_to(to, points, of.first, of.second) && went_to(to, points, "", of.second);
         }))
       out.push_back(runs);
-  if (out.size() < points.size())
-    not_said.push_back(fmt::format("{} of the bank's {} points lack a run to {:g} MPa, or their "
-                                   "base point does, and are left out.",
+  if (out.size() < points.size()) {
+    std::vector<std::string> names;
+    for (const PressedTo &to : wanted)
+      names.push_back(fmt::format("{:g} MPa{}", to.pressure,
+                                  to.pressing.empty() ? "" : " (" + to.pressing + ")"));
+    not_said.push_back(fmt::format("{} of the bank's {} points lack a run to {}, or their base "
+                                   "point does, and are left out.",
                                    points.size() - out.size(), points.size(),
-                                   fmt::join(pressures, " or ")));
+                                   fmt::join(names, " or ")));
+  }
   return out;
 }
 
@@ -289,7 +302,7 @@ std::vector<inference::PointNoise> point_noise_of(const Experiment &e, const Ban
       continue;
     }
     const std::size_t given = c.observables.size();
-    const std::vector<PointRuns> points = points_of(table, c.runs, reported);
+    const std::vector<PointRuns> points = points_of(table, runs_for({c}), reported);
     c.observables = reached(points, c);
     std::vector<PointRuns> whole;
     if (c.observables.size() >= kFewestRows) {

@@ -26,14 +26,17 @@ struct CoveredCondition {
   std::vector<double> runs = {};
 };
 
-/// Pressures closer than this share of them are the same.
-constexpr double kSamePressure = 0.02;
-inline bool same_pressure(double a, double b) { return std::fabs(a - b) <= kSamePressure * b; }
+/// The run went to the condition's pressure, in its way of pressing.
+inline bool pressed_as(const SimulatedRun &run, const Condition &c) {
+  return run.pressing == c.pressing && c.max_pressure_MPa &&
+         same_pressure(run.target, c.max_pressure_MPa->value);
+}
 
-/// Pressures to which enough points of the bank were run to learn from them [MPa]: of the base model
-/// and of every effect, or if not `with_effects` of the base model. Enough are as many as can be
-/// learnt from, or all there are.
-std::vector<double> pressures_learnt(const BankTable &table, bool with_effects);
+/// Pressures to which enough points of the bank were run, pressed in that way, to learn from them
+/// [MPa]: of the base model and of every effect, or if not `with_effects` of the base model. Enough
+/// are as many as can be learnt from, or all there are.
+std::vector<double> pressures_learnt(const BankTable &table, bool with_effects,
+                                     const std::string &pressing = "");
 
 /// Of `pressures` (increasing) the same one, or those next to it on either side; none outside.
 std::vector<double> beside(double pressure, const std::vector<double> &pressures);
@@ -67,19 +70,26 @@ using PointRuns = std::vector<const BankRow *>;
 /// How a press shows a run.
 using Shows = std::function<SimulatedRun(const SimulatedRun &)>;
 
-/// Points that were run to all of `pressures`, beside a base point that was, with all their runs.
+/// What a condition needs a run to: a pressure [MPa], in that way of pressing.
+struct PressedTo {
+  double pressure = 0.0;
+  std::string pressing = {};
+};
+
+/// Points that were run to all of `wanted`, beside a base point that was, with all their runs.
 /// The number left out is reported in `not_said`. The rows stay the table's.
-std::vector<PointRuns> points_of(const BankTable &table, const std::vector<double> &pressures,
+std::vector<PointRuns> points_of(const BankTable &table, const std::vector<PressedTo> &wanted,
                                  std::vector<std::string> &not_said);
 
 /// The run to that pressure; null: there is none.
-const BankRow *run_to(double pressure, const PointRuns &runs);
+const BankRow *run_to(const PressedTo &wanted, const PointRuns &runs);
 
-/// Pressures of the runs that the conditions need, increasing.
-std::vector<double> runs_for(const std::vector<CoveredCondition> &all);
+/// The runs that the conditions need, each once.
+std::vector<PressedTo> runs_for(const std::vector<CoveredCondition> &all);
 
-/// To which points of the effect were run, increasing.
-std::vector<double> pressures_of(const std::string &effect, const BankTable &table);
+/// To which points of the effect were run in that way, increasing.
+std::vector<double> pressures_of(const std::string &effect, const BankTable &table,
+                                 const std::string &pressing = "");
 
 /// The point's run to a condition's pressure, as a press shows it; none: it has not the runs.
 std::optional<SimulatedRun> run_at(const PointRuns &runs, const CoveredCondition &condition,

@@ -3,13 +3,9 @@
 #include "diagnose/rerun.h"
 #include "diagnose/sample_film.h"
 #include <algorithm>
-#include <boost/random/chi_squared_distribution.hpp>
-#include <boost/random/mersenne_twister.hpp>
-#include <boost/random/normal_distribution.hpp>
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
-#include <limits>
 
 namespace calendem {
 
@@ -17,15 +13,18 @@ namespace {
 
 constexpr double kOtherFilm = 0.1; // of the film: more than a bank varies it
 
-/// Mean over the base model's runs to the bank's pressure next to this one.
-double usual(const BankTable &table, double pressure,
+/// Mean over the base model's runs to the bank's pressure next to the condition's, pressed so.
+double usual(const BankTable &table, const Condition &c,
              const std::function<double(const SimulatedRun &)> &value) {
   double sum = 0.0, n = 0.0, apart = INFINITY;
+  const auto off = [&](const BankRow &row) {
+    const bool base = row.point.effect.empty() && row.run.pressing == c.pressing;
+    return base ? std::fabs(row.run.target - c.max_pressure_MPa->value) : INFINITY;
+  };
   for (const BankRow &row : table.rows)
-    if (row.point.effect.empty())
-      apart = std::min(apart, std::fabs(row.run.target - pressure));
+    apart = std::min(apart, off(row));
   for (const BankRow &row : table.rows)
-    if (row.point.effect.empty() && std::fabs(row.run.target - pressure) <= apart) {
+    if (std::isfinite(apart) && off(row) <= apart) {
       sum += value(row.run);
       n += 1.0;
     }
@@ -43,6 +42,7 @@ Condition bare(const Condition &c) {
   out.id = c.id;
   out.specimen = c.specimen;
   out.control = c.control;
+  out.pressing = c.pressing;
   out.max_pressure_MPa = c.max_pressure_MPa;
   out.loading_mg_cm2 = c.loading_mg_cm2;
   out.mass_mg = c.mass_mg;
@@ -76,9 +76,10 @@ public:
   /// Measured to the price's deviation at what the bank usually gives.
   Measured expected(const Condition &c,
                     const std::function<double(const SimulatedRun &)> &value) const {
-    return {usual(table_, c.max_pressure_MPa->value, value), price_.sd};
+    return {usual(table_, c, value), price_.sd};
   }
   double sd() const { return price_.sd; }
+  void set_hours(double hours) { out_.hours = hours; }
   void finish(std::vector<Further> &list) const {
     if (!out_.of.empty())
       list.push_back(out_);
@@ -121,7 +122,31 @@ void add_curve(Kind &kind, const Experiment &e, const Condition &c, Branch branc
   kind.add(c, points);
 }
 
+/// What a dwell leaves of the pressure, on the condition that has one.
+void add_porosity_and_dwell(Kind &kind, Condition c, bool rests) {
+  constexpr double kReading = 1.0; // %, of the pressure left
+  if (rests)
+    c.pressure_left_percent = Measured{
+        kind.expected(c, [](const SimulatedRun &r) { return 100.0 * r.pressure_left; }).value,
+        kReading};
+  add_porosity(kind, c);
+}
+
+/// The bank's runs of that way dwell.
+bool rests_in(const BankTable &table, const std::string &pressing) {
+  return std::any_of(table.rows.begin(), table.rows.end(), [&](const BankRow &row) {
+    return row.run.pressing == pressing && std::isfinite(row.run.pressure_left);
+  });
+}
+
 bool of_release(const Observable &o) { return !o.curve.empty() && o.stage == "relaxation"; }
+
+bool among(const std::vector<CoveredCondition> &covered, double pressure,
+           const std::string &pressing) {
+  return std::any_of(covered.begin(), covered.end(), [&](const CoveredCondition &c) {
+    return c.condition.pressing == pressing && same_pressure(c.pressure, pressure);
+  });
+}
 
 /// Another specimen at a pressure of the bank, read as well as those of the experiment.
 Condition at_pressure(double pressure, const std::vector<CoveredCondition> &covered) {
@@ -137,36 +162,76 @@ Condition at_pressure(double pressure, const std::vector<CoveredCondition> &cove
 
 } // namespace
 
+namespace {
+
+/// Pressures of the bank's runs for the condition; none: it is left out, and why is reported.
+std::vector<double> runs_of(const Condition &c, const BankTable &table,
+                            std::vector<std::string> &not_said) {
+  if (!c.pressing.empty() && !find_pressing(table.spec, c.pressing)) {
+    std::vector<std::string> known;
+    for (const BankPressing &p : table.spec.pressings)
+      if (!p.name.empty())
+        known.push_back("\"" + p.name + "\"");
+    not_said.push_back(fmt::format(
+        "{}: pressing = \"{}\" is not in the bank, which has {}; the condition is left out.", c.id,
+        c.pressing,
+        known.empty() ? "the usual one only" : fmt::format("{}", fmt::join(known, ", "))));
+    return {};
+  }
+  const double p = c.max_pressure_MPa->value;
+  std::vector<double> runs = beside(p, pressures_learnt(table, true, c.pressing));
+  const std::vector<double> reached = pressures_learnt(table, false, c.pressing);
+  if (runs.empty())
+    runs = beside(p, reached);
+  const std::string so = c.pressing.empty() ? "" : fmt::format(" of \"{}\"", c.pressing);
+  if (reached.empty())
+    not_said.push_back(fmt::format("{}: the bank's table has no runs{}.", c.id, so));
+  else if (runs.empty())
+    not_said.push_back(fmt::format("{}: {:g} MPa lies outside the bank's {:g} to {:g} MPa{}; the "
+                                   "condition is left out. Another bank may reach it (--bank).",
+                                   c.id, p, reached.front(), reached.back(), so));
+  return runs;
+}
+
+/// A film that was not pressed to a pressure, but has one.
+void say_of_control(const Condition &c, std::vector<std::string> &not_said) {
+  if (by_pressure(c))
+    return;
+  not_said.push_back(fmt::format(
+      "{}: it was pressed to a {} and is set beside runs to the pressure "
+      "that was measured there{}.",
+      c.id, c.control, c.displacement_um ? "; displacement_um is left out, give the curve" : ""));
+}
+
+} // namespace
+
 std::vector<CoveredCondition> covered_conditions(const Experiment &e, const BankTable &table,
                                                  const std::vector<std::string> &wanted,
                                                  std::vector<std::string> &not_said) {
-  const std::vector<double> whole = pressures_learnt(table, true),
-                            reached = pressures_learnt(table, false);
   std::vector<CoveredCondition> out;
-  for (const Condition &c : e.conditions) {
+  for (Condition c : e.conditions) {
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), c.id) == wanted.end())
       continue;
-    if (!by_pressure(c)) {
-      not_said.push_back(fmt::format("{}: control = \"{}\" is not in the bank, whose runs go to a "
-                                     "pressure; the condition is left out.",
+    if (!c.max_pressure_MPa) {
+      not_said.push_back(fmt::format("{}: control = \"{}\" without max_pressure_MPa: the bank's "
+                                     "runs go to a pressure; the condition is left out.",
                                      c.id, c.control));
       continue;
     }
     const double p = c.max_pressure_MPa->value;
-    std::vector<double> runs = beside(p, whole);
+    const std::vector<double> runs = runs_of(c, table, not_said);
     if (runs.empty())
-      runs = beside(p, reached);
-    if (reached.empty()) {
-      not_said.push_back(fmt::format("{}: the bank's table has no runs.", c.id));
       continue;
-    }
-    if (runs.empty()) {
-      not_said.push_back(fmt::format("{}: {:g} MPa lies outside the bank's {:g} to {:g} MPa; the "
-                                     "condition is left out. Another bank may reach it (--bank).",
-                                     c.id, p, reached.front(), reached.back()));
-      continue;
-    }
-    if (c.dwell_s > 0.0)
+    say_of_control(c, not_said);
+    c.control = "pressure";
+    const bool rests = rests_in(table, c.pressing);
+    if (rests && (c.dwell_s > 0.0 || c.pressure_left_percent))
+      not_said.push_back(fmt::format(
+          "{}: its dwell{} is set beside the bank's{}; the share of the pressure that it leaves is "
+          "taken to be the same in films of any thickness.",
+          c.id, c.dwell_s > 0.0 ? fmt::format(" of {:g} s", c.dwell_s) : "",
+          c.pressing.empty() ? "" : " (" + find_pressing(table.spec, c.pressing)->what + ")"));
+    else if (c.dwell_s > 0.0)
       not_said.push_back(fmt::format("{}: the bank's runs do not dwell; its {:g} s at the target "
                                      "are left out.",
                                      c.id, c.dwell_s));
@@ -176,7 +241,13 @@ std::vector<CoveredCondition> covered_conditions(const Experiment &e, const Bank
           "a held-out condition are set beside the models that are run again; calendem compare "
           "sets any beside runs.",
           c.id));
-    const Condition known = with_loading(e, c, table, not_said);
+    Condition known = with_loading(e, c, table, not_said);
+    if (c.pressure_left_percent && !rests) {
+      known.pressure_left_percent.reset();
+      not_said.push_back(fmt::format("{}: pressure_left_percent is left out: the bank's runs for "
+                                     "it do not dwell. Name a [[pressing]] that does (pressing).",
+                                     c.id));
+    }
     std::vector<Observable> seen = observables_of(e, known, not_said);
     if (!has_release(table) && std::any_of(seen.begin(), seen.end(), of_release)) {
       seen.erase(std::remove_if(seen.begin(), seen.end(), of_release), seen.end());
@@ -216,11 +287,25 @@ std::vector<Further> further_measurements(const Experiment &e, const BankTable &
     kind->finish(list);
   for (const double p : pressures_learnt(table, true)) {
     Kind other(e, table, "porosity_after");
-    if (std::none_of(covered.begin(), covered.end(),
-                     [&](const CoveredCondition &c) { return same_pressure(c.pressure, p); }))
+    if (!among(covered, p, ""))
       add_porosity(other, at_pressure(p, covered));
     other.finish(list);
   }
+  for (const BankPressing &pressing : table.spec.pressings)
+    for (const double p : pressing.pressures) {
+      Kind other(e, table, "porosity_after");
+      if (pressing.name.empty() || among(covered, p, pressing.name) || !among(covered, p, "") ||
+          beside(p, pressures_learnt(table, true, pressing.name)).size() != 1)
+        continue;
+      Condition c = at_pressure(p, covered);
+      c.id = c.specimen = fmt::format("{}, {}", c.id, pressing.what);
+      c.pressing = pressing.name;
+      add_porosity_and_dwell(other, c, rests_in(table, pressing.name));
+      for (const MeasurementPrice &price : table.spec.prices)
+        if (price.name == pressing.name)
+          other.set_hours(price.hours);
+      other.finish(list);
+    }
   for (Further &f : list)
     for (CoveredCondition &c : f.of) {
       const auto at =
@@ -230,115 +315,6 @@ std::vector<Further> further_measurements(const Experiment &e, const BankTable &
       c.runs = at == covered.end() ? std::vector<double>{c.pressure} : at->runs;
     }
   return list;
-}
-
-using inference::Matrix;
-using inference::Vector;
-namespace {
-
-constexpr int kResamples = 1000;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-Vector squared_error_of_mean(const Matrix &packings) {
-  const Eigen::Index n = packings.cols();
-  if (n < 2)
-    return Vector::Zero(packings.rows());
-  const Matrix centred = packings.colwise() - packings.rowwise().mean();
-  return centred.rowwise().squaredNorm() / double(n - 1) / double(n);
-}
-
-double shrunk(double before, double after) { return before > 0.0 ? 1.0 - after / before : kNaN; }
-
-/// A mean that other packings could have given: normal packings' means are t-distributed about the
-/// one found. `weights`: a number for each packing.
-Vector mean_of(const Matrix &packings, const Vector &weights) {
-  const double n = double(packings.cols());
-  const Vector mean = packings.rowwise().mean();
-  return mean + (packings.colwise() - mean) * weights / std::sqrt(n * (n - 1.0));
-}
-
-/// A resample: its measured values and the weights of its packings.
-using OfResample = std::function<double(const HeldOut &, const Vector &)>;
-
-std::vector<double> resampled(const HeldOut &held_out, int packings, const OfResample &value) {
-  boost::random::mt19937 random(1);
-  boost::random::normal_distribution<double> normal;
-  boost::random::chi_squared_distribution<double> square(packings - 1);
-  std::vector<double> out;
-  for (int k = 0; k < kResamples; ++k) {
-    HeldOut again = held_out;
-    for (Eigen::Index i = 0; i < again.measured.size(); ++i)
-      again.measured[i] += again.sd[i] * normal(random);
-    const double spread = std::sqrt((packings - 1) / square(random));
-    Vector weights(packings);
-    for (double &w : weights)
-      w = spread * normal(random);
-    out.push_back(value(again, weights));
-  }
-  return out;
-}
-
-} // namespace
-
-void add_sample_scatter(const std::vector<Matrix> &models, double cells, HeldOut &held_out) {
-  Vector variance = Vector::Zero(held_out.sd.size());
-  for (const Matrix &packings : models)
-    variance += squared_error_of_mean(packings) * double(packings.cols()) / double(models.size());
-  held_out.sd = (held_out.sd.cwiseAbs2() + variance / cells).cwiseSqrt();
-}
-
-double gap_of(const HeldOut &held_out, const Vector &mean, const Vector &scatter, double noises) {
-  const Vector variance = held_out.sd.cwiseAbs2();
-  const Vector excess = ((mean - held_out.measured).cwiseAbs2() - noises * (variance + scatter))
-                            .cwiseQuotient(variance);
-  double sum = 0.0;
-  for (const inference::Block &b : held_out.blocks)
-    sum += excess(b.members).mean();
-  return std::sqrt(std::max(0.0, sum / double(held_out.blocks.size())));
-}
-
-Estimate interval_of(double value, std::vector<double> draws) {
-  draws.erase(std::remove_if(draws.begin(), draws.end(), [](double d) { return std::isnan(d); }),
-              draws.end());
-  if (draws.empty())
-    return {value, kNaN, kNaN};
-  std::sort(draws.begin(), draws.end());
-  const auto quantile = [&](double share) {
-    return draws[std::size_t(std::lround(share * double(draws.size() - 1)))];
-  };
-  return {value, quantile(0.05), quantile(0.95)};
-}
-
-Estimate gap_of_packings(const HeldOut &held_out, const Matrix &simulated) {
-  const Vector scatter = squared_error_of_mean(simulated);
-  // a resample holds noise and scatter twice: the data's and its own
-  const auto again = [&](const HeldOut &h, const Vector &weights) {
-    return gap_of(h, mean_of(simulated, weights), scatter, 2.0);
-  };
-  return interval_of(gap_of(held_out, simulated.rowwise().mean(), scatter),
-                     resampled(held_out, int(simulated.cols()), again));
-}
-
-double noise_floor(const HeldOut &held_out, const Matrix &simulated) {
-  const Vector scatter = squared_error_of_mean(simulated);
-  HeldOut without = held_out;
-  without.measured = simulated.rowwise().mean();
-  const auto again = [&](const HeldOut &h, const Vector &weights) {
-    return gap_of(h, mean_of(simulated, weights), scatter);
-  };
-  return interval_of(0.0, resampled(without, int(simulated.cols()), again)).high90;
-}
-
-Estimate shrinkage_of(const HeldOut &held_out, const Matrix &before, const Matrix &after) {
-  const Vector scatter_before = squared_error_of_mean(before),
-               scatter_after = squared_error_of_mean(after);
-  const auto again = [&](const HeldOut &h, const Vector &weights) {
-    return shrunk(gap_of(h, mean_of(before, weights), scatter_before, 2.0),
-                  gap_of(h, mean_of(after, weights), scatter_after, 2.0));
-  };
-  const double value = shrunk(gap_of(held_out, before.rowwise().mean(), scatter_before),
-                              gap_of(held_out, after.rowwise().mean(), scatter_after));
-  return interval_of(value, resampled(held_out, int(before.cols()), again));
 }
 
 } // namespace calendem

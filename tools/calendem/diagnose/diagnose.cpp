@@ -180,6 +180,17 @@ Common common_of(const ExperimentData &before, const ExperimentData &after) {
   return out;
 }
 
+void check_pressings(const Experiment &before, const Experiment &after) {
+  for (const Condition &then : before.conditions)
+    for (const Condition &now : after.conditions)
+      if (now.id == then.id && now.pressing != then.pressing)
+        throw Failure(kBadInput,
+                      fmt::format("condition \"{}\" has pressing = \"{}\" before and \"{}\" after "
+                                  "the change. A change is seen on films that are pressed alike: "
+                                  "give others other ids.",
+                                  now.id, then.pressing, now.pressing));
+}
+
 /// Errors that a change of the sample does not cancel.
 Matrix own_errors(const ExperimentData &data, const std::vector<int> &places) {
   Matrix out = data.experiment.covariance;
@@ -224,6 +235,7 @@ Diagnosed diagnosed_change(const Experiment &before, const Experiment &after,
   Vector predicted;
   const inference::KnownBase base =
       inference::recalibrated(of_first, first.experiment.values, predicted);
+  check_pressings(before, after);
   const Common both = common_of(first, out.data);
   make_difference(first, predicted, both, out.data);
   settings.model.specimens = out.data.specimens;

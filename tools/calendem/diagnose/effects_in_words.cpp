@@ -125,7 +125,8 @@ void add_amplitudes(Json &gap) {
 void add_prices(const BankTable &bank, Json &gap) {
   Json rows = Json::array();
   for (const MeasurementPrice &price : bank.spec.prices)
-    if (price.unit.empty() || (price.name == kUnloadingCurve && !has_release(bank)))
+    if ((price.unit.empty() && !find_pressing(bank.spec, price.name)) ||
+        (price.name == kUnloadingCurve && !has_release(bank)))
       rows.push_back({{"what", price.what}, {"cost", price.hours}});
   gap["which"]["not_in_bank"] = rows;
   gap["which"]["cost_unit"] = "working hours";

@@ -38,9 +38,10 @@ const Observable *find(const CoveredCondition &c, const Observable &like) {
 /// By what specimens may differ in this observable, beside the reading's own error; the bank says
 /// what a porosity does to it only later: a point of porosity is about 2 % of a thickness.
 double of_specimen(const Experiment &e, const Observable &o) {
-  const double porosity = o.unit == "%" ? e.specimen_porosity_points
-                          : o.name == "cracked bodies"
-                              ? 0.0
+  const bool of_porosity = o.per_porosity || o.per_initial_porosity;
+  const double porosity = !of_porosity ? 0.0
+                          : o.unit == "%"
+                              ? e.specimen_porosity_points
                               : 0.02 * e.specimen_porosity_points * std::fabs(o.measured);
   const double thickness =
       o.unit == "um" ? 0.01 * e.specimen_thickness_percent * std::fabs(o.measured) : 0.0;
@@ -148,7 +149,7 @@ std::vector<CoveredCondition> pooled_repeats(const Experiment &e,
                      std::none_of(group.begin(), group.end(), [&](const CoveredCondition &g) {
                        return g.condition.specimen == c.specimen;
                      }));
-      if (taken[j] || !other ||
+      if (taken[j] || !other || c.pressing != all[k].condition.pressing ||
           std::fabs(all[j].pressure - all[k].pressure) > kSame * all[k].pressure)
         continue;
       taken[j] = true;

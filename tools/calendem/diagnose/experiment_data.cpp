@@ -144,7 +144,7 @@ void set_experiment(const inference::ObservableVector &measured,
   if (kept.empty())
     throw Failure(kBadInput,
                   fmt::format("nothing that was measured can be compared with the bank. Conditions "
-                              "with control = \"pressure\" within the bank's pressures are needed."
+                              "with max_pressure_MPa within the bank's pressures are needed."
                               "{}",
                               as_list(data.not_said)));
   data.experiment = only(measured, kept);

@@ -21,7 +21,7 @@ Packings packings_of(const std::vector<SimulatedRun> &runs, const Condition &c,
                      const std::function<double(const SimulatedRun &)> &value) {
   std::vector<double> values;
   for (const SimulatedRun &r : runs)
-    if (belongs(r, c))
+    if (pressed_as(r, c))
       values.push_back(value(r));
   Packings out;
   out.count = int(values.size());
@@ -37,7 +37,7 @@ std::string why_none(const Observable &o, const Condition &c,
                      const std::vector<ModelRuns> &models) {
   for (const ModelRuns &m : models)
     for (const SimulatedRun &r : m.runs)
-      if (belongs(r, c) && !std::isfinite(o.simulated(r)))
+      if (pressed_as(r, c) && !std::isfinite(o.simulated(r)))
         return o.why_none(r).empty()
                    ? "a run shows no such thing."
                    : o.why_none(r) + " Runs made before there was an image keep no frames: remove "
@@ -73,7 +73,7 @@ ordered_json row_of(const Observable &o, const Condition &c, const std::vector<M
 bool has_images(const Condition &c) { return !c.labels_before.empty() || !c.labels_after.empty(); }
 
 bool has_images_beside(const Experiment &e, const Condition &c) {
-  return has_images(c) && by_pressure(c) &&
+  return has_images(c) && c.max_pressure_MPa &&
          std::find(e.test.begin(), e.test.end(), c.id) != e.test.end();
 }
 
@@ -81,7 +81,11 @@ ordered_json images_beside(const Experiment &e, const std::vector<ModelRuns> &mo
   ordered_json rows = ordered_json::array();
   std::vector<std::string> without;
   for (const Condition &c : e.conditions) {
-    if (!has_images_beside(e, c))
+    const bool run_so = std::any_of(models.begin(), models.end(), [&](const ModelRuns &m) {
+      return std::any_of(m.runs.begin(), m.runs.end(),
+                         [&](const SimulatedRun &r) { return pressed_as(r, c); });
+    });
+    if (!has_images_beside(e, c) || !run_so) // that the bank lacks its pressing is said elsewhere
       continue;
     std::map<std::string, std::vector<std::string>> reasons;
     for (const Observable &o : image_observables_of(e, c, without))

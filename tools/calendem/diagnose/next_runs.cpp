@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/next_runs.h"
 #include "base/case.h"
-#include "base/run_folder.h"
 #include "diagnose/sample_film.h"
 #include <algorithm>
 #include <cmath>
@@ -14,7 +13,7 @@ namespace {
 
 constexpr double kWorthTelling = 0.05;
 constexpr std::size_t kMostModels = 4;
-constexpr double kDwell = 3.0;        // us: of the simulation, three of cbd_viscoelasticity's times
+constexpr double kDwellUs = 3.0;      // us: of the simulation, three of cbd_viscoelasticity's times
 constexpr double kMorePressure = 2.0; // times the largest so far
 constexpr double kMoreLoading = 1.5;  // times the bank's
 constexpr double kSlower = 0.5;       // times the case's speeds
@@ -24,23 +23,8 @@ const char *const kLoading = "recipe.coating.loading_mg_cm2";
 const char *const kSpeeds[] = {"platen.speed_m_s", "platen.touch_speed_m_s",
                                "platen.release_speed_m_s"};
 
-/// Mean pressure of the last quarter of the dwell over that at its beginning, %.
 double pressure_left(const std::string &folder, const std::string &) {
-  RunFolder run(folder);
-  Mistakes mistakes, notes;
-  const Curve curve = run.curve({"pressure_MPa"}, mistakes, notes);
-  std::vector<double> dwell;
-  double before = std::nan("");
-  for (std::size_t k = 0; k < curve.rows(); ++k)
-    if (curve.stage[k] == "compression")
-      before = curve["pressure_MPa"][k];
-    else if (curve.stage[k] == "dwell")
-      dwell.push_back(curve["pressure_MPa"][k]);
-  double sum = 0.0;
-  const std::size_t from = dwell.size() * 3 / 4;
-  for (std::size_t k = from; k < dwell.size(); ++k)
-    sum += dwell[k];
-  return 100.0 * sum / double(dwell.size() - from) / before;
+  return 100.0 * read_simulated_run(folder).pressure_left;
 }
 
 double porosity_after(const std::string &folder, const std::string &) {
@@ -112,11 +96,11 @@ std::vector<NextRun> next_runs(const BankSpec &bank, double pressure) {
            {},
            cracked},
           {"dwell",
-           fmt::format("{:g} µs at constant gap after {:g} MPa", kDwell, pressure),
+           fmt::format("{:g} µs at constant gap after {:g} MPa", kDwellUs, pressure),
            "pressure left",
            "%",
            1.0,
-           {{"case.platen.dwell_us", kDwell}},
+           {{"case.platen.dwell_us", kDwellUs}},
            pressure_left},
           {"second_speed", fmt::format("{:g} MPa at half the speed", pressure),
            "porosity after, less that at full speed", "%", 0.7, slower, porosity_beside},

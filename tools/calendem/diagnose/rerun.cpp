@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The chosen models run again, and how far they are from what was held out.
 #include "diagnose/rerun.h"
+#include "base/case.h"
 #include "diagnose/compare/observables.h"
 #include "diagnose/inference/evidence.h"
 #include "diagnose/sample_film.h"
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
+#include <set>
 
 namespace calendem {
 
@@ -14,9 +17,9 @@ namespace {
 
 std::string text_of(double value) { return fmt::format("{:.4g}", value); }
 
-/// The models as runs: for each, the packings; for each packing, the pressures.
+/// The models as runs: for each, the packings; for each packing, the held-out pressings.
 Study study_of(const BankTable &table, const std::vector<RerunModel> &models,
-               const std::vector<double> &pressures, int packings, double film) {
+               const std::vector<PressedTo> &pressings, int packings, double film) {
   const BankSpec &spec = table.spec;
   Study study;
   study.file = spec.file;
@@ -24,13 +27,27 @@ Study study_of(const BankTable &table, const std::vector<RerunModel> &models,
   study.recipe_file = spec.recipe_file;
   study.case_file = spec.case_file;
   study.columns = model_columns(spec);
+  std::map<std::string, std::string> usual; // of the keys that any pressing has
+  const Settings of_case = read_case(spec.case_file);
+  for (const PressedTo &to : pressings)
+    if (const BankPressing *how = find_pressing(spec, to.pressing))
+      for (const auto &[key, value] : how->settings)
+        usual[key] = of_case.text(key);
   study.columns.push_back("case.platen.max_pressure_MPa");
+  for (const auto &[key, value] : usual)
+    study.columns.push_back("case." + key);
   std::vector<std::vector<std::string>> rows;
   for (const RerunModel &m : models)
     for (int k = 1; k <= packings; ++k)
-      for (const double pressure : pressures) {
+      for (const PressedTo &to : pressings) {
         rows.push_back(model_values(spec, m, k, film));
-        rows.back().push_back(text_of(pressure));
+        rows.back().push_back(text_of(to.pressure));
+        std::map<std::string, std::string> values = usual;
+        if (const BankPressing *how = find_pressing(spec, to.pressing))
+          for (const auto &[key, value] : how->settings)
+            values[key] = value;
+        for (const auto &[key, value] : values)
+          rows.back().push_back(value);
       }
   Mistakes mistakes(spec.file, 20);
   add_runs(study, rows, mistakes);
@@ -41,17 +58,18 @@ Study study_of(const BankTable &table, const std::vector<RerunModel> &models,
 /// The runs as rows of a bank's table: each model is a base point, so that the same code finds the
 /// observables.
 BankTable table_of(const BankTable &bank, const std::vector<RerunModel> &models, int packings,
-                   const std::vector<std::string> &folders, const std::vector<double> &pressures) {
+                   const std::vector<std::string> &folders,
+                   const std::vector<PressedTo> &pressings) {
   BankTable out;
   out.spec = bank.spec;
-  out.spec.pressures = pressures;
   out.spec.effects.clear();
   for (std::size_t k = 0; k < folders.size(); ++k) {
     BankRow row;
-    row.point.base_point = int(k / pressures.size());
+    row.point.base_point = int(k / pressings.size());
     row.point.packing = row.point.base_point + 1;
-    row.point.base = models[k / pressures.size() / std::size_t(packings)].base;
+    row.point.base = models[k / pressings.size() / std::size_t(packings)].base;
     row.run = read_simulated_run(folders[k]);
+    row.run.pressing = pressings[k % pressings.size()].pressing;
     out.rows.push_back(row);
   }
   return out;
@@ -61,14 +79,16 @@ nlohmann::ordered_json json_of(const Estimate &e) {
   return {{"value", e.value}, {"low90", e.low90}, {"high90", e.high90}};
 }
 
-/// Pressures of the held-out conditions, rising.
-std::vector<double> pressures_of(const Experiment &e) {
-  std::vector<double> out;
+/// How the held-out conditions are pressed, as far as the bank can.
+std::vector<PressedTo> pressings_of(const Experiment &e, const BankSpec &spec) {
+  std::set<std::pair<std::string, double>> all;
   for (const Condition &c : e.conditions)
-    if (std::find(e.test.begin(), e.test.end(), c.id) != e.test.end() && c.max_pressure_MPa)
-      out.push_back(c.max_pressure_MPa->value);
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
+    if (std::find(e.test.begin(), e.test.end(), c.id) != e.test.end() && c.max_pressure_MPa &&
+        (c.pressing.empty() || find_pressing(spec, c.pressing)))
+      all.emplace(c.pressing, c.max_pressure_MPa->value);
+  std::vector<PressedTo> out;
+  for (const auto &[pressing, pressure] : all)
+    out.push_back({pressure, pressing});
   return out;
 }
 
@@ -152,7 +172,7 @@ nlohmann::ordered_json curves(const Experiment &e, const BankTable &runs,
     if (std::find(e.test.begin(), e.test.end(), c.id) == e.test.end())
       continue;
     for (const BankRow &row : runs.rows)
-      if (row.point.base_point % packings == 0 && belongs(row.run, c))
+      if (row.point.base_point % packings == 0 && pressed_as(row.run, c))
         out.push_back({{"condition", c.id},
                        {"role", models[std::size_t(row.point.base_point / packings)].role},
                        {"displacement_um", row.run.displacement},
@@ -195,13 +215,13 @@ HeldOut held_out_of(const ExperimentData &data) {
 
 nlohmann::ordered_json rerun(const Experiment &experiment, const BankTable &table,
                              const std::vector<RerunModel> &models, const RerunOptions &options) {
-  const std::vector<double> pressures = pressures_of(experiment);
-  Study study = study_of(table, models, pressures, options.packings, film_ratio(experiment, table));
+  const std::vector<PressedTo> pressings = pressings_of(experiment, table.spec);
+  Study study = study_of(table, models, pressings, options.packings, film_ratio(experiment, table));
   study.keep_all =
       std::any_of(experiment.conditions.begin(), experiment.conditions.end(),
                   [&](const Condition &c) { return has_images_beside(experiment, c); });
   const BankTable runs =
-      table_of(table, models, options.packings, make_study(study, options.study), pressures);
+      table_of(table, models, options.packings, make_study(study, options.study), pressings);
   const ExperimentData data = data_of(experiment, runs, experiment.test, table);
   HeldOut held_out = held_out_of(data);
   std::vector<Matrix> simulated(models.size(), Matrix(held_out.measured.size(), options.packings));

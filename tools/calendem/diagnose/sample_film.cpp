@@ -95,8 +95,13 @@ FullCellChange full_cell_change(const Experiment &e, const BankTable &bank,
   auto runs = runs_of_both(bank);
   const std::vector<double> pressures = pressures_of(kFullCell, bank);
   std::vector<CoveredCondition> here = all;
-  for (CoveredCondition &c : here)
+  std::vector<bool> while_it_rests;
+  for (CoveredCondition &c : here) {
     c.runs = beside(c.pressure, pressures);
+    c.condition.pressing.clear(); // what the film changes, it changes however it is pressed
+    for (const Observable &o : c.observables)
+      while_it_rests.push_back(o.stage == kDwell);
+  }
   std::vector<Vector> changes;
   for (auto &[point, of] : runs)
     if (!of[kFullCell].empty() && !of[""].empty())
@@ -114,7 +119,8 @@ FullCellChange full_cell_change(const Experiment &e, const BankTable &bank,
   Vector mean = Vector::Zero(changes[0].size());
   Matrix off = Matrix::Zero(mean.size(), Eigen::Index(changes.size()));
   for (Eigen::Index i = 0; i < mean.size() && share != 0.0; ++i)
-    set_change(changes, i, mean[i], off);
+    if (!while_it_rests[std::size_t(i)])
+      set_change(changes, i, mean[i], off);
   if (other)
     not_said.push_back(fmt::format(
         "The bank's runs are of another electrode: shifted by what {} runs of this one differ by; "

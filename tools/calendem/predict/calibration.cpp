@@ -56,6 +56,11 @@ void add_experiment(const Experiment &experiment, const FilmBank &bank, Calibrat
   for (const std::string &why : bank.beyond(to.films.back()))
     not_said.push_back(fmt::format("{}: {}.", experiment.name, why));
   for (const Condition &c : experiment.conditions) {
+    if (!c.pressing.empty()) {
+      not_said.push_back(fmt::format("{}, {}: pressed in a way of its own (\"{}\"): left out.",
+                                     experiment.name, c.id, c.pressing));
+      continue;
+    }
     if (!c.max_pressure_MPa || !bank.covers(c.max_pressure_MPa->value)) {
       not_said.push_back(fmt::format("{}, {}: its pressure is not known, or outside the bank's "
                                      "{:g} to {:g} MPa: left out.",

@@ -109,7 +109,7 @@ Vector input_of(const BankSpec &spec, const BankPoint &point) {
 Vector values_of(FilmNumber number, const BankSpec &spec, const PointRuns &runs) {
   Vector out{Eigen::Index(spec.pressures.size())};
   for (std::size_t k = 0; k < spec.pressures.size(); ++k)
-    out[Eigen::Index(k)] = value_of(number, run_to(spec.pressures[k], runs)->run);
+    out[Eigen::Index(k)] = value_of(number, run_to({spec.pressures[k]}, runs)->run);
   return out;
 }
 
@@ -193,7 +193,10 @@ emulators_of(const Learnt &learnt, int number, const std::vector<inference::Gaus
 
 void FilmBank::learn(const BankTable &table) {
   std::vector<std::string> ignored;
-  const std::vector<PointRuns> points = points_of(table, spec_.pressures, ignored);
+  std::vector<PressedTo> wanted;
+  for (const double pressure : spec_.pressures)
+    wanted.push_back({pressure});
+  const std::vector<PointRuns> points = points_of(table, wanted, ignored);
   const Learnt base = learnt_of(spec_, points, "", recipe_.nanoporosity);
   if (base.training.packing.size() < std::size_t(inference::kFewestRuns))
     throw Failure(kBadInput,

@@ -34,9 +34,12 @@ std::vector<double> off_of(const std::map<int, double> &changes, const std::set<
 
 /// What runs on the full cell differ by from the emulators, for the film that they are of.
 void FilmBank::learn_full_cell(const BankTable &table) {
+  const auto pressure_of = [&](const BankRow &row) {
+    return std::find(spec_.pressures.begin(), spec_.pressures.end(), row.run.target);
+  };
   std::vector<const BankRow *> rows;
   for (const BankRow &row : table.rows)
-    if (row.point.effect == kFullCell)
+    if (row.point.effect == kFullCell && pressure_of(row) != spec_.pressures.end())
       rows.push_back(&row);
   if (rows.empty())
     return;
@@ -57,9 +60,7 @@ void FilmBank::learn_full_cell(const BankTable &table) {
         if (!of_film_[k])
           material.parameters.push_back(row->point.base[k]);
       material.parameters.resize(material_.size(), 0.0); // of the recipe's nanoporosity
-      const auto p =
-          std::size_t(std::find(spec_.pressures.begin(), spec_.pressures.end(), row->run.target) -
-                      spec_.pressures.begin());
+      const auto p = std::size_t(pressure_of(*row) - spec_.pressures.begin());
       const double change = value_of(FilmNumber(number), row->run) -
                             at_pressures(FilmNumber(number), film, material).at(p).mean;
       if (std::isfinite(change))

@@ -95,9 +95,11 @@ std::string number(double value) { return fmt::format("{:g}", value); }
 
 Study own_runs(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
                int material, const std::vector<double> &pressures) {
-  OwnStudy of = study_of(bank, draws, recipe, material);
-  of.spec.pressures = pressures;
-  return bank_study(of.spec, of.points);
+  const OwnStudy of = study_of(bank, draws, recipe, material);
+  std::vector<Pressing> pressings;
+  for (const double pressure : pressures)
+    pressings.push_back({{"platen.max_pressure_MPa", fmt::format("{}", pressure)}});
+  return pressed_study(of.spec, pressed(of.points, pressings));
 }
 
 Study own_runs_at_gaps(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
@@ -113,7 +115,7 @@ Study own_runs_at_gaps(const FilmBank &bank, const std::vector<Draw> &draws, con
          {"roll.passes", number(passes)},
          {"roll.first_gap_um",
           number(passes > 1 ? four_digits(before - (before - gap) / passes) : 0.0)}});
-  return pressed_study(of.spec, of.points, pressings);
+  return pressed_study(of.spec, pressed(of.points, pressings));
 }
 
 void add_press_error(Guesses &draws, const std::vector<double> &pressures, double pressure_sd) {

@@ -199,6 +199,21 @@ std::vector<RawRow> read_raw(const std::string &file) {
   return out;
 }
 
+RawRow top_of(const std::vector<RawRow> &rows) {
+  double largest = 0.0;
+  for (const RawRow &r : rows)
+    largest = std::max(largest, r.p_top);
+  std::size_t top = rows.size() - 1;
+  for (std::size_t k = top; k-- > 0;) {
+    const bool of_the_time_before = rows[k].stage > 2.5 && rows[k + 1].stage < 1.5;
+    if (of_the_time_before && rows[top].p_top >= (1.0 - kTargetTolerance) * largest)
+      break;
+    if (rows[k].p_top >= rows[top].p_top)
+      top = k;
+  }
+  return rows[top];
+}
+
 std::optional<double> gap_at_loss(const std::vector<RawRow> &rows, double fraction,
                                   double max_pressure) {
   const double lost = fraction * max_pressure;
@@ -307,8 +322,7 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   const auto [bodies, cracked] =
       write_bodies(folder, e, settings.text("electrode"), frames, moments, last);
 
-  const RawRow top = *std::max_element(
-      rows.begin(), rows.end(), [](const RawRow &a, const RawRow &b) { return a.p_top < b.p_top; });
+  const RawRow top = top_of(rows);
   nlohmann::json s = thickness(rows, top, settings, e);
   s.update(provenance(folder, rows, settings, e, facts));
   if (!frames.empty())

@@ -53,6 +53,10 @@ std::vector<RawRow> read_raw(const std::string &file);
 std::optional<double> gap_at_loss(const std::vector<RawRow> &rows, double fraction,
                                   double max_pressure);
 
+/// The row of the highest pressure; of a film that is pressed again, of the last time that it gets as
+/// far, within 2 %.
+RawRow top_of(const std::vector<RawRow> &rows);
+
 /// Union volume [um3] of body envelopes and CBD spheres against time, from the frames.
 struct UnionVolume {
   std::vector<double> time, volume;

@@ -34,7 +34,7 @@ std::map<Point, std::vector<PressedSamples>> points_of_packing(const BankTable &
   for (const double pressure : table.spec.pressures)
     for (const BankRow &row : table.rows)
       if (row.point.packing == packing && row.point.effect != kFullCell &&
-          std::fabs(row.run.target - pressure) < 1e-6 * pressure)
+          row.run.pressing.empty() && std::fabs(row.run.target - pressure) < 1e-6 * pressure)
         out[{row.point.effect, row.point.base_point}].push_back({row.run});
   for (auto it = out.begin(); it != out.end();)
     it = it->second.size() == table.spec.pressures.size() ? std::next(it) : out.erase(it);

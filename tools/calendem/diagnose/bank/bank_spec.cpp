@@ -4,9 +4,10 @@
 #include "base/table_reader.h"
 #include "base/toml_reader.h"
 #include "diagnose/bank/bank_table.h"
-#include "diagnose/inference/numerics.h"
+#include "simulate/study_file.h"
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <set>
 #include <tuple>
@@ -28,7 +29,8 @@ const std::vector<Key> &head_keys() {
       {"first_point", "", "0", 0, 5000, "", "number of the first base point", "", false, true},
       {"tortuosity", "", "no", 0, 0, "", "of the pores after release", "yes|no"},
       {"nanoporosity_within_points", "", "0", 0, 20, "%", "to either side of a recipe's"},
-      {"crushing", "", "-", 0, 0, "", "loads of single particles (CSV)", "", true}};
+      {"crushing", "", "-", 0, 0, "", "loads of single particles (CSV)", "", true},
+      {"further_table", "", "-", 0, 0, "", "more of its runs (CSV)", "", true}};
   return keys;
 }
 
@@ -39,7 +41,7 @@ public:
   void read_head(const toml::table &t, BankSpec &out) {
     report_unknown(t, {"name", "recipe", "case", "packings", "base_points", "effect_points", "seed",
                        "first_point", "tortuosity", "nanoporosity_within_points", "crushing",
-                       "pressures_MPa", "effects"});
+                       "further_table", "pressures_MPa", "effects"});
     out.name = text(t, head_keys()[0]);
     out.recipe_file = path(t, head_keys()[1]);
     out.case_file = path(t, head_keys()[2]);
@@ -51,6 +53,7 @@ public:
     out.tortuosity = text(t, head_keys()[9]) == "yes";
     out.nanoporosity_within = number(t, head_keys()[10]);
     out.crushing_file = path(t, head_keys()[11]);
+    out.further_table = path(t, head_keys()[12]);
     if (out.effect_points > out.base_points)
       mistakes_.add(0, fmt::format("effect_points is {}, base_points {}: every point of an effect "
                                    "needs a base point of its own.",
@@ -68,12 +71,7 @@ public:
       return p;
     }
     report_unknown(*t, {"name", "keys", "low", "high", "prior"});
-    p.name = text(*t, {"name", "", "", 0, 0, "", "of the parameter", "", true});
-    if (p.name.find_first_not_of(
-            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") != std::string::npos)
-      mistakes_.add(line_of(node), fmt::format("parameter '{}': a name has letters, digits and _ "
-                                               "only, it heads a column.",
-                                               p.name));
+    p.name = column_name(*t, node, "", "parameter");
     p.low = number(*t, {"low", "", "", -1e300, 1e300, "", "end of the prior"});
     p.high = number(*t, {"high", "", "", -1e300, 1e300, "", "end of the prior"});
     const std::string prior =
@@ -160,6 +158,35 @@ public:
       }
   }
 
+  void read_pressing(const toml::node &node, BankSpec &out) {
+    const toml::table *t = node.as_table();
+    if (!t)
+      return mistakes_.add(line_of(node), "write a way of pressing as a table: [[pressing]].");
+    report_unknown(*t,
+                   {"name", "what", "settings", "pressures_MPa", "base_points", "effect_points"});
+    BankPressing p;
+    p.name = column_name(*t, node, "-", "way of pressing");
+    p.what = text(*t, {"what", "", "-", 0, 0, "", "the same in words", "", true});
+    p.pressures = numbers(*t, {"pressures_MPa", "", "", 0.1, 2000, "MPa", "a run for each"});
+    std::sort(p.pressures.begin(), p.pressures.end());
+    p.base_points = int(number(
+        *t, {"base_points", "", "", 2, double(out.base_points), "", "the first", "", false, true}));
+    p.effect_points = int(number(*t, {"effect_points", "", "", 2, double(out.base_points), "",
+                                      "of every effect", "", false, true}));
+    if (const toml::node *settings = t->get("settings"))
+      read_settings(*settings, p);
+    if (p.name.empty() == !p.settings.empty() || p.name.empty() == !p.what.empty())
+      mistakes_.add(line_of(node),
+                    "a way of pressing has a 'name', 'what' it is in words and 'settings' such as "
+                    "{ \"platen.presses\" = 2 }; without all three its runs are usual ones, to "
+                    "further pressures.");
+    for (const BankPressing &other : out.pressings)
+      if (!p.name.empty() && (other.name == p.name || other.what == p.what))
+        mistakes_.add(line_of(node), fmt::format("two ways of pressing are called '{}'.", p.name));
+    check_pressures(p, line_of(node), out);
+    out.pressings.push_back(p);
+  }
+
   Numerics read_numerics(const toml::node &node) {
     const toml::table *t = node.as_table();
     if (!t) {
@@ -172,6 +199,45 @@ public:
   }
 
 private:
+  std::string column_name(const toml::table &t, const toml::node &node, const std::string &fallback,
+                          const std::string &of) {
+    const std::string name = text(t, {"name", "", fallback, 0, 0, "", "of the " + of, "", true});
+    if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") !=
+            std::string::npos ||
+        name == "pressing")
+      mistakes_.add(line_of(node),
+                    fmt::format("{} '{}': a name has letters, digits and _ only, and is not "
+                                "'pressing': it stands in the table.",
+                                of, name));
+    return name;
+  }
+
+  void read_settings(const toml::node &node, BankPressing &out) {
+    const toml::table *settings = node.as_table();
+    if (!settings)
+      return mistakes_.add(line_of(node), "write settings as { \"platen.presses\" = 2 }.");
+    for (const auto &[key, value] : *settings) {
+      out.settings.emplace_back(key.str(), fmt::format("{}", value.value_or(NAN)));
+      if (!value.is_number())
+        mistakes_.add(line_of(value), fmt::format("settings: '{}' is no number. Write the whole "
+                                                  "key in quotes: {{ \"platen.presses\" = 2 }}.",
+                                                  key.str()));
+    }
+  }
+
+  /// A run that is asked for twice would count twice.
+  void check_pressures(const BankPressing &p, int line, const BankSpec &out) {
+    std::vector<double> had = p.name.empty() ? out.pressures : std::vector<double>();
+    for (const BankPressing &other : out.pressings)
+      if (other.name == p.name)
+        had.insert(had.end(), other.pressures.begin(), other.pressures.end());
+    for (const double pressure : p.pressures) {
+      if (std::any_of(had.begin(), had.end(), [&](double h) { return same_pressure(h, pressure); }))
+        mistakes_.add(line, fmt::format("pressures_MPa: {:g} MPa is there already.", pressure));
+      had.push_back(pressure);
+    }
+  }
+
   void read_effects(const toml::table &t, BankSpec &out) {
     out.effects = texts(t, "effects");
     for (const std::string &name : out.effects)
@@ -193,12 +259,45 @@ int points_of(const BankSpec &spec, const std::string &effect) {
   return own == spec.points.end() ? spec.effect_points : own->second;
 }
 
+std::string table_of(const BankSpec &spec) {
+  return std::filesystem::path(spec.file).replace_extension("csv").string();
+}
+
+const BankPressing *find_pressing(const BankSpec &spec, const std::string &name) {
+  const auto at =
+      std::find_if(spec.pressings.begin(), spec.pressings.end(),
+                   [&](const BankPressing &p) { return !name.empty() && p.name == name; });
+  return at == spec.pressings.end() ? nullptr : &*at;
+}
+
 Effect effect_of(const BankSpec &spec, const std::string &name) {
   Effect effect = find_effect(name);
   if (const auto range = spec.ranges.find(name); range != spec.ranges.end())
     std::tie(effect.parameter.low, effect.parameter.high) = range->second;
   return effect;
 }
+
+namespace {
+
+/// Keys of the case that nothing else of the bank sets.
+void check_settings(const BankSpec &spec, const BankPressing &pressing, Mistakes &mistakes) {
+  std::set<std::string> taken = {"case.platen.max_pressure_MPa"};
+  for (const BankParameter &p : spec.parameters)
+    taken.insert(p.keys.begin(), p.keys.end());
+  for (const std::string &name : spec.effects)
+    if (const Effect &e = find_effect(name); !e.instrument)
+      for (const std::string &key : e.parameter.keys)
+        taken.insert(e.column(key));
+  for (const auto &[key, value] : pressing.settings) {
+    check_column("case." + key, mistakes);
+    if (taken.count("case." + key) > 0)
+      mistakes.add(0, fmt::format("pressing '{}': '{}' is set by a pressure, a parameter or an "
+                                  "effect of the bank. Leave it out of settings.",
+                                  pressing.name, key));
+  }
+}
+
+} // namespace
 
 BankSpec read_bank_spec(const std::string &file) {
   Mistakes mistakes(file, 20);
@@ -219,15 +318,20 @@ BankSpec read_bank_spec(const std::string &file) {
       for (const toml::node &measurement : *node.as_array())
         reader.read_price(measurement, out.prices);
     else if ((key.str() != "full_cell" || !node.is_table()) &&
-             (key.str() != "effect" || !node.is_array()))
+             (key.str() != "effect" || !node.is_array()) &&
+             (key.str() != "pressing" || !node.is_array()))
       mistakes.add(line_of(node),
                    fmt::format("unknown '{}'; a bank has tables [bank], [full_cell], "
-                               "[[parameter]], [[effect]], [[measurement]] and [[numerics]].",
+                               "[[parameter]], [[effect]], [[pressing]], [[measurement]] and "
+                               "[[numerics]].",
                                key.str()));
   }
   if (const toml::array *ranges = parsed.root["effect"].as_array())
     for (const toml::node &range : *ranges)
       reader.read_range(range, out); // after [bank]: of its effects
+  if (const toml::array *pressings = parsed.root["pressing"].as_array())
+    for (const toml::node &pressing : *pressings)
+      reader.read_pressing(pressing, out);
   if (const toml::table *full_cell = parsed.root["full_cell"].as_table())
     reader.read_full_cell(*full_cell, out); // after [bank]: its points are some of the bank's
   if (parsed.whole && !parsed.root.contains("bank"))
@@ -238,6 +342,8 @@ BankSpec read_bank_spec(const std::string &file) {
       mistakes.add(0, fmt::format("two parameters are called '{}'.", p.name));
   if (out.parameters.empty() && parsed.whole)
     mistakes.add(0, "has no [[parameter]]: there would be nothing to recalibrate.");
+  for (const BankPressing &pressing : out.pressings)
+    check_settings(out, pressing, mistakes);
   mistakes.stop_if_any();
   return out;
 }
@@ -256,138 +362,6 @@ const std::vector<MeasurementPrice> &usual_prices() {
       {"higher_pressure", "the same coating at twice the largest pressure", 2.0, 0.0, ""},
       {"tomogram", "X-ray tomogram before and after", 40.0, 0.0, ""}};
   return prices;
-}
-
-namespace {
-
-std::vector<std::string> columns_of(const BankSpec &spec) {
-  std::vector<std::string> columns = {"recipe.seed"};
-  for (const BankParameter &p : spec.parameters)
-    columns.insert(columns.end(), p.keys.begin(), p.keys.end());
-  for (const std::string &name : spec.effects)
-    if (const Effect &e = find_effect(name); !e.instrument)
-      for (const std::string &key : e.parameter.keys)
-        columns.push_back(e.column(key));
-  return columns;
-}
-
-std::string effect_value(const BankPoint &point, const Effect &effect) {
-  const auto also = point.also.find(effect.name);
-  if (also != point.also.end())
-    return fmt::format("{}", also->second);
-  return effect.name == point.effect ? fmt::format("{}", point.value) : effect.parameter.off;
-}
-
-std::vector<std::string> row_of(const BankSpec &spec, const BankPoint &point) {
-  std::vector<std::string> row = {fmt::format("{}", point.packing)};
-  for (std::size_t k = 0; k < spec.parameters.size(); ++k)
-    row.insert(row.end(), spec.parameters[k].keys.size(), fmt::format("{}", point.base[k]));
-  for (const std::string &name : spec.effects)
-    if (const Effect &e = find_effect(name); !e.instrument)
-      row.insert(row.end(), e.parameter.keys.size(), effect_value(point, e));
-  return row;
-}
-
-Study filled(Study study, const std::vector<std::vector<std::string>> &rows) {
-  Mistakes mistakes(study.file, 20);
-  for (const std::string &name : study.columns)
-    check_column(name, mistakes);
-  mistakes.stop_if_any();
-  add_runs(study, rows, mistakes);
-  mistakes.stop_if_any();
-  return study;
-}
-
-} // namespace
-
-const char *const kFullCell = "full_cell";
-
-double prior_value(double low, double high, Spread spread, double share) {
-  const double v =
-      spread == Spread::LogUniform ? low * std::pow(high / low, share) : low + share * (high - low);
-  return std::stod(fmt::format("{:.4g}", v));
-}
-
-std::vector<BankPoint> bank_points(const BankSpec &spec) {
-  std::vector<BankPoint> out;
-  const auto shares =
-      inference::sobol_points(int(spec.parameters.size()), spec.base_points, spec.seed);
-  for (int k = 0; k < spec.base_points; ++k) {
-    BankPoint p;
-    p.base_point = spec.first_point + k;
-    p.packing = 1 + k % spec.packings;
-    for (std::size_t d = 0; d < spec.parameters.size(); ++d)
-      p.base.push_back(prior_value(spec.parameters[d].low, spec.parameters[d].high,
-                                   spec.parameters[d].spread, shares(int(d), k)));
-    out.push_back(p);
-  }
-  for (std::size_t e = 0; e < spec.effects.size(); ++e) {
-    const Effect effect = effect_of(spec, spec.effects[e]);
-    const int points = points_of(spec, effect.name);
-    const auto amplitudes = inference::sobol_points(1, points, spec.seed + 1 + e);
-    for (int k = 0; k < points && !effect.instrument; ++k) {
-      BankPoint p = out[std::size_t(k)];
-      p.effect = effect.name;
-      p.value = prior_value(effect.parameter.low, effect.parameter.high, effect.parameter.spread,
-                            amplitudes(0, k));
-      out.push_back(p);
-    }
-  }
-  return out;
-}
-
-Study pressed_study(const BankSpec &spec, const std::vector<BankPoint> &points,
-                    const std::vector<Pressing> &pressings) {
-  Study study;
-  study.file = spec.file;
-  study.name = spec.name;
-  study.recipe_file = spec.recipe_file;
-  study.case_file = spec.case_file;
-  study.keep_all = false;
-  study.measured = spec.tortuosity;
-  study.columns = columns_of(spec);
-  if (!pressings.empty())
-    for (const auto &[key, value] : pressings.front())
-      study.columns.push_back("case." + key);
-  std::vector<std::vector<std::string>> rows;
-  for (const BankPoint &p : points)
-    for (const Pressing &pressing : pressings) {
-      rows.push_back(row_of(spec, p));
-      for (const auto &[key, value] : pressing)
-        rows.back().push_back(value);
-    }
-  return filled(std::move(study), rows);
-}
-
-Study bank_study(const BankSpec &spec, const std::vector<BankPoint> &points) {
-  std::vector<Pressing> pressings;
-  for (const double pressure : spec.pressures)
-    pressings.push_back({{"platen.max_pressure_MPa", fmt::format("{}", pressure)}});
-  return pressed_study(spec, points, pressings);
-}
-
-std::vector<BankPoint> full_cell_points(const BankSpec &spec) {
-  std::vector<BankPoint> out;
-  if (spec.full_cell.points > 0)
-    out = bank_points(spec);
-  out.resize(std::size_t(spec.full_cell.points));
-  for (BankPoint &p : out)
-    p.effect = kFullCell;
-  return out;
-}
-
-Study full_cell_study(const BankSpec &spec, const std::vector<BankPoint> &points) {
-  BankSpec full = spec;
-  full.name = spec.name + ", full cell";
-  full.recipe_file = spec.full_cell.recipe_file;
-  full.case_file = spec.full_cell.case_file;
-  full.effects.clear();
-  for (BankParameter &p : full.parameters)
-    p.keys.erase(
-        std::remove_if(p.keys.begin(), p.keys.end(),
-                       [](const std::string &key) { return key.rfind("recipe.", 0) == 0; }),
-        p.keys.end());
-  return bank_study(full, points);
 }
 
 } // namespace calendem

@@ -13,6 +13,7 @@
 //   first_point = 0                  # number of the first base point, where tables are joined
 //   tortuosity = "yes"               # of the pores after release; default: no
 //   nanoporosity_within_points = 10  # how far that of CBD may lie from the recipe's; default: 0
+//   further_table = "further.csv"    # more of its runs than the table beside this file has
 //   crushing = "crushing.csv"        # loads of single particles, for calibrate; default: none
 //   [[parameter]]                    # of the base model, recalibrated by the diagnosis
 //   name = "E_am"
@@ -35,6 +36,13 @@
 //   name = "cracked_bodies"          # of usual_prices()
 //   hours = 8                        # of work for one sample
 //   sd = 0.05                        # of the result
+//   [[pressing]]                     # optional: some of the points run to further pressures,
+//   name = "again"                   # or, with a name, pressed in another way
+//   what = "pressed twice"           # of a name: in words
+//   settings = { "platen.presses" = 2 }  # of a name: keys of the case
+//   pressures_MPa = [80]
+//   base_points = 32                 # the first of them
+//   effect_points = 8                # of every effect, the first
 //   [[numerics]]                     # optional: an error of the bank's runs, of known size
 //   name = "speed"
 //   porosity_points = 1.0            # of the porosity under pressure (standard deviation)
@@ -42,6 +50,7 @@
 #define CALENDEM_DIAGNOSE_BANK_BANK_SPEC_H
 
 #include "base/registry.h"
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -78,6 +87,22 @@ struct FullCell {
   bool other_electrode = false; ///< its change counts for any loading
 };
 
+/// Pressures closer than this share of them are the same.
+constexpr double kSamePressure = 0.02;
+inline bool same_pressure(double a, double b) { return std::fabs(a - b) <= kSamePressure * b; }
+
+/// How a film is pressed: keys of the case and their values.
+using Pressing = std::vector<std::pair<std::string, std::string>>;
+
+/// Runs of the first points of the base model and of each effect to further pressures, or pressed
+/// in another way.
+struct BankPressing {
+  std::string name, what; ///< of the way, and in words; empty: the usual one
+  Pressing settings;
+  std::vector<double> pressures; ///< MPa, increasing
+  int base_points = 0, effect_points = 0;
+};
+
 /// An error that all of the bank's runs share: too fast, too small a cell, too coarse.
 struct Numerics {
   std::string name;
@@ -95,10 +120,12 @@ struct BankSpec {
   /// side; 0: known. No laboratory measures it.
   double nanoporosity_within = 0.0;
   std::string crushing_file; ///< loads at which single particles broke; empty: none
+  std::string further_table; ///< more of its runs, beside the table of its name; empty: none
   std::vector<BankParameter> parameters;
   std::vector<std::string> effects;
   std::map<std::string, std::pair<double, double>> ranges; ///< of effects, where not the table's
   std::map<std::string, int> points;                       ///< of effects, where not effect_points
+  std::vector<BankPressing> pressings;                     ///< beside the usual one to `pressures`
   FullCell full_cell;
   std::vector<MeasurementPrice> prices = usual_prices();
   std::vector<Numerics> numerics;
@@ -106,6 +133,12 @@ struct BankSpec {
 
 /// Throws Failure(2) with every mistake of the file. Recipe and case are read when runs are made.
 BankSpec read_bank_spec(const std::string &file);
+
+/// The table beside the bank's file, with its name.
+std::string table_of(const BankSpec &spec);
+
+/// The way that has this name; null: there is none. The usual one has no name.
+const BankPressing *find_pressing(const BankSpec &spec, const std::string &name);
 
 /// How many points the effect has.
 int points_of(const BankSpec &spec, const std::string &effect);

@@ -60,7 +60,8 @@ constexpr Number kNumbers[] = {{"target_MPa", &SimulatedRun::target},
 /// Cells of these may be empty; a table whose runs all lack one does not have its column.
 constexpr Number kMoreNumbers[] = {{"broken_fraction", &SimulatedRun::broken_fraction},
                                    {"inverse_tortuosity", &SimulatedRun::inverse_tortuosity},
-                                   {"cbd_nanoporosity_after", &SimulatedRun::cbd_nanoporosity}};
+                                   {"cbd_nanoporosity_after", &SimulatedRun::cbd_nanoporosity},
+                                   {"pressure_left", &SimulatedRun::pressure_left}};
 
 std::string cell(double v) { return std::isfinite(v) ? fmt::format("{:.8g}", v) : ""; }
 /// Nanometres to which displacements are kept: a measured curve is good to about 20, and the slope
@@ -119,6 +120,19 @@ BankRow row_at(const BankSpec &spec, const Columns &t, std::size_t k, const std:
   return row;
 }
 
+/// Of each row the way in which it is pressed, which must be one of the bank's.
+std::vector<std::string> pressings_of(const BankSpec &spec, const CsvTable &t, Mistakes &mistakes) {
+  if (!t.has("pressing"))
+    return std::vector<std::string>(t.rows());
+  std::vector<std::string> out = t.texts("pressing");
+  for (std::size_t k = 0; k < out.size(); ++k)
+    if (!out[k].empty() && !find_pressing(spec, out[k]))
+      mistakes.add(int(k) + 2, fmt::format("pressing '{}' is no [[pressing]] of {}. Is this its "
+                                           "table?",
+                                           out[k], spec.file));
+  return out;
+}
+
 /// What row k must hold: numbers in the columns `due`, points and packings that can be counted, an
 /// effect that is known.
 void check_row(const Columns &t, std::size_t k, const std::string &effect,
@@ -151,7 +165,9 @@ std::string write_bank_table(const BankTable &table) {
     if (std::any_of(table.rows.begin(), table.rows.end(),
                     [&](const BankRow &row) { return std::isfinite(row.run.*(n.field)); }))
       more.push_back(n);
-  std::string out = "effect,base_point,packing";
+  const bool pressings = std::any_of(table.rows.begin(), table.rows.end(),
+                                     [](const BankRow &row) { return !row.run.pressing.empty(); });
+  std::string out = pressings ? "effect,base_point,packing,pressing" : "effect,base_point,packing";
   for (const BankParameter &p : table.spec.parameters)
     out += "," + p.name;
   out += ",value";
@@ -166,6 +182,8 @@ std::string write_bank_table(const BankTable &table) {
   out += "\n";
   for (const BankRow &row : table.rows) {
     out += fmt::format("{},{},{}", row.point.effect, row.point.base_point, row.point.packing);
+    if (pressings)
+      out += "," + row.run.pressing;
     for (const double v : row.point.base)
       out += "," + cell(v);
     const bool base = row.point.effect.empty() || row.point.effect == kFullCell;
@@ -185,7 +203,9 @@ std::string write_bank_table(const BankTable &table) {
   return out;
 }
 
-BankTable read_bank_table(const BankSpec &spec, const std::string &file) {
+namespace {
+
+std::vector<BankRow> rows_of(const BankSpec &spec, const std::string &file) {
   Mistakes mistakes(file, 10);
   const bool there = std::filesystem::is_regular_file(file);
   if (!there)
@@ -225,10 +245,24 @@ BankTable read_bank_table(const BankSpec &spec, const std::string &file) {
   const std::vector<std::string> effect = t.texts("effect");
   for (std::size_t k = 0; k < t.rows(); ++k)
     check_row(numbers, k, effect[k], due, mistakes);
+  const std::vector<std::string> pressing = pressings_of(spec, t, mistakes);
   mistakes.stop_if_any();
-  BankTable out = {spec, {}};
-  for (std::size_t k = 0; k < t.rows(); ++k)
-    out.rows.push_back(row_at(spec, numbers, k, effect[k]));
+  std::vector<BankRow> out;
+  for (std::size_t k = 0; k < t.rows(); ++k) {
+    out.push_back(row_at(spec, numbers, k, effect[k]));
+    out.back().run.pressing = pressing[k];
+  }
+  return out;
+}
+
+} // namespace
+
+BankTable read_bank_table(const BankSpec &spec, const std::string &file) {
+  BankTable out = {spec, rows_of(spec, file)};
+  std::error_code none;
+  if (!spec.further_table.empty() && std::filesystem::equivalent(file, table_of(spec), none))
+    for (const BankRow &row : rows_of(spec, spec.further_table))
+      out.rows.push_back(row);
   return out;
 }
 
@@ -320,7 +354,7 @@ SimulatedRun between_runs(const SimulatedRun &lower, const SimulatedRun &upper, 
 
 BetweenRuns error_between_runs(double lower, double upper, double pressure) {
   const double along = std::log(pressure / lower) * std::log(upper / pressure);
-  return {0.007 * along, 0.02 * along, 0.09 * along};
+  return {0.007 * along, 0.02 * along, 0.12 * along};
 }
 
 } // namespace calendem

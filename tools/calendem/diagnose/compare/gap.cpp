@@ -176,12 +176,15 @@ void add_entries(const Experiment &experiment, const Condition &c,
                  Gap &gap) {
   if (c.control == "roll_gap")
     gap.not_said.push_back(
-        fmt::format("{}: it was pressed under a roll, the runs under a platen to the pressure "
-                    "that the roll's "
-                    "gap was converted into. What a nip does besides is taken for a gap of the "
-                    "model; calendem "
-                    "run with platen.control = \"roll_gap\" shows how much that is.",
+        fmt::format("{}: it was pressed under a roll, the runs under a platen to the pressure that "
+                    "the roll's gap was converted into. What a nip does besides is taken for a gap "
+                    "of the model; calendem run with platen.control = \"roll_gap\" shows how much "
+                    "that is.",
                     c.id));
+  if (!c.pressing.empty())
+    gap.not_said.push_back(fmt::format("{}: it was pressed in a way of its own (\"{}\"); whether "
+                                       "its runs were is not checked.",
+                                       c.id, c.pressing));
   const bool in_um = !c.curve.empty() || c.thickness_after_um || c.thickness_at_max_um;
   std::vector<Observable> observables =
       observables_of(experiment,
@@ -251,7 +254,15 @@ Gap find_gap(const Experiment &experiment, const std::vector<SimulatedRun> &runs
       if (belongs(r, c))
         mine.push_back(&r);
     used.insert(mine.begin(), mine.end());
-    if (mine.empty())
+    const auto other = std::find_if(mine.begin(), mine.end(), [&](const SimulatedRun *r) {
+      return r->way != mine.front()->way;
+    });
+    if (other != mine.end())
+      gap.not_said.push_back(fmt::format(
+          "{}: its runs were pressed in different ways ({}: {}; {}: {}); nothing is said about it. "
+          "Give those of one way.",
+          c.id, mine.front()->folder, mine.front()->way, (*other)->folder, (*other)->way));
+    else if (mine.empty())
       say_no_run(c, gap);
     else
       add_entries(experiment, c, mine, entries, gap);

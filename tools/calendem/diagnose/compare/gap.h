@@ -21,7 +21,8 @@ namespace calendem {
 struct SimulatedRun {
   std::string folder;
   std::string control;
-  double target = 0.0; ///< of the platen: MPa or um
+  std::string pressing; ///< of a bank's runs: its name; empty: the usual one
+  double target = 0.0;  ///< of the platen: MPa or um
   double max_pressure = 0.0, thickness_at_max = 0.0, thickness_after = 0.0;
   double porosity_initial = 0.0, porosity_at_max = 0.0, porosity_after = 0.0;
   double solid_column = 0.0;     ///< solid volume per area [um]
@@ -30,9 +31,12 @@ struct SimulatedRun {
   /// 1 / tortuosity factor of the macro pores through the plane, after release; 0: no path leads
   /// through; NaN: not measured.
   double inverse_tortuosity = NAN;
-  double cbd_nanoporosity = NAN;              ///< of the carbon-binder domain after release
-  std::vector<double> pressure, displacement; ///< of the compression, highest pressure so far
-  /// Of the release, by rising pressure: the lowest so far.
+  double cbd_nanoporosity = NAN; ///< of the carbon-binder domain after release
+  /// Pressure at the end of the dwell over that at its beginning; NaN: there is no dwell.
+  double pressure_left = NAN;
+  std::string way; ///< how often, how fast and how long it was pressed, to tell runs apart
+  std::vector<double> pressure, displacement; ///< of the first compression, highest so far
+  /// Of the last release, by rising pressure: the lowest so far.
   std::vector<double> release_pressure, release_displacement;
   double porosity_slope = 0.0; ///< d porosity / d pressure under load near the maximum [1/MPa]
   std::string imposed;         ///< what was imposed on the run, not predicted; empty: nothing
@@ -47,6 +51,10 @@ SimulatedRun read_simulated_run(const std::string &folder);
 /// Adds a point to a branch of a curve if its pressure lies above all before; false: it does not.
 bool add_if_higher(std::vector<double> &pressures, std::vector<double> &displacements,
                    double pressure, double displacement);
+
+/// Mean pressure of the last quarter of the last dwell, over that of the compression's last row; NaN:
+/// there is no dwell.
+double pressure_left(const std::vector<std::string> &stage, const std::vector<double> &pressure);
 
 /// Displacement at which `pressure` is first met, linear between points; NaN beyond the last.
 double displacement_at(const std::vector<double> &pressures,

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/compare/observables.h"
-#include "base/csv_table.h"
+#include "diagnose/compare/measured_curve.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 
 namespace calendem {
 namespace {
@@ -14,8 +12,6 @@ constexpr double kSameTarget = 0.02;
 // Of the maximum pressure; the release is compared at the same, less the first: there the film
 // parts from the platen, and how it does is the press's affair too.
 constexpr double kCurveShares[] = {0.1, 0.25, 0.5, 0.75};
-constexpr double kStandsOut = 6.0;    // of the usual distance from neighbours
-constexpr double kSmallJump = 0.01;   // of the largest value: never less than that
 constexpr double kRowsApart = 0.0199; // of the largest pressure: rows a fiftieth apart all count
 
 double none(const SimulatedRun &) { return 0.0; }
@@ -147,66 +143,16 @@ void under_load(const Experiment &e, const Condition &c, std::vector<Observable>
     out.push_back({"cracked bodies", "compression", "fraction", c.cracked_bodies_fraction->value,
                    c.cracked_bodies_fraction->sd,
                    [](const SimulatedRun &r) { return r.cracked_fraction; }, none});
+  if (c.pressure_left_percent) {
+    out.push_back({"pressure left", kDwell, "%", c.pressure_left_percent->value,
+                   c.pressure_left_percent->sd,
+                   [](const SimulatedRun &r) { return 100.0 * r.pressure_left; }, none});
+    out.back().why_none = [](const SimulatedRun &) { return "its platen does not rest"; };
+  }
   if (c.cbd_nanoporosity_after_percent)
     not_said.push_back(fmt::format("{}: cbd_nanoporosity_after_percent is not compared; calibrate "
                                    "learns from it.",
                                    c.id));
-}
-
-struct MeasuredBranch {
-  std::vector<double> pressure, displacement; ///< by rising pressure
-  void add(double p, double d) { add_if_higher(pressure, displacement, p, d); }
-};
-
-struct MeasuredCurve {
-  MeasuredBranch loading, release; ///< up to the highest, down to the lowest pressure so far
-  int left_out = 0;                ///< rows that stand out
-};
-
-double median(std::vector<double> v) {
-  std::nth_element(v.begin(), v.begin() + long(v.size() / 2), v.end());
-  return v[v.size() / 2];
-}
-
-/// True for values far off the median of themselves and their two neighbours on either side
-/// (Hampel): the rows of a press rise and fall, however steeply; single ones do not jump.
-std::vector<bool> standing_out(const std::vector<double> &v) {
-  std::vector<bool> out(v.size(), false);
-  std::vector<double> off(v.size(), 0.0), size;
-  double largest = 0.0;
-  for (const double x : v)
-    largest = std::max(largest, std::fabs(x));
-  for (std::size_t k = 2; k + 2 < v.size(); ++k) {
-    off[k] = std::fabs(v[k] - median({v[k - 2], v[k - 1], v[k], v[k + 1], v[k + 2]}));
-    size.push_back(off[k]);
-  }
-  if (size.empty())
-    return out;
-  const double usual = std::max(1.4826 * median(size), kSmallJump * largest);
-  const auto turn = std::max_element(v.begin(), v.end()) - v.begin(); // rises and falls steeply
-  for (std::size_t k = 0; k < v.size(); ++k)
-    out[k] = off[k] > kStandsOut * usual && std::abs(long(k) - turn) > 2;
-  return out;
-}
-
-MeasuredCurve read_curve(const std::string &file) {
-  std::ifstream in(file);
-  const auto table =
-      CsvTable::parse({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
-  const auto d = table.numbers("displacement_um"), p = table.numbers("pressure_MPa");
-  const auto stage = table.texts("stage");
-  const std::vector<bool> of_d = standing_out(d), of_p = standing_out(p);
-  MeasuredCurve out;
-  for (std::size_t k = 0; k < p.size(); ++k)
-    out.left_out += of_d[k] || of_p[k];
-  for (std::size_t k = 0; k < p.size(); ++k)
-    if (!of_d[k] && !of_p[k] &&
-        (stage.empty() || stage[k] == "loading" || stage[k] == "compression"))
-      out.loading.add(p[k], d[k]);
-  for (std::size_t k = stage.size(); k-- > 0;)
-    if (!of_d[k] && !of_p[k] && (stage[k] == "unloading" || stage[k] == "relaxation"))
-      out.release.add(p[k], d[k]);
-  return out;
 }
 
 /// How far along the curve: half of it is loading.
@@ -228,7 +174,7 @@ void along_curve(const Experiment &e, const Condition &c, std::vector<Observable
                  std::vector<std::string> &not_said) {
   if (c.curve.empty())
     return;
-  const MeasuredCurve curve = read_curve(c.curve);
+  const MeasuredCurve curve = read_measured_curve(c.curve);
   if (curve.left_out > 0)
     not_said.push_back(fmt::format("{}: rows of its curve jump away from their neighbours: {} left "
                                    "out.",
@@ -267,7 +213,7 @@ void along_curve(const Experiment &e, const Condition &c, std::vector<Observable
 double displacement_of(const Condition &c) {
   if (c.displacement_um)
     return c.displacement_um->value;
-  return read_curve(c.curve).loading.displacement.back();
+  return read_measured_curve(c.curve).loading.displacement.back();
 }
 
 bool near(double a, double b) { return std::fabs(a - b) <= kSameTarget * std::fabs(b); }
@@ -351,7 +297,7 @@ std::vector<Observable> release_rows(const Experiment &e, const Condition &c) {
   std::vector<Observable> out;
   if (c.curve.empty())
     return out;
-  const MeasuredCurve curve = read_curve(c.curve);
+  const MeasuredCurve curve = read_measured_curve(c.curve);
   const MeasuredBranch &rows = curve.release;
   const std::optional<Measured> loading = loading_of(e, c);
   const double solid = loading ? solid_thickness_um(e, loading->value) : 1.0;

@@ -38,6 +38,8 @@ struct Observable {
 
 /// Stage of what is seen of a sample that is not pressed yet: of its recipe, not of the model.
 inline constexpr char kBefore[] = "before";
+/// Stage of what is seen while the platen rests: the same in any film.
+inline constexpr char kDwell[] = "dwell";
 
 /// All of one condition. What a value needs and lacks is reported in `not_said`.
 std::vector<Observable> observables_of(const Experiment &experiment, const Condition &condition,

@@ -3,13 +3,15 @@
 #include "base/run_folder.h"
 #include "diagnose/compare/gap.h"
 #include <cmath>
+#include <fmt/format.h>
 
 namespace calendem {
 namespace {
 
-constexpr double kSlopeFrom = 0.7; // of the maximum: the part of the curve whose slope is taken
+constexpr double kSlopeFrom = 0.7;  // of the maximum: the part of the curve whose slope is taken
+constexpr double kDwellFrom = 0.75; // of the dwell: the part whose mean pressure is what is left
 
-void read_curve(RunFolder &folder, SimulatedRun &run, Mistakes &mistakes) {
+void read_curve(RunFolder &folder, bool dwells, SimulatedRun &run, Mistakes &mistakes) {
   const Curve c = folder.curve({"displacement_shown_um", "pressure_shown_MPa", "porosity_total"},
                                mistakes, mistakes);
   if (c.rows() == 0)
@@ -17,7 +19,7 @@ void read_curve(RunFolder &folder, SimulatedRun &run, Mistakes &mistakes) {
   const Column &d = c["displacement_shown_um"], &p = c["pressure_shown_MPa"],
                &porosity = c["porosity_total"];
   double sp = 0, sq = 0, spp = 0, spq = 0, n = 0;
-  for (std::size_t k = 0; k < c.rows(); ++k) {
+  for (std::size_t k = 0; k < c.rows() && c.stage[k] != "relaxation"; ++k) {
     if (c.stage[k] != "compression" || !add_if_higher(run.pressure, run.displacement, p[k], d[k]) ||
         p[k] < kSlopeFrom * run.max_pressure)
       continue;
@@ -25,6 +27,8 @@ void read_curve(RunFolder &folder, SimulatedRun &run, Mistakes &mistakes) {
   }
   for (std::size_t k = c.rows(); k-- > 0 && c.stage[k] == "relaxation";)
     add_if_higher(run.release_pressure, run.release_displacement, p[k], d[k]);
+  if (dwells)
+    run.pressure_left = pressure_left(c.stage, p);
   const double spread = n * spp - sp * sp;
   run.porosity_slope = spread > 0.0 ? (n * spq - sp * sq) / spread : 0.0;
 }
@@ -69,6 +73,23 @@ double inverse_tortuosity(RunFolder &folder) {
 
 } // namespace
 
+double pressure_left(const std::vector<std::string> &stage, const std::vector<double> &pressure) {
+  double before = NAN;
+  std::vector<double> dwell;
+  for (std::size_t k = 0; k < stage.size(); ++k)
+    if (stage[k] == "dwell") {
+      dwell.push_back(pressure[k]);
+    } else if (stage[k] == "compression") {
+      before = pressure[k];
+      dwell.clear();
+    }
+  double sum = 0.0;
+  const auto from = std::size_t(kDwellFrom * double(dwell.size()));
+  for (std::size_t k = from; k < dwell.size(); ++k)
+    sum += dwell[k];
+  return sum / double(dwell.size() - from) / before;
+}
+
 bool add_if_higher(std::vector<double> &pressures, std::vector<double> &displacements,
                    double pressure, double displacement) {
   if (!pressures.empty() && pressure <= pressures.back())
@@ -97,7 +118,8 @@ SimulatedRun read_simulated_run(const std::string &path) {
   run.folder = path;
   read_summary(folder, run, mistakes);
   mistakes.stop_if_any();
-  read_curve(folder, run, mistakes);
+  const Settings settings = folder.settings();
+  read_curve(folder, settings.number("platen.dwell_us") > 0.0, run, mistakes);
   run.inverse_tortuosity = inverse_tortuosity(folder);
   if (const auto &electrode = folder.object("electrode.json", mistakes); electrode.is_object()) {
     // a packing made twice took other times, but is the same
@@ -109,7 +131,8 @@ SimulatedRun read_simulated_run(const std::string &path) {
         run.recipe[key] = value;
   }
   mistakes.stop_if_any();
-  const Settings settings = folder.settings();
+  run.way = fmt::format("platen.presses = {}, dwell_us = {}", settings.text("platen.presses"),
+                        settings.text("platen.dwell_us"));
   run.control = settings.text("platen.control");
   run.target = settings.number(run.control == "pressure" ? std::string("platen.max_pressure_MPa")
                                                          : "platen." + run.control + "_um");
