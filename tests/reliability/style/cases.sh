@@ -95,6 +95,20 @@ shell_is_clean() {
   mapfile -t files < <(grep -lE -r --exclude-dir=build '^#!.*(bash|/sh)' .ci tools patches src_plugin tests input_scripts)
   shellcheck "${files[@]}"
 }
+# A fault that its sed does not put in, because the line has changed, would be caught by nothing.
+mutants_change_something() {
+  while IFS='|' read -r name file expression _; do
+    name=${name// /} file=${file// /}
+    case $name in "" | "#"*) continue ;; esac
+    case $file in tools/*) ;; *) file=src_plugin/$file ;; esac
+    expression=$(sed 's/^ *//; s/ *$//' <<<"$expression")
+    if [ ! -f "$file" ]; then
+      echo "$name: no $file"
+    elif sed "$expression" "$file" | cmp -s - "$file"; then
+      echo "$name"
+    fi
+  done <tests/reliability/mutants/mutants.txt | report "mutants.txt: changes nothing"
+}
 case ${1:-} in
   "" | *[!a-z_]*) echo "usage: cases.sh CASE BUILD" >&2; exit 1 ;;
   *) "$@" ;;
