@@ -126,6 +126,21 @@ TEST(Pressings, PressureLeftNeedsRunsThatDwell) {
       EXPECT_EQ(run.values[2], 100.0);
 }
 
+// Two films that lose 13.5 and 16.5 % scatter by more than their readings, whatever specimens' porosities do.
+TEST(Pressings, PressureLeftOfTwoFilmsScattersByItself) {
+  Experiment e = pressed_twice("dwell");
+  e.on_press = true;
+  e.specimen_porosity_points = 3.0;
+  e.conditions[1].pressure_left_percent = Measured{86.5, 0.5};
+  e.conditions.push_back(e.conditions[1]);
+  e.conditions[2].id = e.conditions[2].specimen = "third";
+  e.conditions[2].pressure_left_percent->value = 83.5;
+  const ExperimentData data = data_of(e, bank_with_pressings(), {});
+  EXPECT_TRUE(reported(data, "other, third are 2 specimens pressed alike"));
+  EXPECT_NEAR(data.experiment.values[2], 85.0, 1e-9);
+  EXPECT_GT(data.experiment.covariance(2, 2), 0.5 * 0.5);
+}
+
 // The porosities alone leave open whether anything raised them; the pressure that a dwell leaves does
 // not.
 TEST(Pressings, ADwellShowsWhatPorositiesDoNot) {
