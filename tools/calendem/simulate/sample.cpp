@@ -13,7 +13,6 @@
 #include <nlohmann/json.hpp>
 
 namespace calendem {
-
 namespace {
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
