@@ -79,13 +79,14 @@ TEST(Pressings, AConditionLearnsFromRunsPressedAsItWas) {
   EXPECT_FALSE(reported(data, "pressed alike"));
   EXPECT_TRUE(reported(data, "4 of the bank's 36 points lack a run to 60 MPa or 60 MPa (again)"));
   int n = 0;
-  for (const inference::BankRun &run : data.bank.runs)
-    if (run.effect != "thickness_zero") {
-      const BankPoint &point = point_of(table, run);
-      EXPECT_EQ(run.values[0], 100.0 * made_run(point, kPressure).porosity_after);
-      EXPECT_EQ(run.values[1], 100.0 * pressed_so("again", point).porosity_after);
-      ++n;
-    }
+  for (const inference::BankRun &run : data.bank.runs) {
+    if (run.effect == "thickness_zero")
+      continue;
+    const BankPoint &point = point_of(table, run);
+    EXPECT_EQ(run.values[0], 100.0 * made_run(point, kPressure).porosity_after);
+    EXPECT_EQ(run.values[1], 100.0 * pressed_so("again", point).porosity_after);
+    ++n;
+  }
   EXPECT_EQ(n, 24 + 8);
 }
 
