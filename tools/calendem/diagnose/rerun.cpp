@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The chosen models run again, and how far they are from what was held out.
 #include "diagnose/rerun.h"
-#include "base/case.h"
 #include "diagnose/compare/observables.h"
 #include "diagnose/inference/evidence.h"
 #include "diagnose/sample_film.h"
 #include <algorithm>
 #include <fmt/format.h>
-#include <map>
 #include <set>
 
 namespace calendem {
@@ -27,27 +25,19 @@ Study study_of(const BankTable &table, const std::vector<RerunModel> &models,
   study.recipe_file = spec.recipe_file;
   study.case_file = spec.case_file;
   study.columns = model_columns(spec);
-  std::map<std::string, std::string> usual; // of the keys that any pressing has
-  const Settings of_case = read_case(spec.case_file);
-  for (const PressedTo &to : pressings)
-    if (const BankPressing *how = find_pressing(spec, to.pressing))
-      for (const auto &[key, value] : how->settings)
-        usual[key] = of_case.text(key);
-  study.columns.push_back("case.platen.max_pressure_MPa");
-  for (const auto &[key, value] : usual)
-    study.columns.push_back("case." + key);
+  std::vector<Pressing> ways;
+  for (const PressedTo &to : pressings) {
+    const BankPressing *how = find_pressing(spec, to.pressing);
+    ways.push_back(to_pressure(to.pressure, how ? how->settings : Pressing()));
+  }
+  const PressingColumns pressed = columns_of(ways, spec.case_file);
+  study.columns.insert(study.columns.end(), pressed.names.begin(), pressed.names.end());
   std::vector<std::vector<std::string>> rows;
   for (const RerunModel &m : models)
     for (int k = 1; k <= packings; ++k)
-      for (const PressedTo &to : pressings) {
+      for (const std::vector<std::string> &way : pressed.rows) {
         rows.push_back(model_values(spec, m, k, film));
-        rows.back().push_back(text_of(to.pressure));
-        std::map<std::string, std::string> values = usual;
-        if (const BankPressing *how = find_pressing(spec, to.pressing))
-          for (const auto &[key, value] : how->settings)
-            values[key] = value;
-        for (const auto &[key, value] : values)
-          rows.back().push_back(value);
+        rows.back().insert(rows.back().end(), way.begin(), way.end());
       }
   Mistakes mistakes(spec.file, 20);
   add_runs(study, rows, mistakes);

@@ -98,7 +98,7 @@ Study own_runs(const FilmBank &bank, const std::vector<Draw> &draws, const Recip
   const OwnStudy of = study_of(bank, draws, recipe, material);
   std::vector<Pressing> pressings;
   for (const double pressure : pressures)
-    pressings.push_back({{"platen.max_pressure_MPa", fmt::format("{}", pressure)}});
+    pressings.push_back(to_pressure(pressure));
   return pressed_study(of.spec, pressed(of.points, pressings));
 }
 

@@ -95,13 +95,33 @@ std::vector<PressedPoint> pressed(const std::vector<BankPoint> &points,
   return out;
 }
 
-namespace {
-
-Pressing to_pressure(double pressure, const Pressing &settings = {}) {
+Pressing to_pressure(double pressure, const Pressing &settings) {
   Pressing out = settings;
   out.emplace_back("platen.max_pressure_MPa", fmt::format("{}", pressure));
   return out;
 }
+
+PressingColumns columns_of(const std::vector<Pressing> &pressings, const std::string &case_file) {
+  const Settings of_case = read_case(case_file);
+  std::map<std::string, std::string> usual; // of the keys that any of them has
+  for (const Pressing &pressing : pressings)
+    for (const auto &[key, value] : pressing)
+      usual.emplace(key, of_case.text(key));
+  PressingColumns out;
+  for (const auto &[key, value] : usual)
+    out.names.push_back("case." + key);
+  for (const Pressing &pressing : pressings) {
+    std::map<std::string, std::string> values = usual;
+    for (const auto &[key, value] : pressing)
+      values[key] = value;
+    out.rows.emplace_back();
+    for (const auto &[key, value] : values)
+      out.rows.back().push_back(value);
+  }
+  return out;
+}
+
+namespace {
 
 std::vector<PressedPoint> to_pressures(const std::vector<BankPoint> &points,
                                        const std::vector<double> &pressures,
@@ -141,24 +161,16 @@ Study pressed_study(const BankSpec &spec, const std::vector<PressedPoint> &runs)
   study.keep_all = false;
   study.measured = spec.tortuosity;
   study.columns = columns_of(spec);
-  std::map<std::string, std::string> usual; // of the keys that any run has
-  for (const PressedPoint &run : runs)
-    for (const auto &[key, value] : run.pressing)
-      usual.emplace(key, "");
-  for (const auto &[key, value] : usual)
-    study.columns.push_back("case." + key);
   check_columns(study);
-  const Settings of_case = read_case(spec.case_file);
-  for (auto &[key, value] : usual)
-    value = of_case.text(key);
+  std::vector<Pressing> pressings;
+  for (const PressedPoint &run : runs)
+    pressings.push_back(run.pressing);
+  const PressingColumns pressed = columns_of(pressings, spec.case_file);
+  study.columns.insert(study.columns.end(), pressed.names.begin(), pressed.names.end());
   std::vector<std::vector<std::string>> rows;
-  for (const PressedPoint &run : runs) {
-    std::map<std::string, std::string> values = usual;
-    for (const auto &[key, value] : run.pressing)
-      values[key] = value;
-    rows.push_back(row_of(spec, run.point));
-    for (const auto &[key, value] : values)
-      rows.back().push_back(value);
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    rows.push_back(row_of(spec, runs[k].point));
+    rows.back().insert(rows.back().end(), pressed.rows[k].begin(), pressed.rows[k].end());
   }
   Mistakes mistakes(study.file, 20);
   add_runs(study, rows, mistakes);

@@ -39,6 +39,17 @@ struct PressedPoint {
   std::string name;
 };
 
+/// To that pressure [MPa], in the usual way or with these settings.
+Pressing to_pressure(double pressure, const Pressing &settings = {});
+
+/// Columns of a study, and for each way of pressing a row of their values: all keys that any of them
+/// has. A key that one lacks is that of the case.
+struct PressingColumns {
+  std::vector<std::string> names;
+  std::vector<std::vector<std::string>> rows;
+};
+PressingColumns columns_of(const std::vector<Pressing> &pressings, const std::string &case_file);
+
 /// All points in all of these ways, by point.
 std::vector<PressedPoint> pressed(const std::vector<BankPoint> &points,
                                   const std::vector<Pressing> &pressings);
@@ -46,8 +57,7 @@ std::vector<PressedPoint> pressed(const std::vector<BankPoint> &points,
 /// The bank's runs: for each point one per pressure, in their order; then those of each pressing.
 std::vector<PressedPoint> bank_runs(const BankSpec &spec);
 
-/// A key that a run's pressing lacks is that of the case. Throws Failure(2) where values are no
-/// values of their keys or contradict each other.
+/// Throws Failure(2) where values are no values of their keys or contradict each other.
 Study pressed_study(const BankSpec &spec, const std::vector<PressedPoint> &runs);
 
 /// The first base points once more, for the full cell; those parameters that are keys of the recipe
@@ -67,7 +77,8 @@ struct BankTable {
   std::vector<BankRow> rows; ///< those of the full cell too
 };
 
-/// Columns: effect, base_point, packing, pressing (if any run has one), the base parameters, value (of the effect's key), then the
+/// Columns: effect, base_point, packing, pressing (if any run has one), the base parameters, value
+/// (of the effect's key), then the
 /// run's numbers, its displacement at pressures of a fixed grid (um, MPa; empty: not reached) and
 /// on release at shares of the largest pressure (um). A table may lack the release, displacements
 /// above 180 MPa, broken bonds, tortuosity, nanoporosity and what a dwell leaves of the pressure.

@@ -131,8 +131,9 @@ SimulatedRun read_simulated_run(const std::string &path) {
         run.recipe[key] = value;
   }
   mistakes.stop_if_any();
-  run.way = fmt::format("platen.presses = {}, dwell_us = {}", settings.text("platen.presses"),
-                        settings.text("platen.dwell_us"));
+  run.way = fmt::format("platen.presses = {}, dwell_us = {}, speed_m_s = {}",
+                        settings.text("platen.presses"), settings.text("platen.dwell_us"),
+                        settings.text("platen.speed_m_s"));
   run.control = settings.text("platen.control");
   run.target = settings.number(run.control == "pressure" ? std::string("platen.max_pressure_MPa")
                                                          : "platen." + run.control + "_um");
