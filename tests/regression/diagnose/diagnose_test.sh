@@ -84,6 +84,20 @@ refuses "not the bank's electrode; composition.am_weight_percent: 90 instead of 
 diagnose other.toml -o other --bank bank.toml --other-electrode --no-rerun >other.log || fail "exit status $?"
 grep -q "^note: the sample is not the bank's electrode" other.log || fail "another electrode is not reported"
 
+# Points chosen for the experiment are made, and learnt from (four runs).
+"$bin/calendem" bank bank.toml -o choice --choose 2 --experiment experiment.toml >choice.log || { cat choice.log; fail "exit status $? of --choose"; }
+[ "$(grep -c '^friction,[678],0' choice/chosen.csv)" = 2 ] || { cat choice/chosen.csv; fail "two points of friction, beside others than it has"; }
+sed "s|^effects = .*|&\nchosen_points = \"choice/chosen.csv\"|" bank.toml >more.toml
+if "$bin/calendem" bank more.toml -o again --choose 1 --experiment experiment.toml --cells 9 >again.log 2>&1; then fail "points without runs"; fi
+grep -q "has no runs yet" again.log || { cat again.log; fail "it is not said that chosen points have no runs"; }
+seq 31 34 | xargs -P 2 -I{} "$bin/calendem" bank more.toml -o more --only {} >more.log 2>&1 || { cat more.log; fail "runs of chosen points"; }
+"$bin/calendem" bank more.toml -o more --table >>more.log || { cat more.log; fail "their table"; }
+{ cat bank.csv; sed 1d more/bank.csv; } >more.csv
+diagnose experiment.toml -o with_more --bank more.toml --table more.csv --no-rerun >with_more.log || fail "exit status $?"
+for runs in one:6 with_more:8; do
+  grep -A1 '"effect": "friction",' "${runs%:*}/gap.json" | grep -q "\"runs\": ${runs#*:}" || fail "friction has not ${runs#*:} runs"
+done
+
 # A bank stands for another electrode after few runs of that (four).
 refuse_from() { "$bin/calendem" bank "$1" -o bad_bank --from bank.csv >from.log 2>&1 && fail "bank --from took $1"; grep -qF -- "$2" from.log || { cat from.log; fail "'$2' is not said"; }; }
 refuse_from bank.toml 'with other_electrode = "yes"'

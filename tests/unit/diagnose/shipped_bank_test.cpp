@@ -2,6 +2,7 @@
 // What the shipped bank can distinguish.
 #include "base/provenance.h"
 #include "diagnose/diagnose.h"
+#include "diagnose/inference/emulators.h"
 #include "diagnose/inference/hypothesis.h"
 #include "diagnose/inference/which.h"
 #include "support/test_folder.h"
@@ -99,15 +100,17 @@ TEST(ShippedBank, PackingsLeftOutLieAsFarOffAsExpected) {
   EXPECT_NEAR(squares / features, expected / features, 3.0 * 0.08);
 }
 
-// Noise-free copies of each effect at twice its detection limit on a laboratory's sample, of many
-// cells: named, or held back for nothing but poor emulators. The base model's own copy is none.
+// Copies without error of each effect at twice its detection limit, for the laboratory that the bank's points were
+// chosen for: named. The base model's own copy is none.
 TEST(ShippedBank, EffectsAtTwiceTheirDetectionLimitAreNamed) {
   const std::string folder = std::string(CALENDEM_SOURCE_DIR) + "/input_scripts/cases/bank/";
   const BankSpec spec = read_bank_spec(folder + "bank.toml");
   const BankTable bank = read_bank_table(spec, folder + "bank.csv");
-  const ExperimentData data = data_of(shown(bank, 0, spec.recipe_file), bank, {});
+  const Experiment planned = read_experiment(folder + "planned.toml");
+  const ExperimentData data = data_of(planned, bank, {});
   inference::DiagnosisSettings settings;
-  settings.model.packings_in_sample = 1e5;
+  settings.model.packings_in_sample = cells_of(planned, spec);
+  settings.model.specimens = data.specimens;
   const inference::Model model(data.bank, data.experiment, settings.model, {});
   const inference::Problem problem = model.problem(data.experiment.values);
   const inference::Vector middle = inference::Vector::Zero(Eigen::Index(data.bank.base.size()));
@@ -117,15 +120,13 @@ TEST(ShippedBank, EffectsAtTwiceTheirDetectionLimitAreNamed) {
   };
   const inference::Diagnosis base = inference::diagnose(model, data.bank, copy_of({}), settings);
   EXPECT_EQ(base.which.claim, "none");
-  const std::vector<std::string> poor = model.poor_effects();
-  inference::WhichSettings rules = settings.which;
-  rules.poor = poor;
   const bool heavy = std::getenv("CALENDEM_HEAVY"); // else every third
-  int visible = 0, held_back = 0;
+  int visible = 0;
   for (std::size_t k = 0; k < data.bank.effects.size(); ++k) {
     const inference::DetectionLimit &limit = base.confounding.limits[k];
     const inference::Prior &prior = data.bank.effects[k].parameters[0].prior;
     ASSERT_EQ(limit.effect, data.bank.effects[k].name);
+    RecordProperty(limit.effect, fmt::format("{:.3g} of {:.3g}", limit.amplitude, prior.upper()));
     if (!(2.0 * limit.amplitude <= prior.upper()))
       continue;
     if (visible++ % 3 != 0 && !heavy)
@@ -133,14 +134,77 @@ TEST(ShippedBank, EffectsAtTwiceTheirDetectionLimitAreNamed) {
     const inference::Vector score =
         inference::Vector::Constant(1, prior.score(2.0 * limit.amplitude));
     const inference::Which which =
-        inference::which(model.problem(copy_of({{int(k), score}})), rules);
+        inference::which(model.problem(copy_of({{int(k), score}})), settings.which);
     EXPECT_EQ(which.judged[0].hypothesis.name, limit.effect);
-    const bool is_poor = std::find(poor.begin(), poor.end(), limit.effect) != poor.end();
-    held_back += is_poor;
-    EXPECT_EQ(which.claim, is_poor ? "undecided" : limit.effect) << which.why;
+    EXPECT_EQ(which.claim, limit.effect) << which.why;
   }
-  EXPECT_EQ(visible, 13); // of 15
-  RecordProperty("held_back", held_back);
+  EXPECT_EQ(visible, 6); // of 15
+}
+
+// A careful laboratory on large discs: the packings' scatter is gone, but what is off by more than its
+// errors is learnt.
+TEST(ShippedBank, HasRunsEnoughForAPlannedLaboratory) {
+  const std::string folder = std::string(CALENDEM_SOURCE_DIR) + "/input_scripts/cases/bank/";
+  const BankSpec spec = read_bank_spec(folder + "bank.toml");
+  const BankTable bank = read_bank_table(spec, folder + "bank.csv");
+  const Experiment planned = read_experiment(folder + "planned.toml");
+  const ExperimentData data = data_of(planned, bank, {});
+  inference::ModelSettings settings;
+  settings.packings_in_sample = cells_of(planned, spec);
+  EXPECT_GT(settings.packings_in_sample, 5e5);
+  const inference::Model model(data.bank, data.experiment, settings, {});
+  EXPECT_EQ(model.poor_effects(), std::vector<std::string>());
+  for (const inference::EmulatorQuality &q : model.quality())
+    RecordProperty(q.effect.empty() ? "base" : q.effect,
+                   fmt::format("Q2 {:.2f}, own error {:.2f}", q.q2, q.error));
+}
+
+// The runs that were chosen, beside what the emulators said of them before they were made: squares of what
+// they are off by, in their stated variances. Their mean is 1; its standard deviation of 110 points
+// sqrt(2 / 110) = 0.13, as if all 20 features of one were one number.
+TEST(ShippedBank, ChosenRunsScatterAsTheEmulatorsSaid) {
+  const std::string folder = std::string(CALENDEM_SOURCE_DIR) + "/input_scripts/cases/bank/";
+  const BankSpec spec = read_bank_spec(folder + "bank.toml");
+  const BankTable whole = read_bank_table(spec, folder + "bank.csv");
+  const auto is_chosen = [&](const BankPoint &p) {
+    return std::any_of(spec.chosen.begin(), spec.chosen.end(), [&](const ChosenRun &c) {
+      return c.effect == p.effect && c.base_point == p.base_point;
+    });
+  };
+  BankTable before = whole;
+  before.rows.erase(std::remove_if(before.rows.begin(), before.rows.end(),
+                                   [&](const BankRow &row) { return is_chosen(row.point); }),
+                    before.rows.end());
+  const Experiment planned = read_experiment(folder + "planned.toml");
+  const ExperimentData had = data_of(planned, before, {}), has = data_of(planned, whole, {});
+  const inference::Model model(had.bank, had.experiment, {});
+  double squares = 0.0;
+  int numbers = 0, points = 0;
+  for (int e = 0; e < int(has.bank.effects.size()); ++e)
+    for (const auto &[off, on] : pairs_of(has.bank, has.bank.effects[std::size_t(e)].name)) {
+      const inference::BankRun &run = has.bank.runs[std::size_t(on)];
+      const auto same = [&](const inference::BankRun &other) {
+        return other.effect == run.effect && other.base == run.base &&
+               other.packing == run.packing && other.amplitudes == run.amplitudes;
+      };
+      if (std::any_of(had.bank.runs.begin(), had.bank.runs.end(), same))
+        continue;
+      ++points;
+      const inference::Vector difference =
+          model.map().emulated_of(run.values) -
+          model.map().emulated_of(has.bank.runs[std::size_t(off)].values);
+      const inference::Asked asked =
+          model.emulators().asked(e, {run.base}, {run.amplitudes}, {run.packing});
+      for (Eigen::Index f = 0; f < difference.size(); ++f) {
+        const inference::GaussianProcess &g = model.emulators().effect(e)[std::size_t(f)];
+        const double left = difference[f] - g.at(asked.inputs.col(0), asked.amplitudes.col(0)).mean;
+        squares += left * left / g.covariance(asked)(0, 0);
+        ++numbers;
+      }
+    }
+  EXPECT_EQ(points, 109); // one lacks a part of its release
+  RecordProperty("mean_square", std::to_string(squares / numbers));
+  EXPECT_NEAR(squares / numbers, 1.0, 3.0 * 0.13);
 }
 
 // All of its runs are of its design; missing are one to 20 MPa, and two of NMC plasticity, which did not
@@ -149,11 +213,10 @@ TEST(ShippedBank, ItsTableIsWhatTheProgramWritesOfItsDesign) {
   const std::string folder = CALENDEM_SOURCE_DIR "/input_scripts/cases/bank/";
   const BankSpec spec = read_bank_spec(folder + "bank.toml");
   const BankTable bank = read_bank_table(spec, folder + "bank.csv");
-  BankTable first = {spec, {}}, further = {spec, {}};
-  for (const BankRow &row : bank.rows)
-    (row.run.target == 50.0 || !row.run.pressing.empty() ? further : first).rows.push_back(row);
-  EXPECT_EQ(write_bank_table(first), text_of_file(folder + "bank.csv"));
-  EXPECT_EQ(write_bank_table(further), text_of_file(spec.further_table));
+  BankSpec alone = spec;
+  alone.further_table = "";
+  for (const std::string &file : {folder + "bank.csv", spec.further_table})
+    EXPECT_EQ(write_bank_table(read_bank_table(alone, file)), text_of_file(file));
   using Run = std::tuple<std::string, std::string, std::string, int>;
   std::map<Run, BankPoint> designed;
   std::vector<PressedPoint> all = bank_runs(spec);

@@ -147,6 +147,34 @@ TEST(Diagnosis, EmulatorsThatArePoorAreSaidToBe) {
   EXPECT_EQ(model.poor_effects(), std::vector<std::string>{"friction"});
 }
 
+// Runs that scatter by more than the effect changes them: a single one cannot be predicted, but the
+// expectation, which a large sample shows, can be learnt from enough of them.
+TEST(Diagnosis, EmulatorsAreJudgedByWhatCanBeLearnt) {
+  const auto with_runs = [](int runs) {
+    Bank bank = synthetic_bank(runs, kScatter);
+    Random random(1, 1);
+    for (auto &r : bank.runs)
+      if (r.effect == "friction")
+        for (double &v : r.values)
+          v += 0.4 * random.normal();
+    ModelSettings large;
+    large.packings_in_sample = 1e6;
+    return Model(bank, Laboratory::experiment("", 0.0, 1), large);
+  };
+  const Model few = with_runs(12), many = with_runs(120);
+  EXPECT_EQ(few.poor_effects(), std::vector<std::string>{"friction"});
+  EXPECT_EQ(many.poor_effects(), std::vector<std::string>());
+  const EmulatorQuality &friction = many.quality()[2];
+  EXPECT_EQ(friction.effect, "friction");
+  EXPECT_GT(friction.error, 1.0);
+  double missed = 0.0, all = 0.0; // of single runs
+  for (const Quality &q : friction.feature) {
+    missed += q.error * q.error;
+    all += q.spread * q.spread;
+  }
+  EXPECT_LT(1.0 - missed / all, 0.5);
+}
+
 TEST(Diagnosis, SameBytesTwice) {
   const auto bytes = [] {
     return to_json(Laboratory({}, {dwell()}).diagnose("plasticity", 0.5, 8), "sample").dump();

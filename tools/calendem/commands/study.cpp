@@ -2,9 +2,11 @@
 #include "simulate/study.h"
 #include "base/liggghts_job.h"
 #include "base/messages.h"
+#include "base/output_folder.h"
 #include "base/provenance.h"
 #include "commands/commands.h"
 #include "diagnose/bank/bank_table.h"
+#include "diagnose/choose_runs.h"
 #include "report/study_page.h"
 #include "simulate/sample.h"
 #include <CLI/CLI.hpp>
@@ -21,6 +23,9 @@ struct Options {
   StudyOptions study;
   bool full_cell = false;
   std::string from; ///< a table whose rows are taken for all but the full cell
+  int choose = 0;   ///< points to be chosen, for...
+  std::string experiment;
+  double cells = 0.0; ///< 0: from the sample's diameter
 };
 
 /// A study of points and where it goes.
@@ -80,8 +85,38 @@ void transfer_bank(const Options &o, const BankSpec &spec, const std::vector<Par
   write_table(spec, {parts[1]}, o.study.folder, std::move(rows));
 }
 
+/// Chosen for what they tell about an experiment: nothing is run.
+void choose_points_of(const Options &o, const BankSpec &spec) {
+  const std::string own = o.study.folder + "/bank.csv",
+                    table = std::filesystem::is_regular_file(own) ? own : table_of(spec);
+  const RunChoice choice =
+      choose_runs(read_experiment(o.experiment), read_bank_table(spec, table), o.cells, o.choose);
+  fmt::print("{} points chosen of those that {} can still run, for {} (a sample of {:.3g} cells)\n"
+             "  {:<22} {:>6} {:>6} {:>12} {:>20}\n",
+             choice.chosen.size(), table, o.experiment, choice.cells, "effect", "points", "more",
+             "gain, bits", "were they even, bits");
+  double gain = 0.0, evenly = 0.0;
+  for (const RunChoice::Effect &e : choice.effects) {
+    fmt::print("  {:<22} {:>6} {:>6} {:>12.2f} {:>20.2f}\n", e.name, e.points, e.chosen, e.gain,
+               e.evenly);
+    gain += e.gain;
+    evenly += e.evenly;
+  }
+  fmt::print("  {:<22} {:>6} {:>6} {:>12.2f} {:>20.2f}\n", "all", "", choice.chosen.size(), gain,
+             evenly);
+  std::vector<ChosenRun> all = spec.chosen;
+  all.insert(all.end(), choice.chosen.begin(), choice.chosen.end());
+  make_output_folder(o.study.folder);
+  write_file(o.study.folder + "/chosen.csv", write_chosen(all));
+  fmt::print("{} runs: {}/chosen.csv. To make them name it in {}, [bank] chosen_points, and run "
+             "calendem bank on it.\n",
+             choice.chosen.size() * spec.pressures.size(), o.study.folder, spec.file);
+}
+
 void make_bank(const Options &o) {
   const BankSpec spec = read_bank_spec(o.study.file);
+  if (o.choose > 0)
+    return choose_points_of(o, spec);
   std::vector<Part> parts = parts_of(spec, o.study);
   if (!o.from.empty())
     return transfer_bank(o, spec, parts);
@@ -127,6 +162,19 @@ void add_bank_verb(CLI::App &app) {
   verb->add_option("--from", o->from,
                    "bank.csv whose runs stand for another electrode, which alone is run "
                    "([full_cell] with other_electrode)");
+  CLI::Option *choose =
+      verb->add_option("--choose", o->choose,
+                       "run nothing: choose so many points that would tell most about --experiment")
+          ->check(CLI::Range(1, 10000));
+  CLI::Option *experiment = verb->add_option("--experiment", o->experiment,
+                                             "experiment (TOML) that points are chosen for")
+                                ->needs(choose);
+  choose->needs(experiment);
+  verb->add_option("--cells", o->cells,
+                   "how many of the bank's cells its sample is as large as; default: from "
+                   "sample_diameter_mm")
+      ->needs(choose)
+      ->check(finite_range(1.0, 1e12));
   verb->callback([o] { make_bank(*o); });
 }
 

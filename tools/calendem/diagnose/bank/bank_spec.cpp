@@ -30,7 +30,8 @@ const std::vector<Key> &head_keys() {
       {"tortuosity", "", "no", 0, 0, "", "of the pores after release", "yes|no"},
       {"nanoporosity_within_points", "", "0", 0, 20, "%", "to either side of a recipe's"},
       {"crushing", "", "-", 0, 0, "", "loads of single particles (CSV)", "", true},
-      {"further_table", "", "-", 0, 0, "", "more of its runs (CSV)", "", true}};
+      {"further_table", "", "-", 0, 0, "", "more of its runs (CSV)", "", true},
+      {"chosen_points", "", "-", 0, 0, "", "more points of effects (CSV)", "", true}};
   return keys;
 }
 
@@ -41,7 +42,7 @@ public:
   void read_head(const toml::table &t, BankSpec &out) {
     report_unknown(t, {"name", "recipe", "case", "packings", "base_points", "effect_points", "seed",
                        "first_point", "tortuosity", "nanoporosity_within_points", "crushing",
-                       "further_table", "pressures_MPa", "effects"});
+                       "further_table", "chosen_points", "pressures_MPa", "effects"});
     out.name = text(t, head_keys()[0]);
     out.recipe_file = path(t, head_keys()[1]);
     out.case_file = path(t, head_keys()[2]);
@@ -54,6 +55,7 @@ public:
     out.nanoporosity_within = number(t, head_keys()[10]);
     out.crushing_file = path(t, head_keys()[11]);
     out.further_table = path(t, head_keys()[12]);
+    chosen_file_ = path(t, head_keys()[13]);
     if (out.effect_points > out.base_points)
       mistakes_.add(0, fmt::format("effect_points is {}, base_points {}: every point of an effect "
                                    "needs a base point of its own.",
@@ -187,6 +189,12 @@ public:
     out.pressings.push_back(p);
   }
 
+  /// After all else: its points are none of those that the other keys give.
+  void read_chosen_points(BankSpec &out) {
+    if (!chosen_file_.empty() && mistakes_.empty())
+      read_chosen(chosen_file_, out, mistakes_);
+  }
+
   Numerics read_numerics(const toml::node &node) {
     const toml::table *t = node.as_table();
     if (!t) {
@@ -199,6 +207,8 @@ public:
   }
 
 private:
+  std::string chosen_file_;
+
   std::string column_name(const toml::table &t, const toml::node &node, const std::string &fallback,
                           const std::string &of) {
     const std::string name = text(t, {"name", "", fallback, 0, 0, "", "of the " + of, "", true});
@@ -344,6 +354,7 @@ BankSpec read_bank_spec(const std::string &file) {
     mistakes.add(0, "has no [[parameter]]: there would be nothing to recalibrate.");
   for (const BankPressing &pressing : out.pressings)
     check_settings(out, pressing, mistakes);
+  reader.read_chosen_points(out);
   mistakes.stop_if_any();
   return out;
 }

@@ -14,6 +14,7 @@
 //   tortuosity = "yes"               # of the pores after release; default: no
 //   nanoporosity_within_points = 10  # how far that of CBD may lie from the recipe's; default: 0
 //   further_table = "further.csv"    # more of its runs than the table beside this file has
+//   chosen_points = "chosen.csv"     # more points of effects, chosen for an experiment
 //   crushing = "crushing.csv"        # loads of single particles, for calibrate; default: none
 //   [[parameter]]                    # of the base model, recalibrated by the diagnosis
 //   name = "E_am"
@@ -49,6 +50,7 @@
 #ifndef CALENDEM_DIAGNOSE_BANK_BANK_SPEC_H
 #define CALENDEM_DIAGNOSE_BANK_BANK_SPEC_H
 
+#include "base/messages.h"
 #include "base/registry.h"
 #include <cmath>
 #include <map>
@@ -103,6 +105,13 @@ struct BankPressing {
   int base_points = 0, effect_points = 0;
 };
 
+/// A point of an effect that was chosen for what it tells (choose_runs), beside a base point.
+struct ChosenRun {
+  std::string effect;
+  int base_point = 0;
+  double value = 0.0; ///< of the effect's key
+};
+
 /// An error that all of the bank's runs share: too fast, too small a cell, too coarse.
 struct Numerics {
   std::string name;
@@ -125,6 +134,7 @@ struct BankSpec {
   std::vector<std::string> effects;
   std::map<std::string, std::pair<double, double>> ranges; ///< of effects, where not the table's
   std::map<std::string, int> points;                       ///< of effects, where not effect_points
+  std::vector<ChosenRun> chosen;                           ///< beside the effects' own points
   std::vector<BankPressing> pressings;                     ///< beside the usual one to `pressures`
   FullCell full_cell;
   std::vector<MeasurementPrice> prices = usual_prices();
@@ -142,6 +152,12 @@ const BankPressing *find_pressing(const BankSpec &spec, const std::string &name)
 
 /// How many points the effect has.
 int points_of(const BankSpec &spec, const std::string &effect);
+
+/// CSV: effect, base_point, value.
+std::string write_chosen(const std::vector<ChosenRun> &chosen);
+
+/// Adds what the file holds to the bank, whose other keys have been read.
+void read_chosen(const std::string &file, BankSpec &spec, Mistakes &mistakes);
 
 /// As find_effect, with the bank's range.
 Effect effect_of(const BankSpec &spec, const std::string &name);

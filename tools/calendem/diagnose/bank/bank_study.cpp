@@ -83,6 +83,11 @@ std::vector<BankPoint> bank_points(const BankSpec &spec) {
       out.push_back(p);
     }
   }
+  for (const ChosenRun &c : spec.chosen) {
+    out.push_back(out[std::size_t(c.base_point - spec.first_point)]);
+    out.back().effect = c.effect;
+    out.back().value = c.value;
+  }
   return out;
 }
 

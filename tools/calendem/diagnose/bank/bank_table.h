@@ -29,7 +29,7 @@ double prior_value(double low, double high, Spread spread, double share);
 
 /// Base points first: a Sobol sequence over the priors, packings in turn. Then the points of each
 /// effect that needs runs of its own, spread over its prior, beside the first base points: these
-/// fill the priors evenly too, and stand on all packings.
+/// fill the priors evenly too, and stand on all packings. Last the chosen points.
 std::vector<BankPoint> bank_points(const BankSpec &spec);
 
 /// A point and how it is pressed; `name` as of the bank's pressing, empty: the usual one.

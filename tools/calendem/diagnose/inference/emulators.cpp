@@ -2,7 +2,6 @@
 #include "diagnose/inference/emulators.h"
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace calendem::inference {
 namespace {
@@ -75,10 +74,9 @@ Vector scaled_base(const Bank &bank, const BankRun &run) {
 
 Emulators::Emulators(const Bank &bank, const Matrix &features)
     : parameters_(bank.base), table_(bank.effects) {
-  std::map<std::string, int> number;
   std::vector<int> packing;
   for (const BankRun &r : bank.runs)
-    packing.push_back(number.emplace(r.packing, int(number.size())).first->second);
+    packing.push_back(number_.emplace(r.packing, int(number_.size())).first->second);
   const auto base = base_runs(bank);
   Training t;
   t.inputs.resize(Eigen::Index(bank.base.size()), Eigen::Index(base.size()));
@@ -110,6 +108,31 @@ Emulators::Emulators(const Bank &bank, const Matrix &features)
       effects_.back().emplace_back(difference);
     }
   }
+}
+
+Asked Emulators::asked(int effect, const std::vector<Vector> &base,
+                       const std::vector<Vector> &amplitudes,
+                       const std::vector<std::string> &packing) const {
+  Asked out;
+  const auto n = Eigen::Index(base.size());
+  for (Eigen::Index k = 0; k < n; ++k) {
+    Vector scaled(base[std::size_t(k)].size());
+    for (Eigen::Index j = 0; j < scaled.size(); ++j)
+      scaled[j] = parameters_[std::size_t(j)].prior.scaled(base[std::size_t(k)][j]);
+    const Point p = point_of(scaled, table_[std::size_t(effect)], amplitudes[std::size_t(k)]);
+    if (k == 0) {
+      out.inputs.resize(p.input.size(), n);
+      out.amplitudes.resize(p.amplitudes.size(), n);
+    }
+    out.inputs.col(k) = p.input;
+    out.amplitudes.col(k) = p.amplitudes;
+    const std::string &id = packing[std::size_t(k)];
+    const auto known = number_.find(id);
+    out.packing.push_back(id.empty()               ? kExpectation
+                          : known == number_.end() ? int(number_.size() + std::size_t(k))
+                                                   : known->second);
+  }
+  return out;
 }
 
 Matrix Emulators::residuals() const {

@@ -5,6 +5,8 @@
 
 #include "diagnose/inference/gaussian_process.h"
 #include "diagnose/inference/problem.h"
+#include <map>
+#include <string>
 
 namespace calendem::inference {
 
@@ -36,11 +38,16 @@ public:
   const std::vector<int> &runs() const { return runs_; }
   /// Number of the packing of each base run.
   const std::vector<int> &packing() const { return packing_; }
+  /// What `effect`'s emulators can be asked for at these places; `packing`: the id of each, empty
+  /// for the expectation. One that the bank has not is known by no run.
+  Asked asked(int effect, const std::vector<Vector> &base, const std::vector<Vector> &amplitudes,
+              const std::vector<std::string> &packing) const;
 
 private:
   std::vector<Parameter> parameters_;
   std::vector<ModelledEffect> table_;
   std::vector<int> packing_, runs_;
+  std::map<std::string, int> number_; ///< of a packing
   std::vector<GaussianProcess> base_;
   std::vector<std::vector<GaussianProcess>> effects_;
 

@@ -231,6 +231,34 @@ MeanSlopes GaussianProcess::slopes_at(const Vector &input, const Vector &amplitu
   return s;
 }
 
+Matrix GaussianProcess::covariance(const Asked &asked) const {
+  const auto n = asked.inputs.cols(), runs = scaled_values_.size();
+  const bool effect = asked.amplitudes.rows() > 0;
+  Matrix own = Matrix::Ones(n, n), with_runs = Matrix::Ones(runs, n);
+  if (effect) {
+    own = asked.amplitudes.transpose() * asked.amplitudes;
+    with_runs = training_.amplitudes.transpose() * asked.amplitudes;
+  }
+  const Matrix scaled = lengths_.cwiseInverse().asDiagonal() * asked.inputs;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    Vector k = near(asked.inputs.col(j)).covariance;
+    for (Eigen::Index i = 0; i < runs; ++i)
+      k[i] += training_.packing[std::size_t(i)] == asked.packing[std::size_t(j)] ? packing_ : 0.0;
+    with_runs.col(j).array() *= k.array();
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const bool run = asked.packing[std::size_t(i)] != kExpectation,
+                 same = run && asked.packing[std::size_t(i)] == asked.packing[std::size_t(j)];
+      own(i, j) =
+          own(i, j) * (kTrend + slopes_ * asked.inputs.col(i).dot(asked.inputs.col(j)) +
+                       signal_ * matern((scaled.col(i) - scaled.col(j)).squaredNorm()).value +
+                       (same ? packing_ : 0.0)) +
+          (run && i == j ? noise_ : 0.0);
+    }
+  }
+  const Matrix white = factor_.triangularView<Eigen::Lower>().solve(with_runs);
+  return square_ * (own - white.transpose() * white);
+}
+
 /// Dubrule, Math. Geol. 15 (1983) 687: the error of a group left out is (K^-1_PP)^-1 (K^-1 y)_P.
 Quality GaussianProcess::left_out() const {
   std::map<int, std::vector<int>> groups;
@@ -253,6 +281,7 @@ Quality GaussianProcess::left_out() const {
   q.q2 = 1.0 - errors / scaled_values_.squaredNorm();
   q.error = std::sqrt(square_ * errors / n);
   q.spread = std::sqrt(square_ * scaled_values_.squaredNorm() / n);
+  q.scatter = std::sqrt(square_ * scatter / n);
   q.own = std::sqrt(square_ * std::max(0.0, errors - scatter) / n);
   return q;
 }

@@ -29,11 +29,20 @@ struct MeanSlopes {
 
 /// How well it predicts runs of packings it has not seen.
 struct Quality {
-  double q2 = 0.0;     ///< 1 - mean square error / variance (for an effect: / mean square)
-  double error = 0.0;  ///< root mean square, in units of the values
-  double spread = 0.0; ///< what q2 is relative to: root mean square of the values (less the mean)
-  double own = 0.0;    ///< part of the error that is the emulator's, not the packing's scatter
+  double q2 = 0.0;      ///< 1 - mean square error / variance (for an effect: / mean square)
+  double error = 0.0;   ///< root mean square, in units of the values
+  double spread = 0.0;  ///< what q2 is relative to: root mean square of the values (less the mean)
+  double scatter = 0.0; ///< part of the error that is the packings' and the runs': not to be learnt
+  double own = 0.0;     ///< the other part, the emulator's
 };
+
+/// What a Gaussian process could be asked for: a run that was not made, on a packing, or the
+/// expectation over packings (packing kExpectation).
+struct Asked {
+  Matrix inputs, amplitudes; ///< as in Training
+  std::vector<int> packing;
+};
+constexpr int kExpectation = -1;
 
 /// k(x, x') = g { c + b x.x' + s^2 M(x, x') + p^2 [same packing] } + n^2 [same run]
 /// with M the Matern 5/2 kernel with a length for each input (Rasmussen and Williams 2006,
@@ -48,6 +57,9 @@ public:
   /// Expectation over packings at one point. Far from all runs the variance is the prior's.
   Mean at(const Vector &input, const Vector &amplitudes) const;
   MeanSlopes slopes_at(const Vector &input, const Vector &amplitudes) const;
+
+  /// Of all that is asked for, given the runs that it learnt from.
+  Matrix covariance(const Asked &asked) const;
 
   /// Every packing left out in turn (every run, when there are fewer than `kFewestPackings`).
   Quality left_out() const;

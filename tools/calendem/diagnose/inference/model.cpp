@@ -147,10 +147,14 @@ Model::Extra Model::learn_extra(const Bank &bank, const Candidate &candidate) co
   return extra;
 }
 
+Vector Model::data_variance() const {
+  return map_->covariance(measurement_).diagonal().head(map_->emulated()) +
+         scatter_.covariance.diagonal() / settings_.packings_in_sample;
+}
+
 void Model::judge_emulators() {
   const int n = map_->emulated();
-  const Vector variance = map_->covariance(measurement_).diagonal().head(n) +
-                          scatter_.covariance.diagonal() / settings_.packings_in_sample;
+  const Vector variance = data_variance();
   for (int which = -1; which < int(effects_.size()); ++which) {
     const auto &learnt = which < 0 ? emulators_->base() : emulators_->effect(which);
     EmulatorQuality q;
@@ -158,13 +162,14 @@ void Model::judge_emulators() {
     double missed = 0.0, all = 0.0;
     for (int f = 0; f < n; ++f) {
       const Quality one = learnt[f].left_out();
+      const double scatter = one.scatter * one.scatter;
       q.runs = int(learnt[f].residuals().size());
       q.feature.push_back(one);
-      missed += one.error * one.error / variance[f];
-      all += one.spread * one.spread / variance[f];
+      missed += (one.error * one.error - scatter) / variance[f];
+      all += (one.spread * one.spread - scatter) / variance[f];
       q.error += one.own * one.own / variance[f] / n;
     }
-    q.q2 = all > 0.0 ? 1.0 - missed / all : 0.0;
+    q.q2 = all > 0.0 ? std::min(1.0, 1.0 - missed / all) : 0.0;
     q.error = std::sqrt(q.error);
     q.poor = q.q2 < settings_.least_q2 && q.error > settings_.largest_error;
     quality_.push_back(q);

@@ -32,7 +32,8 @@ struct ModelSettings {
   /// Simulated cells that the measured sample is as large as, or that the measured values are the
   /// mean of: the scatter between packings counts with its inverse. 1: one cell of the bank's size.
   double packings_in_sample = 1.0;
-  /// An emulator is poor when it predicts less than this share of what it should...
+  /// An emulator is poor when it predicts less than this share of what it should, the expectation
+  /// over packings...
   double least_q2 = 0.5;
   /// ...and what it misses is more than this many standard deviations of the data.
   double largest_error = 1.0;
@@ -44,7 +45,9 @@ struct EmulatorQuality {
   std::string effect; ///< empty: base model
   int runs = 0;
   std::vector<Quality> feature; ///< emulated ones, in the order of features
-  double q2 = 0.0;              ///< of all features, weighted by the data's variances
+  /// Share of what can be learnt, without the runs' scatter, that left-out packings show to be; of
+  /// all features, weighted by the data's variances. 0: there is nothing beside the scatter.
+  double q2 = 0.0;
   double error =
       0.0; ///< root mean square over features of the emulators' own error, in the data's sd
   bool poor = false;
@@ -63,6 +66,9 @@ public:
   const std::vector<EmulatorQuality> &quality() const { return quality_; }
   std::vector<std::string> poor_effects() const;
   const FeatureMap &map() const { return *map_; }
+  const Emulators &emulators() const { return *emulators_; }
+  /// Of the emulated features: the measurement's and the sample's packings'.
+  Vector data_variance() const;
   const Scatter &scatter() const { return scatter_; }
   const std::vector<ObservableId> &observables() const { return observables_; }
   const Vector &sd() const { return sd_; } ///< of the observables: measurement and packings
