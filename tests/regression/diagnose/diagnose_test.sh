@@ -88,19 +88,25 @@ grep -q "^note: the sample is not the bank's electrode" other.log || fail "anoth
 "$bin/calendem" bank bank.toml -o choice --choose 2 --experiment experiment.toml >choice.log || { cat choice.log; fail "exit status $? of --choose"; }
 [ "$(grep -c '^friction,[678],0' choice/chosen.csv)" = 2 ] || { cat choice/chosen.csv; fail "two points of friction, beside others than it has"; }
 sed "s|^effects = .*|&\nchosen_points = \"choice/chosen.csv\"|" bank.toml >more.toml
-if "$bin/calendem" bank more.toml -o again --choose 1 --experiment experiment.toml --cells 9 >again.log 2>&1; then fail "points without runs"; fi
-grep -q "has no runs yet" again.log || { cat again.log; fail "it is not said that chosen points have no runs"; }
-seq 31 34 | xargs -P 2 -I{} "$bin/calendem" bank more.toml -o more --only {} >more.log 2>&1 || { cat more.log; fail "runs of chosen points"; }
-"$bin/calendem" bank more.toml -o more --table >>more.log || { cat more.log; fail "their table"; }
-{ cat bank.csv; sed 1d more/bank.csv; } >more.csv
-diagnose experiment.toml -o with_more --bank more.toml --table more.csv --no-rerun >with_more.log || fail "exit status $?"
+bank_refuses() { # WORDS ARGUMENTS...
+  if "$bin/calendem" bank "${@:2}" >refused.log 2>&1; then fail "bank took ${*:2}"; fi
+  grep -qF -- "$1" refused.log || { cat refused.log; fail "'$1' is not said"; }
+}
+bank_refuses "has no runs in the table yet" more.toml -o again --choose 1 --experiment experiment.toml
+bank_refuses "is a file of the bank itself" more.toml -o choice --choose 1 --experiment experiment.toml
+bank_refuses "not the bank's electrode" bank.toml -o again --choose 1 --experiment other.toml
+bank_refuses "excludes" bank.toml -o again --choose 1 --experiment experiment.toml --table
+sed 's/^low = 150/low = 160/' bank.toml >another.toml
+bank_refuses "it is the table of another bank" another.toml -o again --from bank.csv
+"$bin/calendem" bank more.toml -o more --from bank.csv --jobs 2 >more.log || { cat more.log; fail "runs of chosen points"; }
+grep -q "^study: 4 runs," more.log || { cat more.log; fail "runs that the table has were made again"; }
+cmp bank.csv <(head -n "$(wc -l <bank.csv)" more/bank.csv) || fail "the table does not begin with that it was made from"
+diagnose experiment.toml -o with_more --bank more.toml --table more/bank.csv --no-rerun >with_more.log || fail "exit status $?"
 for runs in one:6 with_more:8; do
   grep -A1 '"effect": "friction",' "${runs%:*}/gap.json" | grep -q "\"runs\": ${runs#*:}" || fail "friction has not ${runs#*:} runs"
 done
 
 # A bank stands for another electrode after few runs of that (four).
-refuse_from() { "$bin/calendem" bank "$1" -o bad_bank --from bank.csv >from.log 2>&1 && fail "bank --from took $1"; grep -qF -- "$2" from.log || { cat from.log; fail "'$2' is not said"; }; }
-refuse_from bank.toml 'with other_electrode = "yes"'
 { cat bank.toml; printf '[full_cell]\nrecipe = "other_electrode.toml"\ncase = "case.toml"\npoints = 2\nother_electrode = "yes"\n'; } >moved.toml
 if [ -n "${CALENDEM_HEAVY:-}" ]; then
   "$bin/calendem" bank moved.toml -o moved --from bank.csv --jobs 2 >moved.log || { cat moved.log; fail "bank --from"; }

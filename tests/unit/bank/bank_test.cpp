@@ -73,7 +73,7 @@ TEST(Bank, TheFullCellGetsTheFirstBasePointsInItsOwnRecipe) {
   const BankSpec spec = read_bank_spec(file);
   const std::vector<BankPoint> base = bank_points(spec), points = full_cell_points(spec);
   ASSERT_EQ(points.size(), 2u);
-  const Study study = full_cell_study(spec);
+  const Study study = full_cell_study(spec, full_cell_runs(spec));
   ASSERT_EQ(study.runs.size(), 4u);
   for (std::size_t k = 0; k < 4; ++k) {
     EXPECT_EQ(points[k / 2].effect, kFullCell);

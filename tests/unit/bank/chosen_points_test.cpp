@@ -37,6 +37,52 @@ TEST(ChosenPoints, ComeLastBesideTheirBasePoints) {
   EXPECT_EQ(bank_runs(spec).size(), 2u * points.size());
 }
 
+// In the usual way only, last of all runs, whatever the numbers of the base points are.
+TEST(ChosenPoints, AreRunAfterAllOthers) {
+  BankSpec spec = with_chosen("effect,base_point,value\nfriction,4,0.1\n");
+  spec.pressings = {{"", "", {}, {40.0}, 8, 8}};
+  const std::vector<PressedPoint> runs = bank_runs(spec);
+  ASSERT_EQ(runs.size(), 2u * 13 + 12); // 13 points; to 40 MPa those that were not chosen
+  EXPECT_EQ(runs[runs.size() - 3].pressing.back().second, "40");
+  EXPECT_EQ(runs.back().point.base_point, 4);
+  EXPECT_EQ(runs.back().pressing.back().second, "150");
+}
+
+TEST(ChosenPoints, StandBesideNumberedBasePoints) {
+  const std::string file =
+      write_bank(kBank + "first_point = 100\nchosen_points = \"chosen.csv\"\n" +
+                 "effects = [\"friction\"]\n" + kParameters);
+  write_file((std::filesystem::path(file).parent_path() / "chosen.csv").string(),
+             "# by hand\r\neffect,base_point,value\r\n\r\nfriction,105,0.1\r\n");
+  const std::vector<BankPoint> points = bank_points(read_bank_spec(file));
+  EXPECT_EQ(points.back().base_point, 105);
+  EXPECT_EQ(points.back().base, points[5].base);
+}
+
+// What a table has of a bank is not run again; another bank's table is no table of it.
+TEST(RunsBeside, AreThoseThatTheTableHasNot) {
+  const BankSpec spec = with_chosen("effect,base_point,value\nfriction,4,0.1\n");
+  const std::vector<PressedPoint> runs = bank_runs(spec);
+  std::vector<BankRow> rows;
+  for (std::size_t k = 0; k + 2 < runs.size(); ++k) {
+    rows.push_back({runs[k].point, {}});
+    rows.back().run.target = k % 2 ? 150.0 : 80.0;
+  }
+  const std::vector<PressedPoint> left = runs_beside(spec, runs, rows);
+  ASSERT_EQ(left.size(), 2u);
+  EXPECT_EQ(left[0].point.base_point, 4);
+  EXPECT_EQ(left[0].point.effect, "friction");
+  rows[3].point.base[0] *= 1.01;
+  try {
+    runs_beside(spec, runs, rows);
+    FAIL();
+  } catch (const Failure &e) {
+    EXPECT_NE(std::string(e.what()).find("the base model beside base point 1 has other parameters"),
+              std::string::npos)
+        << e.what();
+  }
+}
+
 TEST(ChosenPoints, MistakesAreReported) {
   const std::string head = "effect,base_point,value\n";
   for (const auto &[lines, part] : std::vector<std::pair<std::string, std::string>>{
@@ -52,7 +98,8 @@ TEST(ChosenPoints, MistakesAreReported) {
            {head + "friction,nan,0.1\n", "beside one of 4 to 7"},
            {head + "friction,4,0.7\n", "value is 0.7; friction goes from 0.05 to 0.6"},
            {head + "friction,4,\n", "value is nan"},
-           {head + "friction,4,0.1\nfriction,4,0.2\n", "chosen.csv:3: friction has two points"}})
+           {head + "\n# twice\nfriction,4,0.1\nfriction,4,0.2\n",
+            "chosen.csv:5: friction has two points"}})
     try {
       with_chosen(lines);
       FAIL() << lines;

@@ -2,6 +2,7 @@
 #include "base/messages.h"
 #include "diagnose/choose_runs.h"
 #include "support/made_bank.h"
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <set>
 
@@ -41,10 +42,44 @@ void expect_refused(const BankTable &table, const std::string &part) {
   }
 }
 
+// Chosen points are not pressed in another way: such a condition is left out. Points beside base
+// points that lack a run, or are beyond the design, would not be learnt from.
+TEST(ChooseRuns, AreOfUseToTheDiagnosis) {
+  BankTable table = made_bank();
+  Experiment experiment = made_experiment({"friction", 0, 99, {1.5, 250.0}, 0.3});
+  experiment.conditions.push_back(experiment.conditions[0]);
+  experiment.conditions.back().id = "again";
+  experiment.conditions.back().pressing = "again";
+  table.spec.pressings = {{"again", "pressed twice", {{"platen.presses", "2"}}, {30.0}, 24, 12}};
+  for (const PressedPoint &p : bank_runs(table.spec))
+    if (!p.name.empty()) {
+      table.rows.push_back({p.point, made_run(p.point, 30.0)});
+      table.rows.back().run.pressing = p.name;
+    }
+  table.rows.erase(std::find_if(table.rows.begin(), table.rows.end(), [](const BankRow &row) {
+    return row.point.base_point == 20 && row.run.target == 60.0;
+  }));
+  table.spec.base_points = 23;
+  const RunChoice choice = choose_runs(experiment, table, kCells, 99);
+  std::set<int> beside;
+  for (const ChosenRun &c : choice.chosen)
+    beside.insert(c.base_point);
+  EXPECT_EQ(beside, (std::set<int>{12, 13, 14, 15, 16, 17, 18, 19, 21, 22}));
+  EXPECT_EQ(choice.not_said.front(), "again: chosen points are run in the usual way to 30, 60 MPa, "
+                                     "which tells nothing about it; left out.");
+  experiment.conditions = {experiment.conditions.back()};
+  try {
+    choose_runs(experiment, table, kCells, 5);
+    FAIL();
+  } catch (const Failure &e) {
+    EXPECT_NE(std::string(e.what()).find("no condition of the experiment"), std::string::npos);
+  }
+}
+
 TEST(ChooseRuns, WantTheRunsOfThoseChosenBefore) {
   BankTable table = made_bank();
   table.spec.chosen = {{"friction", 15, 0.2}};
-  expect_refused(table, "friction beside base point 15 has no runs yet");
+  expect_refused(table, "friction beside base point 15 has no runs in the table yet");
   for (const BankPoint &point : bank_points(table.spec))
     if (point.base_point == 15 && !point.effect.empty())
       for (const double target : table.spec.pressures)
@@ -58,6 +93,12 @@ TEST(ChooseRuns, NoneAreLeft) {
   BankTable table = made_bank();
   table.spec.effect_points = table.spec.base_points;
   expect_refused(table, "Raise base_points");
+  table = made_bank();
+  table.spec.effects = {"thickness_zero"};
+  table.rows.erase(std::remove_if(table.rows.begin(), table.rows.end(),
+                                  [](const BankRow &row) { return !row.point.effect.empty(); }),
+                   table.rows.end());
+  expect_refused(table, "no effect is simulated");
 }
 
 } // namespace

@@ -100,8 +100,8 @@ TEST(ShippedBank, PackingsLeftOutLieAsFarOffAsExpected) {
   EXPECT_NEAR(squares / features, expected / features, 3.0 * 0.08);
 }
 
-// Copies without error of each effect at twice its detection limit, for the laboratory that the bank's points were
-// chosen for: named. The base model's own copy is none.
+// Copies without error of each effect at twice its detection limit, for the laboratory that the
+// bank's points were chosen for: named. The base model's own copy is none.
 TEST(ShippedBank, EffectsAtTwiceTheirDetectionLimitAreNamed) {
   const std::string folder = std::string(CALENDEM_SOURCE_DIR) + "/input_scripts/cases/bank/";
   const BankSpec spec = read_bank_spec(folder + "bank.toml");
@@ -120,7 +120,7 @@ TEST(ShippedBank, EffectsAtTwiceTheirDetectionLimitAreNamed) {
   };
   const inference::Diagnosis base = inference::diagnose(model, data.bank, copy_of({}), settings);
   EXPECT_EQ(base.which.claim, "none");
-  const bool heavy = std::getenv("CALENDEM_HEAVY"); // else every third
+  const bool heavy = std::getenv("CALENDEM_HEAVY"); // else every second
   int visible = 0;
   for (std::size_t k = 0; k < data.bank.effects.size(); ++k) {
     const inference::DetectionLimit &limit = base.confounding.limits[k];
@@ -129,7 +129,7 @@ TEST(ShippedBank, EffectsAtTwiceTheirDetectionLimitAreNamed) {
     RecordProperty(limit.effect, fmt::format("{:.3g} of {:.3g}", limit.amplitude, prior.upper()));
     if (!(2.0 * limit.amplitude <= prior.upper()))
       continue;
-    if (visible++ % 3 != 0 && !heavy)
+    if (visible++ % 2 != 0 && !heavy)
       continue;
     const inference::Vector score =
         inference::Vector::Constant(1, prior.score(2.0 * limit.amplitude));
@@ -141,8 +141,8 @@ TEST(ShippedBank, EffectsAtTwiceTheirDetectionLimitAreNamed) {
   EXPECT_EQ(visible, 6); // of 15
 }
 
-// A careful laboratory on large discs: the packings' scatter is gone, but what is off by more than its
-// errors is learnt.
+// A careful laboratory on large discs, whose packings hardly scatter: no emulator is off by more
+// than its errors and has less than half of what can be learnt.
 TEST(ShippedBank, HasRunsEnoughForAPlannedLaboratory) {
   const std::string folder = std::string(CALENDEM_SOURCE_DIR) + "/input_scripts/cases/bank/";
   const BankSpec spec = read_bank_spec(folder + "bank.toml");
@@ -159,9 +159,10 @@ TEST(ShippedBank, HasRunsEnoughForAPlannedLaboratory) {
                    fmt::format("Q2 {:.2f}, own error {:.2f}", q.q2, q.error));
 }
 
-// The runs that were chosen, beside what the emulators said of them before they were made: squares of what
-// they are off by, in their stated variances. Their mean is 1; its standard deviation of 110 points
-// sqrt(2 / 110) = 0.13, as if all 20 features of one were one number.
+// The runs that were chosen, beside what the emulators said of them before they were made: squares
+// of what they are off by, in their stated variances, of all features of one cell. Their mean is 1;
+// its standard deviation of 109 points sqrt(2 / 109) = 0.14, as if all features of one were one
+// number.
 TEST(ShippedBank, ChosenRunsScatterAsTheEmulatorsSaid) {
   const std::string folder = std::string(CALENDEM_SOURCE_DIR) + "/input_scripts/cases/bank/";
   const BankSpec spec = read_bank_spec(folder + "bank.toml");
@@ -204,7 +205,7 @@ TEST(ShippedBank, ChosenRunsScatterAsTheEmulatorsSaid) {
     }
   EXPECT_EQ(points, 109); // one lacks a part of its release
   RecordProperty("mean_square", std::to_string(squares / numbers));
-  EXPECT_NEAR(squares / numbers, 1.0, 3.0 * 0.13);
+  EXPECT_NEAR(squares / numbers, 1.0, 3.0 * 0.14);
 }
 
 // All of its runs are of its design; missing are one to 20 MPa, and two of NMC plasticity, which did not

@@ -54,8 +54,10 @@ CsvTable CsvTable::parse(const std::string &text) {
       table.header_ = std::move(cells);
     else if (cells.size() != table.header_.size())
       table.bad_lines_.push_back(n);
-    else
+    else {
       table.rows_.push_back(std::move(cells));
+      table.lines_.push_back(n);
+    }
   }
   return table;
 }

@@ -24,6 +24,8 @@ public:
   const std::vector<std::string> &header() const { return header_; }
   std::size_t rows() const { return rows_.size(); }
   const std::vector<int> &bad_lines() const { return bad_lines_; }
+  /// Of a row, in the text (from 1).
+  int line_of(std::size_t row) const { return lines_[row]; }
   int last_line() const { return last_line_; }
   /// What is wrong and what to do where two columns have one of these names, or any; empty: nothing.
   std::string ambiguous(const std::vector<std::string> &columns = {}) const;
@@ -33,7 +35,7 @@ private:
 
   std::vector<std::string> header_;
   std::vector<std::vector<std::string>> rows_;
-  std::vector<int> bad_lines_;
+  std::vector<int> bad_lines_, lines_;
   int last_line_ = 0;
 };
 

@@ -148,13 +148,9 @@ std::vector<std::string> other_samples(const Experiment &e) {
 
 /// A bank says nothing of another electrode.
 std::string of_another_electrode(const Options &o, const Experiment &e, const BankSpec &bank) {
-  const std::string &recipe =
-      bank.full_cell.other_electrode ? bank.full_cell.recipe_file : bank.recipe_file;
-  const auto differs = other_electrode(read_recipe(recipe).settings.all(), e.recipe.settings.all());
-  if (differs.empty())
+  const std::string text = other_than_bank(e, bank);
+  if (text.empty())
     return "";
-  const std::string text =
-      fmt::format("the sample is not the bank's electrode; {}", fmt::join(differs, "; "));
   if (!o.other_electrode)
     throw Failure(kBadInput, fmt::format("{}. Make a bank of it (calendem bank; copy {} and change "
                                          "its recipe), or go on with --other-electrode if that "

@@ -11,6 +11,7 @@
 #include "simulate/sample.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 #include <map>
 #include <optional>
@@ -22,8 +23,8 @@ namespace {
 struct Options {
   StudyOptions study;
   bool full_cell = false;
-  std::string from; ///< a table whose rows are taken for all but the full cell
-  int choose = 0;   ///< points to be chosen, for...
+  std::vector<std::string> from; ///< tables whose runs are taken
+  int choose = 0;                ///< points to be chosen, for...
   std::string experiment;
   double cells = 0.0; ///< 0: from the sample's diameter
 };
@@ -35,23 +36,36 @@ struct Part {
   StudyOptions options;
 };
 
-std::vector<Part> parts_of(const BankSpec &spec, const StudyOptions &o) {
-  std::vector<Part> out = {{bank_runs(spec), {}, o}};
-  out[0].study = pressed_study(spec, out[0].runs);
+/// The bank's runs but for those that `rows` have; for another electrode only those on its cell.
+std::vector<Part> parts_of(const BankSpec &spec, const Options &o,
+                           const std::vector<BankRow> &rows) {
+  StudyOptions options = o.study;
+  for (const std::string &table : o.from)
+    options.further.insert(options.further.end(), {"--from", table});
+  std::vector<Part> out;
+  const auto add = [&](const std::vector<PressedPoint> &runs,
+                       Study (*study)(const BankSpec &, const std::vector<PressedPoint> &)) {
+    const std::vector<PressedPoint> left = runs_beside(spec, runs, rows);
+    out.push_back({left, left.empty() ? Study() : study(spec, left), options});
+  };
+  if (!spec.full_cell.other_electrode || o.from.empty())
+    add(bank_runs(spec), pressed_study);
   if (spec.full_cell.points > 0) {
-    out.push_back({full_cell_runs(spec), full_cell_study(spec), o});
-    out[1].options.folder += "/full_cell";
-    out[1].options.further = {"--full-cell"};
+    add(full_cell_runs(spec), full_cell_study);
+    out.back().options.folder += "/full_cell";
+    out.back().options.further.push_back("--full-cell");
   }
   return out;
 }
 
 /// The table of all points whose runs are there, after `rows`; reports how many are not.
 void write_table(const BankSpec &spec, const std::vector<Part> &parts, const std::string &folder,
-                 std::vector<BankRow> rows = {}) {
+                 std::vector<BankRow> rows) {
   BankTable table = {spec, std::move(rows)};
   std::size_t missing = 0;
   for (const Part &part : parts) {
+    if (part.runs.empty())
+      continue;
     const std::vector<std::string> folders = finished_runs(part.study, part.options);
     for (std::size_t k = 0; k < folders.size(); ++k)
       if (folders[k].empty()) {
@@ -70,71 +84,82 @@ void write_table(const BankSpec &spec, const std::vector<Part> &parts, const std
              table.rows.size(), folder, spec.file);
 }
 
-/// Only the runs of the other electrode are made, the rest is that of another bank's table.
-void transfer_bank(const Options &o, const BankSpec &spec, const std::vector<Part> &parts) {
-  if (!spec.full_cell.other_electrode)
-    throw Failure(kBadInput, fmt::format("{}: --from is for a bank that stands for another "
-                                         "electrode: give it [full_cell] with other_electrode = "
-                                         "\"yes\".",
-                                         spec.file));
-  std::vector<BankRow> rows = read_bank_table(spec, o.from).rows;
-  rows.erase(std::remove_if(rows.begin(), rows.end(),
-                            [](const BankRow &row) { return row.point.effect == kFullCell; }),
-             rows.end());
-  make_study(parts[1].study, parts[1].options);
-  write_table(spec, {parts[1]}, o.study.folder, std::move(rows));
+/// Rows of the tables: of a bank that stands for another electrode all but those of its own cell.
+std::vector<BankRow> rows_from(const Options &o, const BankSpec &spec) {
+  std::vector<BankRow> rows;
+  for (const std::string &table : o.from)
+    for (const BankRow &row : read_bank_table(spec, table).rows)
+      if (!spec.full_cell.other_electrode || row.point.effect != kFullCell)
+        rows.push_back(row);
+  return rows;
 }
 
-/// Chosen for what they tell about an experiment: nothing is run.
-void choose_points_of(const Options &o, const BankSpec &spec) {
-  const std::string own = o.study.folder + "/bank.csv",
-                    table = std::filesystem::is_regular_file(own) ? own : table_of(spec);
-  const RunChoice choice =
-      choose_runs(read_experiment(o.experiment), read_bank_table(spec, table), o.cells, o.choose);
-  fmt::print("{} points chosen of those that {} can still run, for {} (a sample of {:.3g} cells)\n"
-             "  {:<22} {:>6} {:>6} {:>12} {:>20}\n",
-             choice.chosen.size(), table, o.experiment, choice.cells, "effect", "points", "more",
-             "gain, bits", "were they even, bits");
+void print(const RunChoice &choice, const Options &o, const std::string &table) {
+  fmt::print("{} of {} points chosen for {} (a sample of {:.3g} cells); learnt from {}\n"
+             "  {:<22} {:>6} {:>7} {:>12} {:>20}\n",
+             choice.chosen.size(), o.choose, o.experiment, choice.cells, table, "effect", "points",
+             "chosen", "gain, bits", "spread evenly, bits");
   double gain = 0.0, evenly = 0.0;
   for (const RunChoice::Effect &e : choice.effects) {
-    fmt::print("  {:<22} {:>6} {:>6} {:>12.2f} {:>20.2f}\n", e.name, e.points, e.chosen, e.gain,
+    fmt::print("  {:<22} {:>6} {:>7} {:>12.2f} {:>20.2f}\n", e.name, e.points, e.chosen, e.gain,
                e.evenly);
     gain += e.gain;
     evenly += e.evenly;
   }
-  fmt::print("  {:<22} {:>6} {:>6} {:>12.2f} {:>20.2f}\n", "all", "", choice.chosen.size(), gain,
+  fmt::print("  {:<22} {:>6} {:>7} {:>12.2f} {:>20.2f}\n", "all", "", choice.chosen.size(), gain,
              evenly);
+  for (const std::string &text : choice.not_said)
+    fmt::print("- {}\n", text);
+}
+
+/// Chosen for what they tell about an experiment: nothing is run.
+void choose_points_of(const Options &o, const BankSpec &spec) {
+  const std::string file = o.study.folder + "/chosen.csv", own = o.study.folder + "/bank.csv",
+                    table = std::filesystem::is_regular_file(own) ? own : table_of(spec);
+  must_be_ours(file, "effect,base_point,value");
+  std::error_code none;
+  if (!spec.chosen_file.empty() && std::filesystem::equivalent(file, spec.chosen_file, none))
+    throw Failure(kBadInput, fmt::format("{} is a file of the bank itself. Choose another folder: "
+                                         "-o DIR.",
+                                         file));
+  const Experiment experiment = read_experiment(o.experiment);
+  if (const std::string other = other_than_bank(experiment, spec); !other.empty())
+    throw Failure(kBadInput, other + ". Choose for an experiment on the bank's electrode.");
+  const RunChoice choice = choose_runs(experiment, read_bank_table(spec, table), o.cells, o.choose);
+  print(choice, o, table);
   std::vector<ChosenRun> all = spec.chosen;
   all.insert(all.end(), choice.chosen.begin(), choice.chosen.end());
   make_output_folder(o.study.folder);
-  write_file(o.study.folder + "/chosen.csv", write_chosen(all));
-  fmt::print("{} runs: {}/chosen.csv. To make them name it in {}, [bank] chosen_points, and run "
-             "calendem bank on it.\n",
-             choice.chosen.size() * spec.pressures.size(), o.study.folder, spec.file);
+  write_file(file, write_chosen(all));
+  fmt::print("{}: {} points, {} runs more. To make these, name the file in {} ([bank] "
+             "chosen_points) and run\n  calendem bank {} -o DIR --from {}\n",
+             file, all.size(), choice.chosen.size() * spec.pressures.size(), spec.file, spec.file,
+             table == own ? own
+                          : table + (spec.further_table.empty() ? "" : " " + spec.further_table));
 }
 
 void make_bank(const Options &o) {
   const BankSpec spec = read_bank_spec(o.study.file);
   if (o.choose > 0)
     return choose_points_of(o, spec);
-  std::vector<Part> parts = parts_of(spec, o.study);
-  if (!o.from.empty())
-    return transfer_bank(o, spec, parts);
+  const std::vector<BankRow> rows = rows_from(o, spec);
+  std::vector<Part> parts = parts_of(spec, o, rows);
   if (o.full_cell) {
-    if (parts.size() < 2)
+    if (spec.full_cell.points == 0)
       throw Failure(kBadInput, spec.file + " has no table [full_cell].");
-    parts[1].options.folder = o.study.folder;
-    make_study(parts[1].study, parts[1].options);
+    parts.back().options.folder = o.study.folder;
+    make_study(parts.back().study, parts.back().options);
     return;
   }
   if (o.study.step != StudyStep::All || o.study.only > 0) { // of many tasks: the table is not its
-    make_study(parts[0].study, o.study);
+    make_study(parts[0].study, parts[0].options);
     return;
   }
   std::optional<Failure> failed; // of some runs: the other part is made all the same
   for (const Part &part : parts)
     try {
-      make_study(part.study, part.options);
+      if (!part.runs.empty())
+        make_study(part.study, part.options);
     } catch (const Failure &f) {
       if (f.exit_status() == kBadInput) // there is nothing yet
         throw;
@@ -145,7 +170,8 @@ void make_bank(const Options &o) {
     }
   if (o.study.slurm.dry_run)
     return;
-  write_table(spec, parts, o.study.folder);
+  make_output_folder(o.study.folder);
+  write_table(spec, parts, o.study.folder, rows);
   if (failed)
     throw *failed;
 }
@@ -160,8 +186,8 @@ void add_bank_verb(CLI::App &app) {
   add_study_options(*verb, o->study);
   verb->add_flag("--full-cell", o->full_cell, "only the runs on the full cell, in that folder");
   verb->add_option("--from", o->from,
-                   "bank.csv whose runs stand for another electrode, which alone is run "
-                   "([full_cell] with other_electrode)");
+                   "tables whose runs are taken and not made again: of this bank, or of one that "
+                   "stands for another electrode ([full_cell] with other_electrode)");
   CLI::Option *choose =
       verb->add_option("--choose", o->choose,
                        "run nothing: choose so many points that would tell most about --experiment")
@@ -170,6 +196,9 @@ void add_bank_verb(CLI::App &app) {
                                              "experiment (TOML) that points are chosen for")
                                 ->needs(choose);
   choose->needs(experiment);
+  for (const char *other :
+       {"--only", "--table", "--slurm", "--slurm-dry-run", "--full-cell", "--from"})
+    choose->excludes(verb->get_option(other));
   verb->add_option("--cells", o->cells,
                    "how many of the bank's cells its sample is as large as; default: from "
                    "sample_diameter_mm")

@@ -102,6 +102,15 @@ BankTable without_effects(BankTable table, const std::vector<std::string> &names
   return table;
 }
 
+std::string other_than_bank(const Experiment &e, const BankSpec &bank) {
+  const std::string &recipe =
+      bank.full_cell.other_electrode ? bank.full_cell.recipe_file : bank.recipe_file;
+  const auto differs = other_electrode(read_recipe(recipe).settings.all(), e.recipe.settings.all());
+  return differs.empty()
+             ? ""
+             : fmt::format("the sample is not the bank's electrode; {}", fmt::join(differs, "; "));
+}
+
 double cells_of(const Experiment &e, const BankSpec &spec) {
   if (!(e.sample_diameter_mm > 0.0))
     throw Failure(kBadInput, "how large is the sample? Give sample_diameter_mm in the experiment "

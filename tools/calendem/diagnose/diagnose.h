@@ -15,6 +15,9 @@ namespace calendem {
 /// The table without the effects that may not be named. Throws Failure(2) for names of no effect.
 BankTable without_effects(BankTable table, const std::vector<std::string> &names);
 
+/// In what the sample is not the bank's electrode, in words; empty: in nothing.
+std::string other_than_bank(const Experiment &experiment, const BankSpec &bank);
+
 /// How many of the bank's cells the sample is as large as. Throws Failure(2) if its size is not
 /// known.
 double cells_of(const Experiment &experiment, const BankSpec &bank);

@@ -55,7 +55,7 @@ public:
     out.nanoporosity_within = number(t, head_keys()[10]);
     out.crushing_file = path(t, head_keys()[11]);
     out.further_table = path(t, head_keys()[12]);
-    chosen_file_ = path(t, head_keys()[13]);
+    out.chosen_file = path(t, head_keys()[13]);
     if (out.effect_points > out.base_points)
       mistakes_.add(0, fmt::format("effect_points is {}, base_points {}: every point of an effect "
                                    "needs a base point of its own.",
@@ -191,8 +191,8 @@ public:
 
   /// After all else: its points are none of those that the other keys give.
   void read_chosen_points(BankSpec &out) {
-    if (!chosen_file_.empty() && mistakes_.empty())
-      read_chosen(chosen_file_, out, mistakes_);
+    if (!out.chosen_file.empty() && mistakes_.empty())
+      read_chosen(out.chosen_file, out, mistakes_);
   }
 
   Numerics read_numerics(const toml::node &node) {
@@ -207,8 +207,6 @@ public:
   }
 
 private:
-  std::string chosen_file_;
-
   std::string column_name(const toml::table &t, const toml::node &node, const std::string &fallback,
                           const std::string &of) {
     const std::string name = text(t, {"name", "", fallback, 0, 0, "", "of the " + of, "", true});

@@ -130,6 +130,7 @@ struct BankSpec {
   double nanoporosity_within = 0.0;
   std::string crushing_file; ///< loads at which single particles broke; empty: none
   std::string further_table; ///< more of its runs, beside the table of its name; empty: none
+  std::string chosen_file;   ///< the points in `chosen`; empty: none
   std::vector<BankParameter> parameters;
   std::vector<std::string> effects;
   std::map<std::string, std::pair<double, double>> ranges; ///< of effects, where not the table's

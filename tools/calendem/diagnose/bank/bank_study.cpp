@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <tuple>
 
 namespace calendem {
 
@@ -143,7 +144,9 @@ std::vector<PressedPoint> to_pressures(const std::vector<BankPoint> &points,
 } // namespace
 
 std::vector<PressedPoint> bank_runs(const BankSpec &spec) {
-  const std::vector<BankPoint> points = bank_points(spec);
+  const std::vector<BankPoint> all = bank_points(spec);
+  const auto chosen = all.end() - std::ptrdiff_t(spec.chosen.size());
+  const std::vector<BankPoint> points(all.begin(), chosen);
   std::vector<PressedPoint> out = to_pressures(points, spec.pressures);
   for (const BankPressing &how : spec.pressings) {
     std::vector<BankPoint> first;
@@ -154,6 +157,8 @@ std::vector<PressedPoint> bank_runs(const BankSpec &spec) {
     for (const PressedPoint &p : to_pressures(first, how.pressures, how))
       out.push_back(p);
   }
+  for (const PressedPoint &p : to_pressures({chosen, all.end()}, spec.pressures))
+    out.push_back(p);
   return out;
 }
 
@@ -201,7 +206,7 @@ std::vector<PressedPoint> full_cell_runs(const BankSpec &spec) {
   return to_pressures(full_cell_points(spec), pressures);
 }
 
-Study full_cell_study(const BankSpec &spec) {
+Study full_cell_study(const BankSpec &spec, const std::vector<PressedPoint> &runs) {
   BankSpec full = spec;
   full.name = spec.name + ", full cell";
   full.recipe_file = spec.full_cell.recipe_file;
@@ -212,7 +217,33 @@ Study full_cell_study(const BankSpec &spec) {
         std::remove_if(p.keys.begin(), p.keys.end(),
                        [](const std::string &key) { return key.rfind("recipe.", 0) == 0; }),
         p.keys.end());
-  return pressed_study(full, full_cell_runs(spec));
+  return pressed_study(full, runs);
+}
+
+std::vector<PressedPoint> runs_beside(const BankSpec &spec, std::vector<PressedPoint> runs,
+                                      const std::vector<BankRow> &rows) {
+  using Place = std::tuple<std::string, int, std::string>; // effect, base point, way of pressing
+  std::multimap<Place, const BankRow *> had;
+  for (const BankRow &row : rows)
+    had.emplace(Place(row.point.effect, row.point.base_point, row.run.pressing), &row);
+  const auto is_there = [&](const PressedPoint &run) {
+    const BankPoint &p = run.point;
+    const auto [first, last] = had.equal_range(Place(p.effect, p.base_point, run.name));
+    return std::any_of(first, last, [&](const auto &at) {
+      const BankRow &row = *at.second;
+      if (!same_pressure(row.run.target, std::stod(run.pressing.back().second)))
+        return false;
+      if (row.point.base != p.base || row.point.value != p.value || row.point.packing != p.packing)
+        throw Failure(kBadInput,
+                      fmt::format("the table's run of {} beside base point {} has other parameters "
+                                  "than that of {}: it is the table of another bank.",
+                                  p.effect.empty() ? "the base model" : p.effect, p.base_point,
+                                  spec.file));
+      return true;
+    });
+  };
+  runs.erase(std::remove_if(runs.begin(), runs.end(), is_there), runs.end());
+  return runs;
 }
 
 } // namespace calendem

@@ -54,7 +54,8 @@ PressingColumns columns_of(const std::vector<Pressing> &pressings, const std::st
 std::vector<PressedPoint> pressed(const std::vector<BankPoint> &points,
                                   const std::vector<Pressing> &pressings);
 
-/// The bank's runs: for each point one per pressure, in their order; then those of each pressing.
+/// The bank's runs: for each point one per pressure, in their order; then those of each pressing;
+/// last the chosen points to the bank's pressures.
 std::vector<PressedPoint> bank_runs(const BankSpec &spec);
 
 /// Throws Failure(2) where values are no values of their keys or contradict each other.
@@ -65,7 +66,7 @@ Study pressed_study(const BankSpec &spec, const std::vector<PressedPoint> &runs)
 std::vector<BankPoint> full_cell_points(const BankSpec &spec);
 /// To all pressures that points are pressed to in the usual way.
 std::vector<PressedPoint> full_cell_runs(const BankSpec &spec);
-Study full_cell_study(const BankSpec &spec);
+Study full_cell_study(const BankSpec &spec, const std::vector<PressedPoint> &runs);
 
 struct BankRow {
   BankPoint point;
@@ -76,6 +77,11 @@ struct BankTable {
   BankSpec spec;
   std::vector<BankRow> rows; ///< those of the full cell too
 };
+
+/// Those of the bank's runs that none of the rows is. Throws Failure(2) if a row has the place of
+/// one, but other parameters: it is another bank's.
+std::vector<PressedPoint> runs_beside(const BankSpec &spec, std::vector<PressedPoint> runs,
+                                      const std::vector<BankRow> &rows);
 
 /// Columns: effect, base_point, packing, pressing (if any run has one), the base parameters, value
 /// (of the effect's key), then the

@@ -22,7 +22,8 @@ std::string mistake_of(const std::string &effect, double base_point, double valu
             last = spec.first_point + spec.base_points - 1;
   if (!(base_point >= first && base_point <= last && base_point == int(base_point)))
     return fmt::format("base_point is {:g}. {} has points of its own beside the first {}; a chosen "
-                       "one stands beside one of {} to {}.",
+                       "one stands beside one of {} to {}. Take the line out, or give the effect "
+                       "fewer points.",
                        base_point, effect, points_of(spec, effect), first, last);
   const EffectParameter p = effect_of(spec, effect).parameter;
   if (!(value >= p.low && value <= p.high))
@@ -43,9 +44,8 @@ void read_chosen(const std::string &file, BankSpec &spec, Mistakes &all) {
   Mistakes mistakes(file, 10);
   const bool there = std::filesystem::is_regular_file(file);
   if (!there)
-    mistakes.add(0,
-                 "no such file. calendem bank --choose makes one; without it leave chosen_points "
-                 "out.");
+    mistakes.add(0, "no such file. calendem bank --choose makes one. Copy it along with a bank's "
+                    "file, or leave chosen_points out.");
   const CsvTable t = CsvTable::parse(there ? text_of_file(file) : "");
   for (const char *column : {"effect", "base_point", "value"})
     if (there && !t.has(column))
@@ -59,7 +59,7 @@ void read_chosen(const std::string &file, BankSpec &spec, Mistakes &all) {
     const std::vector<double> base_point = t.numbers("base_point"), value = t.numbers("value");
     std::set<std::pair<std::string, double>> had;
     for (std::size_t k = 0; k < t.rows(); ++k) {
-      const int line = int(k) + 2;
+      const int line = t.line_of(k);
       if (const std::string wrong = mistake_of(effect[k], base_point[k], value[k], spec);
           !wrong.empty())
         mistakes.add(line, wrong);

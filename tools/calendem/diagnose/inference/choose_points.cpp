@@ -18,23 +18,21 @@ public:
            const std::vector<const PossiblePoint *> &possible);
 
   /// Bits, of running this one too.
-  double gain(Eigen::Index run) const { return information(run) - information(kNone); }
+  double gain(Eigen::Index run) const { return information(run) - now_; }
   void learn(Eigen::Index run);
 
 private:
   static constexpr Eigen::Index kNone = -1;
-  Eigen::Index runs_;
-  Matrix square_, others_,
-      at_first_;              ///< features x places: mean^2, the data's and base's variance,
-                              ///< that of the emulators before any run
+  Matrix square_, others_;    ///< features x places: mean^2, variance of data and base emulator
+  Matrix at_first_;           ///< that of the effect's emulators before any run
   std::vector<Matrix> known_; ///< by feature: covariance of runs, then places
+  double now_ = 0.0;          ///< information
 
   double information(Eigen::Index run) const;
 };
 
 Learning::Learning(const Model &model, const Bank &bank, int effect,
-                   const std::vector<const PossiblePoint *> &possible)
-    : runs_(Eigen::Index(possible.size())) {
+                   const std::vector<const PossiblePoint *> &possible) {
   const ModelledEffect &of = bank.effects[std::size_t(effect)];
   const auto base = Eigen::Index(bank.base.size()), own = Eigen::Index(of.parameters.size());
   const Matrix scores = sobol_normals(int(base + own), kPlaces, kPlacesSeed);
@@ -62,13 +60,15 @@ Learning::Learning(const Model &model, const Bank &bank, int effect,
     const Prediction off = problem.predict(of_base, {}),
                      on = problem.predict(of_base, {{effect, of_effect}});
     square_.col(k) = (on.mean - off.mean).head(features).cwiseAbs2();
-    others_.col(k) = data + off.variance.head(features);
+    others_.col(k) =
+        data + off.variance.head(features) + on.scatter.head(features) / model.packings_in_sample();
   }
   const Asked asked = model.emulators().asked(effect, bases, amplitudes, packing);
   for (Eigen::Index f = 0; f < features; ++f) {
     known_.push_back(model.emulators().effect(effect)[std::size_t(f)].covariance(asked));
     at_first_.row(f) = known_.back().diagonal().tail(kPlaces).transpose();
   }
+  now_ = information(kNone);
 }
 
 double Learning::information(Eigen::Index run) const {
@@ -91,6 +91,7 @@ void Learning::learn(Eigen::Index run) {
     const Vector with = c.col(run) / std::sqrt(c(run, run));
     c.noalias() -= with * with.transpose();
   }
+  now_ = information(kNone);
 }
 
 /// Places in the list of the points of one effect.

@@ -176,7 +176,8 @@ Json emulators_of(const Diagnosis &d) {
                 {"error", q.error},
                 {"poor", q.poor}};
     for (const Quality &f : q.feature)
-      row["q2_of_features"].push_back(f.q2);
+      row["q2_of_features"].push_back(learnt_share(f.error * f.error - f.scatter * f.scatter,
+                                                   f.spread * f.spread - f.scatter * f.scatter));
     rows.push_back(row);
   }
   return rows;

@@ -114,6 +114,7 @@ Asked Emulators::asked(int effect, const std::vector<Vector> &base,
                        const std::vector<Vector> &amplitudes,
                        const std::vector<std::string> &packing) const {
   Asked out;
+  std::map<std::string, int> number = number_; // and those that the bank has not
   const auto n = Eigen::Index(base.size());
   for (Eigen::Index k = 0; k < n; ++k) {
     Vector scaled(base[std::size_t(k)].size());
@@ -127,10 +128,8 @@ Asked Emulators::asked(int effect, const std::vector<Vector> &base,
     out.inputs.col(k) = p.input;
     out.amplitudes.col(k) = p.amplitudes;
     const std::string &id = packing[std::size_t(k)];
-    const auto known = number_.find(id);
-    out.packing.push_back(id.empty()               ? kExpectation
-                          : known == number_.end() ? int(number_.size() + std::size_t(k))
-                                                   : known->second);
+    const int next = int(number.size());
+    out.packing.push_back(id.empty() ? kExpectation : number.emplace(id, next).first->second);
   }
   return out;
 }

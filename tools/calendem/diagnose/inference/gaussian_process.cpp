@@ -50,6 +50,10 @@ double q2_of(const Vector &predicted, const Vector &actual) {
   return 1.0 - (predicted - actual).squaredNorm() / std::max(spread, 1e-300);
 }
 
+double learnt_share(double missed, double all) {
+  return all > missed ? std::min(1.0, 1.0 - missed / all) : 0.0;
+}
+
 GaussianProcess::GaussianProcess(Training training) : training_(std::move(training)) {
   const auto n = training_.values.size();
   const bool effect = training_.amplitudes.rows() > 0;

@@ -36,6 +36,10 @@ struct Quality {
   double own = 0.0;     ///< the other part, the emulator's
 };
 
+/// Share of the variance `all` that is learnt if `missed` is not, both without the runs' scatter:
+/// 0 to 1; 0 where nothing could be told from the scatter.
+double learnt_share(double missed, double all);
+
 /// What a Gaussian process could be asked for: a run that was not made, on a packing, or the
 /// expectation over packings (packing kExpectation).
 struct Asked {

@@ -148,8 +148,9 @@ Model::Extra Model::learn_extra(const Bank &bank, const Candidate &candidate) co
 }
 
 Vector Model::data_variance() const {
+  const Matrix scatter = of_specimens(scatter_.covariance, {map_.get()}, settings_.specimens);
   return map_->covariance(measurement_).diagonal().head(map_->emulated()) +
-         scatter_.covariance.diagonal() / settings_.packings_in_sample;
+         scatter.diagonal() / settings_.packings_in_sample;
 }
 
 void Model::judge_emulators() {
@@ -169,7 +170,7 @@ void Model::judge_emulators() {
       all += (one.spread * one.spread - scatter) / variance[f];
       q.error += one.own * one.own / variance[f] / n;
     }
-    q.q2 = all > 0.0 ? std::min(1.0, 1.0 - missed / all) : 0.0;
+    q.q2 = learnt_share(missed, all);
     q.error = std::sqrt(q.error);
     q.poor = q.q2 < settings_.least_q2 && q.error > settings_.largest_error;
     quality_.push_back(q);

@@ -46,7 +46,8 @@ struct EmulatorQuality {
   int runs = 0;
   std::vector<Quality> feature; ///< emulated ones, in the order of features
   /// Share of what can be learnt, without the runs' scatter, that left-out packings show to be; of
-  /// all features, weighted by the data's variances. 0: there is nothing beside the scatter.
+  /// all features, weighted by the data's variances; 0 to 1. 0: nothing that could be told from
+  /// the scatter.
   double q2 = 0.0;
   double error =
       0.0; ///< root mean square over features of the emulators' own error, in the data's sd
@@ -69,6 +70,7 @@ public:
   const Emulators &emulators() const { return *emulators_; }
   /// Of the emulated features: the measurement's and the sample's packings'.
   Vector data_variance() const;
+  double packings_in_sample() const { return settings_.packings_in_sample; }
   const Scatter &scatter() const { return scatter_; }
   const std::vector<ObservableId> &observables() const { return observables_; }
   const Vector &sd() const { return sd_; } ///< of the observables: measurement and packings
