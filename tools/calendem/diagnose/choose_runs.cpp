@@ -153,7 +153,9 @@ RunChoice choose_runs(const Experiment &experiment, const BankTable &table, doub
   RunChoice out;
   const ExperimentData data =
       data_of(experiment, table, conditions_for(experiment, table, out.not_said));
-  out.not_said.insert(out.not_said.end(), data.not_said.begin(), data.not_said.end());
+  for (const std::string &text : data.not_said) // some of it was said of the conditions already
+    if (std::find(out.not_said.begin(), out.not_said.end(), text) == out.not_said.end())
+      out.not_said.push_back(text);
   inference::ModelSettings settings;
   out.cells = settings.packings_in_sample = cells > 0.0 ? cells : cells_of(experiment, table.spec);
   settings.specimens = data.specimens;
