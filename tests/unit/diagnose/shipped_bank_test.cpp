@@ -55,6 +55,14 @@ Experiment shown(const BankTable &bank, int base_point, const std::string &recip
   return e;
 }
 
+struct Shipped {
+  const std::string folder = std::string(CALENDEM_SOURCE_DIR) + "/input_scripts/cases/bank/";
+  const BankSpec spec = read_bank_spec(folder + "bank.toml");
+  const BankTable bank = read_bank_table(spec, folder + "bank.csv");
+  const Experiment planned =
+      read_experiment(folder + "planned.toml"); ///< that points were chosen for
+};
+
 // The square of what 96 base points, their packings unseen, lie off the emulator in its own
 // covariance, at the parameters they were run with. Expected per feature: nu / (nu - 2) of a t
 // distribution, less the measurement's share of the covariance, for they are shown without error.
@@ -103,13 +111,12 @@ TEST(ShippedBank, PackingsLeftOutLieAsFarOffAsExpected) {
 // Copies without error of each effect at twice its detection limit, for the laboratory that the
 // bank's points were chosen for: named. The base model's own copy is none.
 TEST(ShippedBank, EffectsAtTwiceTheirDetectionLimitAreNamed) {
-  const std::string folder = std::string(CALENDEM_SOURCE_DIR) + "/input_scripts/cases/bank/";
-  const BankSpec spec = read_bank_spec(folder + "bank.toml");
-  const BankTable bank = read_bank_table(spec, folder + "bank.csv");
-  const Experiment planned = read_experiment(folder + "planned.toml");
+  const Shipped shipped;
+  const BankTable &bank = shipped.bank;
+  const Experiment &planned = shipped.planned;
   const ExperimentData data = data_of(planned, bank, {});
   inference::DiagnosisSettings settings;
-  settings.model.packings_in_sample = cells_of(planned, spec);
+  settings.model.packings_in_sample = cells_of(planned, shipped.spec);
   settings.model.specimens = data.specimens;
   const inference::Model model(data.bank, data.experiment, settings.model, {});
   const inference::Problem problem = model.problem(data.experiment.values);
@@ -144,13 +151,12 @@ TEST(ShippedBank, EffectsAtTwiceTheirDetectionLimitAreNamed) {
 // A careful laboratory on large discs, whose packings hardly scatter: no emulator is off by more
 // than its errors and has less than half of what can be learnt.
 TEST(ShippedBank, HasRunsEnoughForAPlannedLaboratory) {
-  const std::string folder = std::string(CALENDEM_SOURCE_DIR) + "/input_scripts/cases/bank/";
-  const BankSpec spec = read_bank_spec(folder + "bank.toml");
-  const BankTable bank = read_bank_table(spec, folder + "bank.csv");
-  const Experiment planned = read_experiment(folder + "planned.toml");
+  const Shipped shipped;
+  const BankTable &bank = shipped.bank;
+  const Experiment &planned = shipped.planned;
   const ExperimentData data = data_of(planned, bank, {});
   inference::ModelSettings settings;
-  settings.packings_in_sample = cells_of(planned, spec);
+  settings.packings_in_sample = cells_of(planned, shipped.spec);
   EXPECT_GT(settings.packings_in_sample, 5e5);
   const inference::Model model(data.bank, data.experiment, settings, {});
   EXPECT_EQ(model.poor_effects(), std::vector<std::string>());
@@ -164,20 +170,19 @@ TEST(ShippedBank, HasRunsEnoughForAPlannedLaboratory) {
 // its standard deviation of 109 points sqrt(2 / 109) = 0.14, as if all features of one were one
 // number.
 TEST(ShippedBank, ChosenRunsScatterAsTheEmulatorsSaid) {
-  const std::string folder = std::string(CALENDEM_SOURCE_DIR) + "/input_scripts/cases/bank/";
-  const BankSpec spec = read_bank_spec(folder + "bank.toml");
-  const BankTable whole = read_bank_table(spec, folder + "bank.csv");
+  const Shipped shipped;
+  const BankTable &whole = shipped.bank;
   const auto is_chosen = [&](const BankPoint &p) {
-    return std::any_of(spec.chosen.begin(), spec.chosen.end(), [&](const ChosenRun &c) {
-      return c.effect == p.effect && c.base_point == p.base_point;
-    });
+    return std::any_of(
+        shipped.spec.chosen.begin(), shipped.spec.chosen.end(),
+        [&](const ChosenRun &c) { return c.effect == p.effect && c.base_point == p.base_point; });
   };
   BankTable before = whole;
   before.rows.erase(std::remove_if(before.rows.begin(), before.rows.end(),
                                    [&](const BankRow &row) { return is_chosen(row.point); }),
                     before.rows.end());
-  const Experiment planned = read_experiment(folder + "planned.toml");
-  const ExperimentData had = data_of(planned, before, {}), has = data_of(planned, whole, {});
+  const ExperimentData had = data_of(shipped.planned, before, {}),
+                       has = data_of(shipped.planned, whole, {});
   const inference::Model model(had.bank, had.experiment, {});
   double squares = 0.0;
   int numbers = 0, points = 0;
