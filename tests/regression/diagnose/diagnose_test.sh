@@ -99,7 +99,7 @@ bank_refuses "not the bank's electrode" bank.toml -o again --choose 1 --experime
 bank_refuses "excludes" bank.toml -o again --choose 1 --experiment experiment.toml --table
 sed 's/^low = 150/low = 160/' bank.toml >another.toml
 bank_refuses "it is the table of another bank" another.toml -o again --from bank.csv
-"$bin/calendem" bank more.toml -o more --from bank.csv --jobs 2 >more.log || { cat more.log; fail "runs of chosen points"; }
+"$bin/calendem" bank more.toml -o more --from bank.csv bank.csv --jobs 2 >more.log || { cat more.log; fail "runs of chosen points"; }
 grep -q "^study: 4 runs," more.log || { cat more.log; fail "runs that the table has were made again"; }
 cmp <(cut -d, -f1-12 bank.csv) <(head -n "$(wc -l <bank.csv)" more/bank.csv | cut -d, -f1-12) || fail "the table does not begin with that it was made from"
 diagnose experiment.toml -o with_more --bank more.toml --table more/bank.csv --no-rerun >with_more.log || fail "exit status $?"

@@ -15,6 +15,8 @@
 #include <fmt/format.h>
 #include <map>
 #include <optional>
+#include <set>
+#include <tuple>
 
 namespace calendem {
 
@@ -41,7 +43,8 @@ std::vector<Part> parts_of(const BankSpec &spec, const Options &o,
                            const std::vector<BankRow> &rows) {
   StudyOptions options = o.study;
   for (const std::string &table : o.from)
-    options.further.insert(options.further.end(), {"--from", table});
+    options.further.insert(options.further.end(),
+                           {"--from", std::filesystem::absolute(table).string()});
   std::vector<Part> out;
   const auto add = [&](const std::vector<PressedPoint> &runs,
                        Study (*study)(const BankSpec &, const std::vector<PressedPoint> &)) {
@@ -84,13 +87,19 @@ void write_table(const BankSpec &spec, const std::vector<Part> &parts, const std
              table.rows.size(), folder, spec.file);
 }
 
-/// Rows of the tables: of a bank that stands for another electrode all but those of its own cell.
+/// Rows of the tables, each once; of a bank that stands for another electrode all but those of its
+/// own cell.
 std::vector<BankRow> rows_from(const Options &o, const BankSpec &spec) {
   std::vector<BankRow> rows;
+  std::set<std::tuple<std::string, int, std::string, double>> had;
   for (const std::string &table : o.from)
-    for (const BankRow &row : read_bank_table(spec, table).rows)
-      if (!spec.full_cell.other_electrode || row.point.effect != kFullCell)
+    for (const BankRow &row : read_bank_table(spec, table).rows) {
+      const bool own_cell = spec.full_cell.other_electrode && row.point.effect == kFullCell;
+      if (!own_cell &&
+          had.emplace(row.point.effect, row.point.base_point, row.run.pressing, row.run.target)
+              .second)
         rows.push_back(row);
+    }
   return rows;
 }
 
@@ -134,8 +143,7 @@ void choose_points_of(const Options &o, const BankSpec &spec) {
   fmt::print("{}: {} points, {} runs more. To make these, name the file in {} ([bank] "
              "chosen_points) and run\n  calendem bank {} -o DIR --from {}\n",
              file, all.size(), choice.chosen.size() * spec.pressures.size(), spec.file, spec.file,
-             table == own ? own
-                          : table + (spec.further_table.empty() ? "" : " " + spec.further_table));
+             table);
 }
 
 void make_bank(const Options &o) {
