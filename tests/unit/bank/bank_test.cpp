@@ -258,12 +258,13 @@ TEST(Bank, RowsThatAreNoPointAreReported) {
            {"\nfricton,3,1,200,1,", "Did you mean 'friction'"}}) {
     std::string wrong = text;
     wrong.replace(wrong.find("\n,3,1,200,,"), 11, row);
-    std::ofstream(file) << wrong;
+    std::ofstream(file) << "# a remark\n" << wrong;
     try {
       read_bank_table(spec, file);
       ADD_FAILURE() << row;
     } catch (const Failure &f) {
       EXPECT_EQ(f.exit_status(), kBadInput);
+      EXPECT_NE(std::string(f.what()).find("bank.csv:3: "), std::string::npos) << f.what();
       EXPECT_NE(std::string(f.what()).find(reported), std::string::npos) << f.what();
     }
   }

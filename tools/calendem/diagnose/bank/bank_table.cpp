@@ -127,17 +127,16 @@ std::vector<std::string> pressings_of(const BankSpec &spec, const CsvTable &t, M
   std::vector<std::string> out = t.texts("pressing");
   for (std::size_t k = 0; k < out.size(); ++k)
     if (!out[k].empty() && !find_pressing(spec, out[k]))
-      mistakes.add(int(k) + 2, fmt::format("pressing '{}' is no [[pressing]] of {}. Is this its "
-                                           "table?",
-                                           out[k], spec.file));
+      mistakes.add(t.line_of(k), fmt::format("pressing '{}' is no [[pressing]] of {}. Is this its "
+                                             "table?",
+                                             out[k], spec.file));
   return out;
 }
 
 /// What row k must hold: numbers in the columns `due`, points and packings that can be counted, an
 /// effect that is known.
-void check_row(const Columns &t, std::size_t k, const std::string &effect,
+void check_row(const Columns &t, std::size_t k, int line, const std::string &effect,
                const std::vector<std::string> &due, Mistakes &mistakes) {
-  const int line = int(k) + 2;
   for (const std::string &column : due)
     if (!std::isfinite(t.at(column)[k]))
       mistakes.add(line, fmt::format("'{}' is no number.", column));
@@ -244,7 +243,7 @@ std::vector<BankRow> rows_of(const BankSpec &spec, const std::string &file) {
     if_there(release_column(share));
   const std::vector<std::string> effect = t.texts("effect");
   for (std::size_t k = 0; k < t.rows(); ++k)
-    check_row(numbers, k, effect[k], due, mistakes);
+    check_row(numbers, k, t.line_of(k), effect[k], due, mistakes);
   const std::vector<std::string> pressing = pressings_of(spec, t, mistakes);
   mistakes.stop_if_any();
   std::vector<BankRow> out;
