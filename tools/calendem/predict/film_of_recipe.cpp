@@ -24,13 +24,13 @@ std::array<double, 3> sizes_by_volume(const Recipe &r, double largest) {
 
 namespace {
 
-constexpr double kSameInCell = 0.05, kSameInFilm = 0.2; // relative, of the percentiles
-constexpr double kSameLoading = 0.02, kThinnest = 0.5;  // of the bank's loading
-constexpr double kSizesSaid = 0.0005;                   // error of porosity 0-1
+constexpr double kSameInCell = 1.2, kSameInFilm = 1.6; // factors, of the percentiles
+constexpr double kSameLoading = 0.02, kThinnest = 0.5; // of the bank's loading
+constexpr double kSizesSaid = 0.0005;                  // error of porosity 0-1
 
-bool are_alike(const std::array<double, 3> &a, const std::array<double, 3> &b, double within) {
+bool are_alike(const std::array<double, 3> &a, const std::array<double, 3> &b, double factor) {
   for (std::size_t k = 0; k < a.size(); ++k)
-    if (std::fabs(a[k] - b[k]) > within * b[k])
+    if (std::max(a[k] / b[k], b[k] / a[k]) > factor)
       return false;
   return true;
 }
