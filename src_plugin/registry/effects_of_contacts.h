@@ -59,7 +59,8 @@ inline Effect nmc_plasticity() {
   e.parameter = strength(e.settings[0], 1.5, 12, Spread::LogUniform, AmplitudeScale::Reciprocal, 0);
   e.contact = {&kPlasticContact, {{Phase::Am, Phase::Am}, {Phase::Am, Phase::Platen}}};
   e.moves = "lower pressure above about 50 MPa, steeper unloading, fewer cracked particles";
-  e.source = "Thornton 1997; hardness of NMC grains 1-12 GPa is an unsourced prior";
+  e.source = "Thornton 1997; the range is an unsourced prior; indented, NMC532 has a hardness of "
+             "8.6 +- 1.3 GPa (Xu et al., J. Electrochem. Soc. 164 (2017) A3333)";
   e.law = kPlasticContact.header;
   e.verification = "plastic_contact";
   return e;
@@ -130,7 +131,10 @@ inline Effect cbd_plasticity() {
   e.contact = {&kPlasticContact, all_of_cbd()};
   e.moves = "lower pressure and less springback where CBD carries load; because of the cohesion "
             "between AM and CBD the yield pressure cannot be below 0.5 GPa";
-  e.source = "Thornton 1997; the range is what cohesion allows, an unsourced prior";
+  e.source =
+      "Thornton 1997; the range is what cohesion allows, an unsourced prior; indented, a matrix "
+      "of carbon black and PVdF has a hardness of 0.043 +- 0.010 GPa (Xu et al., J. "
+      "Electrochem. Soc. 164 (2017) A3333)";
   e.law = kPlasticContact.header;
   e.verification = "plastic_contact";
   return e;

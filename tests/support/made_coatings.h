@@ -76,6 +76,7 @@ inline BankTable made_coatings(const std::vector<std::string> &effects = {"nmc_p
   table.spec.base_points = 40;
   table.spec.effect_points = 16;
   table.spec.effects = effects;
+  table.spec.ranges.clear();
   table.spec.full_cell.points = 0;
   table.spec.nanoporosity_within = 0.0;
   for (const BankPoint &point : bank_points(table.spec))

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# asks.sh BIN CASES WORK [ASKS]: design asked about materials that it cannot see. For each ask a material and three films
-# are drawn; two films are pressed in the simulation, three pressures each, and serve as measurements; `design` chooses a
+# asks.sh BIN CASES WORK [ASKS]: design asked about materials that it cannot see. For each ask a material, in which each of
+# the bank's effects acts or does not, and three films are drawn; two films are pressed in the simulation, three pressures each, and serve as measurements; `design` chooses a
 # pressure, then a gap, for a porosity of the third; that film is pressed to the one and rolled to the other, on three other
 # packings. All hits together are beside the mean probability that was stated; the hits of each ask beside the probability that was assured of it, which four of five
 # materials are to reach. Three films show thirds only: an ask of which 0.6 is assured passes with two hits of three, as
@@ -15,21 +15,28 @@ cd "$work"
 cp "$cases/coatings/electrode.toml" "$cases/coatings/case.toml" .
 within=1.5 # points of porosity, about two standard deviations of one packing of so small a cell
 
-# number E_am E_cbd strength porosity_A carbon_A porosity_B carbon_B porosity_C carbon_C target
-awk -v n="$asks" 'BEGIN { srand(20)
-  for (k = 1; k <= n; ++k)
-    printf "%d %.4g %.4g %.4g %.4g %.4g %.4g %.4g %.4g %.4g %.4g\n", k, 120 * 2.5 ^ rand(), 1.6 * 2.5 ^ rand(),
-      250 * 4 ^ rand(), 42 + 9 * rand(), 1.5 + 2 * rand(), 42 + 9 * rand(), 1.5 + 2 * rand(), 42 + 9 * rand(),
-      1.5 + 2 * rand(), 0.72 + 0.16 * rand() }' >asks.txt # the target is a share of the porosity before
+# number E_am,E_cbd,strength,friction,yield_am,yield_cbd,collapse porosity_A carbon_A porosity_B carbon_B porosity_C carbon_C
+# target; an effect's key within the bank's range, or what switches it off
+awk -v n="$asks" 'function key(low, high, off) { return rand() < 0.5 ? low * (high / low) ^ rand() : off }
+  BEGIN { srand(20)
+  for (k = 1; k <= n; ++k) {
+    material = sprintf("%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g", 120 * 2.5 ^ rand(), 1.6 * 2.5 ^ rand(), 250 * 4 ^ rand(),
+      rand() < 0.5 ? 0.05 + 0.55 * rand() : 0.001, key(6, 12, 0), key(0.55, 1, 0), key(5, 300, 0))
+    printf "%d %s %.4g %.4g %.4g %.4g %.4g %.4g %.4g\n", k, material, 42 + 9 * rand(), 1.5 + 2 * rand(), 42 + 9 * rand(),
+      1.5 + 2 * rand(), 42 + 9 * rand(), 1.5 + 2 * rand(), 0.66 + 0.16 * rand() } }' >asks.txt # the target is a share of the porosity before
 
-study() { # NAME ROWS CONTROL KEY: a study of rows "E_am E_cbd strength porosity carbon KEY seed"
+study() { # NAME ROWS CONTROL KEY: a study of rows "material porosity carbon KEY seed"
   {
     printf '[study]\nname = "%s"\nrecipe = "electrode.toml"\ncase = "case.toml"\nkeep = "tables"\n' "$1"
     printf '[[vary]]\nkeys = ["case.material.am.youngs_modulus_GPa", "case.material.cbd.youngs_modulus_GPa", '
-    printf '"case.bond.tensile_strength_MPa", "case.bond.shear_strength_MPa", "recipe.coating.porosity_total_percent", '
+    printf '"case.bond.tensile_strength_MPa", "case.bond.shear_strength_MPa", "case.material.am.friction", '
+    printf '"case.material.cbd.friction", "case.effects.nmc_plasticity.yield_pressure_GPa", '
+    printf '"case.effects.cbd_plasticity.yield_pressure_GPa", "case.effects.cbd_collapse.yield_pressure_MPa", '
+    printf '"recipe.coating.porosity_total_percent", '
     printf '"recipe.composition.carbon_weight_percent", "recipe.composition.binder_weight_percent", '
     printf '"case.platen.%s", "recipe.seed", "case.platen.control"]\nvalues = [\n' "$4"
-    awk -v control="$3" '{ print "[" $1 ", " $2 ", " $3 ", " $3 ", " $4 ", " $5 ", " $5 ", " $6 ", " $7 ", \"" control "\"]," }' "$2"
+    awk -v control="$3" '{ split($1, m, ",")
+      print "[" m[1] ", " m[2] ", " m[3] ", " m[3] ", " m[4] ", " m[4] ", " m[5] ", " m[6] ", " m[7] ", " $2 ", " $3 ", " $3 ", " $4 ", " $5 ", \"" control "\"]," }' "$2"
     echo ']'
   } >"$1.toml"
   "$bin/calendem" study "$1.toml" -o "$1" --jobs "$(nproc)" >"$1.log" 2>&1 || { tail "$1.log"; fail "study $1"; }
@@ -40,10 +47,10 @@ porosities() {
     { print 100 * $at }' "$1/study.csv"
 }
 
-while read -r k am cbd strength pa ca pb cb _; do
+while read -r k material pa ca pb cb _; do
   for p in 30 80 200; do
-    echo "$am $cbd $strength $pa $ca $p $((1000 + k))"
-    echo "$am $cbd $strength $pb $cb $p $((2000 + k))"
+    echo "$material $pa $ca $p $((1000 + k))"
+    echo "$material $pb $cb $p $((2000 + k))"
   done
 done <asks.txt >measured.txt
 study measured measured.txt pressure max_pressure_MPa
@@ -53,7 +60,7 @@ film() { # NAME POROSITY CARBON
   sed "s/^porosity_total_percent.*/porosity_total_percent = $2/; s/^name.*/name = \"$1\"/" electrode.toml
   printf '\n[composition]\ncarbon_weight_percent = %s\nbinder_weight_percent = %s\n' "$3" "$3"
 }
-while read -r k _ _ _ pa ca pb cb pc cc target; do
+while read -r k _ pa ca pb cb pc cc target; do
   mkdir -p "ask$k"
   film "film a" "$pa" "$ca" >"ask$k/a.toml"
   film "film b" "$pb" "$cb" >"ask$k/b.toml"
@@ -61,7 +68,7 @@ while read -r k _ _ _ pa ca pb cb pc cc target; do
   for f in a b; do
     printf '[experiment]\nname = "film %s"\nelectrode = "%s.toml"\n' $f $f
     awk -v from=$((6 * (k - 1))) -v second="$([ $f = a ] && echo 1 || echo 0)" 'NR > from && NR <= from + 6 && NR % 2 == second {
-      printf "[[condition]]\nid = \"p%d\"\ncontrol = \"pressure\"\nmax_pressure_MPa = { value = %g, sd_relative = 0.01 }\nporosity_after_percent = { value = %.3f, sd = 0.6 }\n", $6, $6, $8 }' readings.txt
+      printf "[[condition]]\nid = \"p%d\"\ncontrol = \"pressure\"\nmax_pressure_MPa = { value = %g, sd_relative = 0.01 }\nporosity_after_percent = { value = %.3f, sd = 0.6 }\n", $4, $4, $6 }' readings.txt
   done >"ask$k/both.txt"
   csplit -s -f "ask$k/part" "ask$k/both.txt" '/name = "film b"/-1'
   mv "ask$k/part00" "ask$k/a_measured.toml"
@@ -81,18 +88,18 @@ done <asks.txt
 # pressed, and hits are counted. They are binomial with the stated probabilities, the three packings of one ask alike at the
 # worst.
 outcome() { # NAME CONTROL KEY UNIT LOG
-  while read -r k am cbd strength _ _ _ _ pc cc target; do
+  while read -r k material _ _ _ _ pc cc target; do
     read -r at stated assured < <(sed -n \
       "s/^film c: \([0-9.]*\) $4 meets the target with \([0-9]*\) % (assured: \([0-9]*\) %).*/\1 \2 \3/p" "ask$k/$5") ||
       fail "ask $k: design proposes nothing"
     for seed in 1 2 3; do
-      echo "$am $cbd $strength $pc $cc $at $((3000 + 10 * k + seed)) $stated $(awk -v a="$pc" -v b="$target" 'BEGIN { print a * b }') $assured"
+      echo "$material $pc $cc $at $((3000 + 10 * k + seed)) $stated $(awk -v a="$pc" -v b="$target" 'BEGIN { print a * b }') $assured"
     done
   done <asks.txt >"chosen_$1.txt"
   study "$1" "chosen_$1.txt" "$2" "$3"
   porosities "$1" | paste -d' ' "chosen_$1.txt" - >"outcome_$1.txt"
-  awk -v within=$within -v what="$1" '{ hit = ($11 - $9 <= within && $9 - $11 <= within); hits += hit; stated += $8 / 100; variance += 3 * $8 / 100 * (1 - $8 / 100); ++n
-      of[int((NR - 1) / 3)] += hit; mean[int((NR - 1) / 3)] = $8 / 100; least[int((NR - 1) / 3)] = $10 / 100; assured += $10 / 100 }
+  awk -v within=$within -v what="$1" '{ hit = ($9 - $7 <= within && $7 - $9 <= within); hits += hit; stated += $6 / 100; variance += 3 * $6 / 100 * (1 - $6 / 100); ++n
+      of[int((NR - 1) / 3)] += hit; mean[int((NR - 1) / 3)] = $6 / 100; least[int((NR - 1) / 3)] = $8 / 100; assured += $8 / 100 }
     END { for (k in of) { met += of[k] / 3 >= least[k] - 1e-9; mean_met += of[k] / 3 >= mean[k] - 1e-9 }
       printf "%s: %d asks, %d films pressed: %.0f %% met the target, %.0f %% were promised (standard deviation at most %.0f), %.0f %% were assured\n",
         what, n / 3, n, 100 * hits / n, 100 * stated / n, 100 * sqrt(variance) / n, 100 * assured / n

@@ -105,15 +105,17 @@ TEST(Calibrate, FindsTwoEffectsThatActTogether) {
   EXPECT_NEAR(collapse / n, std::log(20.0), 0.7);
 }
 
-// Three without a pair, and a pair that has a tenth.
-TEST(Calibrate, APairIsLessProbableBeforeTheData) {
+// All four sets of two effects are alike.
+TEST(Calibrate, AnEffectActsAsProbablyAsNotBeforeTheData) {
   Calibration c;
   c.films = {made_film("a", 48.0, 2.0)};
-  calibrate(FilmBank(made_coatings({"nmc_plasticity", "cbd_collapse"})), few(), c);
+  const FilmBank bank(made_coatings({"nmc_plasticity", "cbd_collapse"}));
+  calibrate(bank, few(), c);
   ASSERT_EQ(c.hypotheses.size(), 4u);
-  for (const char *name : {"none", "nmc_plasticity", "cbd_collapse"})
-    EXPECT_NEAR(probability(c, name), 0.3, 1e-9);
-  EXPECT_NEAR(probability(c, "nmc_plasticity + cbd_collapse"), 0.1, 1e-9);
+  for (const char *name :
+       {"none", "nmc_plasticity", "cbd_collapse", "nmc_plasticity + cbd_collapse"})
+    EXPECT_NEAR(probability(c, name), 0.25, 1e-9);
+  EXPECT_NEAR(acting(bank, c, 0, 0), 0.5, 1e-9);
 }
 
 // No binder of the bank is as soft as this film asks for.

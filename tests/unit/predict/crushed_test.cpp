@@ -133,7 +133,8 @@ TEST(Crushed, FewParticlesInTheBankSayLess) {
   const auto at = [&](double strength) {
     Draw d;
     d.materials = {{{190.0, 2.4, strength}, {}}};
-    return log_likelihood(bank, c, d);
+    Curves known;
+    return log_likelihood(bank, c, d, known);
   };
   const double off = std::log(800.0 / 500.0);
   EXPECT_NEAR(at(500.0) - at(800.0),

@@ -80,9 +80,16 @@ TEST(SizesByVolume, AreThoseOfALognormal) {
   EXPECT_LT(cut[2], 5.0);
 }
 
+/// A bank that does not take the nanoporosity of CBD for known.
+FilmBank of_unknown_nanopores() {
+  BankTable table = made_coatings({"cbd_collapse"});
+  table.spec.nanoporosity_within = 10.0;
+  return FilmBank(table);
+}
+
 // BLB's powder has hardly other sizes, and other densities: its film is described by its volumes.
 TEST(FilmBank, AFilmOfLikeParticlesIsDescribedByVolume) {
-  const FilmBank &bank = made_film_bank();
+  const FilmBank bank = of_unknown_nanopores();
   const Recipe blb =
       read_recipe(CALENDEM_SOURCE_DIR "/input_scripts/cases/real/blb_nmc111_90/electrode.toml");
   const Film film = bank.film_of(blb);
@@ -95,13 +102,6 @@ TEST(FilmBank, AFilmOfLikeParticlesIsDescribedByVolume) {
   EXPECT_EQ(bank.film_of(recipe_of("")).loading, 17.46);
   ASSERT_EQ(bank.beyond(film).size(), 1u);
   EXPECT_NE(bank.beyond(film)[0].find("an error of 0.6 points"), std::string::npos);
-}
-
-/// A bank that does not take the nanoporosity of CBD for known.
-FilmBank of_unknown_nanopores() {
-  BankTable table = made_coatings({"cbd_collapse"});
-  table.spec.nanoporosity_within = 10.0;
-  return FilmBank(table);
 }
 
 // Only collapse changes it; a domain that begins with fewer pores loses the same share of those that it can lose.
@@ -189,8 +189,19 @@ TEST(FilmBank, NanoporesAreUnknownOnlyWhereFilmsDiffer) {
   EXPECT_THROW(FilmBank{table}, Failure);
 }
 
+// Half of this powder's volume lies below a diameter 1.44 times the bank's: 7 points for a factor of e.
+TEST(FilmBank, LargerParticlesCountAsAnError) {
+  const Recipe coarse =
+      read_recipe(CALENDEM_SOURCE_DIR "/input_scripts/cases/real/zhang_nmc111_96/electrode.toml");
+  const FilmBank &bank = made_film_bank();
+  const Film film = bank.film_of(coarse);
+  EXPECT_NEAR(std::exp(film.sizes), 1.44, 0.005);
+  ASSERT_EQ(bank.beyond(film).size(), 1u);
+  EXPECT_NE(bank.beyond(film)[0].find("an error of 2.6 points"), std::string::npos);
+}
+
 TEST(FilmBank, OtherParticlesAreRefused) {
-  for (const char *sizes : {"median_um = 6", "sigma_ln = 0.3", "median_um = 3.5"})
+  for (const char *sizes : {"median_um = 9", "sigma_ln = 0.3", "median_um = 2"})
     EXPECT_THROW(made_film_bank().film_of(recipe_of(std::string("[particles]\n") + sizes + "\n")),
                  Failure)
         << sizes;
@@ -215,7 +226,16 @@ TEST(FilmBank, TheShippedTableHoldsTheRunsOfItsDesigns) {
       EXPECT_TRUE(p.base[k] >= whole.parameters[k].low && p.base[k] <= whole.parameters[k].high);
     rich += row.point.base_point >= 48;
   }
-  EXPECT_EQ(rich, 179); // of 180: one did not reach 300 MPa
+  EXPECT_EQ(rich, 299); // of 300: one did not reach 300 MPa
+}
+
+// Every set of effects is compared: of seven there are 128.
+TEST(FilmBank, TooManyEffectsAreRefused) {
+  const std::vector<std::string> seven = {"nmc_plasticity", "cbd_collapse", "cbd_plasticity",
+                                          "friction",       "pre_cracks",   "weibull_strength",
+                                          "binder_bridges"};
+  EXPECT_EQ(FilmBank(made_coatings({seven.begin(), seven.end() - 1})).effects().size(), 6u);
+  EXPECT_THROW(FilmBank{made_coatings(seven)}, Failure);
 }
 
 TEST(FilmBank, TooFewPressuresAreRefused) {

@@ -26,9 +26,13 @@ std::string bank_on_disk(const std::filesystem::path &folder) {
   };
   replace("base_points = 64", "base_points = 40");
   replace("packings = 12", "packings = 8");
-  replace("effects = [\"nmc_plasticity\", \"cbd_collapse\"]", "effects = [\"nmc_plasticity\"]");
-  text.erase(text.find("[full_cell]"),
-             text.find("# What the bank's runs") - text.find("[full_cell]"));
+  const auto cut = [&](const std::string &from, const std::string &to) {
+    text.erase(text.find(from), text.find(to) - text.find(from));
+  };
+  cut("effects = [", "\n# Indented");
+  cut("[[effect]]", "[[parameter]]");
+  text.insert(text.find("\n# Indented"), "effects = [\"nmc_plasticity\"]\n");
+  cut("[full_cell]", "# What the bank's runs");
   const std::string file = (folder / "coatings/bank.toml").string();
   write_file(file, text);
   write_file(table_file(file), write_bank_table(made_coatings()));

@@ -5,6 +5,7 @@
 #include "commands/commands.h"
 #include "commands/films_asked.h"
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
@@ -50,6 +51,8 @@ MissedRuns confirm(const FilmBank &bank, const Calibration &c, const CalibrateOp
   return missed;
 }
 
+constexpr double kWorthSaying = 0.05; // probability in any material
+
 std::string data_in_words(const Calibration &c) {
   const auto count = [](std::size_t n, const char *what) {
     return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
@@ -58,15 +61,29 @@ std::string data_in_words(const Calibration &c) {
                      c.crushed.empty() ? "" : ", " + count(c.crushed.size(), "crushing load"));
 }
 
-void say(const Calibration &c, const std::vector<LeftOut> &rows) {
-  if (c.materials.size() > 1)
-    fmt::print("probability of effects in {}\n", fmt::join(c.materials, " | "));
-  for (const Weighed &w : c.hypotheses) {
-    fmt::print("  {:<28}", w.name);
-    for (const double probability : w.probability)
-      fmt::print(" {:5.1f} %", kPercent * probability);
-    fmt::print("   ({:.0f} effective samples)\n", w.effective_samples);
+/// Effects first, then those that act together.
+void say_effects(const FilmBank &bank, const Calibration &c) {
+  fmt::print("probability that an effect acts{}\n",
+             c.materials.size() > 1 ? fmt::format(" in {}", fmt::join(c.materials, " | ")) : "");
+  for (std::size_t e = 0; e < bank.effects().size(); ++e) {
+    fmt::print("  {:<28}", bank.effects()[e].name);
+    for (std::size_t m = 0; m < c.materials.size(); ++m)
+      fmt::print(" {:5.1f} %", kPercent * acting(bank, c, int(e), m));
+    fmt::print("\n");
   }
+  fmt::print("those that act together\n");
+  for (const Weighed &w : c.hypotheses) {
+    if (*std::max_element(w.probability.begin(), w.probability.end()) < kWorthSaying)
+      continue;
+    fmt::print("  {}:", w.name);
+    for (const double probability : w.probability)
+      fmt::print(" {:.1f} %", kPercent * probability);
+    fmt::print(" ({:.0f} effective samples)\n", w.effective_samples);
+  }
+}
+
+void say(const FilmBank &bank, const Calibration &c, const std::vector<LeftOut> &rows) {
+  say_effects(bank, c);
   if (!rows.empty())
     fmt::print("each film left out in turn: porosity after release, %\n");
   for (const LeftOut &r : rows)
@@ -114,7 +131,7 @@ void run_calibrate(const CalibrateOptions &o) {
   write({});
   for (std::size_t m = 0; m < c.materials.size(); ++m)
     write_file(cases[m], case_of(bank, c, m));
-  say(c, rows);
+  say(bank, c, rows);
   for (const std::string &text : not_said)
     fmt::print("- {}\n", text);
   const MissedRuns missed = o.runs > 0 ? confirm(bank, c, o, recipes, write) : MissedRuns();
@@ -136,7 +153,7 @@ void add_calibrate_verb(CLI::App &app) {
   verb->add_option("-o,--output", o->folder, "folder for model.json, case.toml and model.html")
       ->required();
   verb->add_option("--bank", o->bank, "bank (TOML) with its table (CSV) beside it");
-  verb->add_option("--samples", o->settings.samples, "of each hypothesis, from its prior")
+  verb->add_option("--samples", o->settings.samples, "of each set of effects, from its prior")
       ->check(CLI::Range(64, 1 << 20));
   add_run_options(*verb, o->runs, o->study, "--confirm",
                   "so many simulations of every film at every pressure, each with another draw of "

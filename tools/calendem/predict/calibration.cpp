@@ -147,10 +147,10 @@ double product(const std::vector<double> &a, const std::vector<double> &b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
-Predicted predicted_data(const FilmBank &bank, const Calibration &c, const Draw &draw) {
+Predicted predicted_data(const FilmBank &bank, const Calibration &c, const Draw &draw,
+                         Curves &curves) {
   const auto n = Eigen::Index(c.data.size());
   Predicted out = {Vector(n), Vector(n), Vector(n), {}};
-  std::map<std::pair<int, FilmNumber>, std::vector<Guess>> curves;
   for (Eigen::Index k = 0; k < n; ++k) {
     const Datum &d = c.data[std::size_t(k)];
     const Film &film = c.films[std::size_t(d.film)];
@@ -167,6 +167,11 @@ Predicted predicted_data(const FilmBank &bank, const Calibration &c, const Draw 
     out.by_full_cell.push_back(bank.full_cell_errors(d.number, film, d.pressure));
   }
   return out;
+}
+
+Predicted predicted_data(const FilmBank &bank, const Calibration &c, const Draw &draw) {
+  Curves curves;
+  return predicted_data(bank, c, draw, curves);
 }
 
 /// Of measured - predicted.
@@ -196,11 +201,11 @@ Vector measured_of(const Calibration &c) {
 
 } // namespace
 
-double log_likelihood(const FilmBank &bank, const Calibration &c, const Draw &draw) {
+double log_likelihood(const FilmBank &bank, const Calibration &c, const Draw &draw, Curves &known) {
   const double of_crushed = log_likelihood_of_crushed(bank, c, draw);
   if (c.data.empty())
     return of_crushed;
-  const Predicted p = predicted_data(bank, c, draw);
+  const Predicted p = predicted_data(bank, c, draw, known);
   const Cholesky chol(covariance_of(c, p, draw));
   const Vector off = chol.matrixL().solve(measured_of(c) - p.mean);
   return of_crushed - 0.5 * off.squaredNorm() -

@@ -7,6 +7,9 @@
 
 #include "base/experiment.h"
 #include "predict/film_bank.h"
+#include <map>
+#include <utility>
+#include <vector>
 
 namespace calendem {
 
@@ -49,7 +52,7 @@ struct Draw {
   const Material &of(const Film &film) const { return materials[std::size_t(film.material)]; }
 };
 
-/// Effects that may act: none, one, or two.
+/// Effects that may act together.
 struct Weighed {
   std::string name;                ///< "none", an effect, "a + b"
   std::vector<double> probability; ///< in each of Calibration::materials
@@ -77,32 +80,38 @@ void add_experiment(const Experiment &experiment, const FilmBank &bank, Calibrat
                     std::vector<std::string> &not_said);
 
 struct CalibrationSettings {
-  int samples = 4096; ///< of each hypothesis, from its prior
+  int samples = 2048; ///< of each set of effects, from its prior
   int draws = 400;
-  double pair_share = 0.1; ///< prior probability of all pairs of effects together
 };
 
-/// Of all data together, but for a constant.
-double log_likelihood(const FilmBank &bank, const Calibration &calibration, const Draw &draw);
+/// Emulated numbers of films (places in Calibration::films) at the bank's pressures, under one draw.
+using Curves = std::map<std::pair<int, FilmNumber>, std::vector<Guess>>;
+
+/// Of all data together, but for a constant. `known`: of the draw, added to where it lacks a film.
+double log_likelihood(const FilmBank &bank, const Calibration &calibration, const Draw &draw,
+                      Curves &known);
 /// Each datum as all others predict it under a draw, with the errors of measurement and press.
 std::vector<Guess> each_from_the_others(const FilmBank &bank, const Calibration &calibration,
                                         const Draw &draw);
 /// Prior of the model's own error.
 inference::Prior discrepancy_of(const ModelError &error);
 
-/// The effects of each hypothesis: none, each of the bank's, each pair. The last ones' amplitudes
-/// are both free, and their emulators add.
+/// The effects of each hypothesis, few before many: every set of the bank's. All amplitudes are free,
+/// and the emulators add.
 std::vector<std::vector<int>> hypotheses_of(const FilmBank &bank);
 std::string name_of(const FilmBank &bank, const std::vector<int> &effects);
 /// The effects that act in a material.
 std::vector<int> effects_of(const Material &material);
+/// Probability that one of the bank's effects acts in a material, alone or with others.
+double acting(const FilmBank &bank, const Calibration &calibration, int effect,
+              std::size_t material);
 
 /// Systematic resampling by weights: the k-th of `count` is the first whose summed share passes
 /// (k + 1/2) / count.
 std::vector<std::size_t> resampled(const std::vector<double> &weights, int count);
 
-/// Fills hypotheses and draws from films, data and error. Pairs share their prior probability, the
-/// others what is left, in equal parts. Samples are a Sobol sequence over the priors, weighted by
+/// Fills hypotheses and draws from films, data and error. Before the data each effect acts as
+/// probably as not. Samples are a Sobol sequence over the priors, weighted by
 /// the likelihood of the data (importance sampling). Of several materials each takes its turn:
 /// samples of those before it, drawn anew by their weights, get one more material, which is drawn
 /// given those it is like, and are weighted by what its films add (sequential Monte Carlo, Del

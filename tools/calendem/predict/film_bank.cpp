@@ -5,6 +5,7 @@
 #include "diagnose/bank_points.h"
 #include "diagnose/experiment_data.h"
 #include "diagnose/inference/emulators.h"
+#include "predict/together.h"
 
 #include <math.h> // pchip.hpp of Boost 1.74 needs the global isnan
 
@@ -25,6 +26,7 @@ constexpr std::size_t kFewestPressures = 4; // of the monotone cubic
 constexpr const char *kCollapse = "cbd_collapse",
                      *kFloor = "effects.cbd_collapse.floor_nanoporosity";
 constexpr const char *kStrengthKey = "case.bond.tensile_strength_MPa";
+constexpr std::size_t kMostEffects = 6; // 64 sets
 constexpr double kBeyond = 0.05; // standard deviation per unit of ln p beyond the bank's pressures
 
 bool is_recipe(const BankParameter &p) { return p.keys.front().rfind("recipe.", 0) == 0; }
@@ -220,6 +222,12 @@ void FilmBank::learn(const BankTable &table) {
     if (name == kCollapse)
       with_.back()[kByBase] = calendem::emulators_of(with, kByBase, nullptr);
   }
+  if (effects_.size() > kMostEffects)
+    throw Failure(
+        kBadInput,
+        fmt::format("{}: the table has runs of {} effects; calibrate compares every set of "
+                    "them and takes {} at most. List the most important in effects.",
+                    spec_.file, effects_.size(), kMostEffects));
   for (int number = 0; number < kByBase; ++number)
     for (const auto &of_effect : with_)
       if (of_effect[std::size_t(number)].empty())
@@ -267,6 +275,41 @@ std::pair<double, double> FilmBank::beside(double pressure) const {
           std::max(std::min(pressure * std::exp(kStep), high), low * std::exp(kStep))};
 }
 
+Guess FilmBank::change(FilmNumber number, std::size_t pressure, const Vector &input,
+                       const Acting &acting, const Alike &as) const {
+  const Emulators &of = with_[std::size_t(acting.effect)][std::size_t(number)];
+  if (of.empty())
+    return {};
+  const inference::Parameter &q = effects_[std::size_t(acting.effect)];
+  Vector with(input.size() + 1), strength(1);
+  with << input, q.input(acting.amplitude);
+  strength << q.strength(acting.amplitude);
+  const inference::Mean more = of[pressure].at(with, strength);
+  const double share = q.name == kCollapse ? as.collapse : 1.0;
+  return {share * more.mean, share * share * more.variance};
+}
+
+Guess FilmBank::beyond_sum(FilmNumber number, std::size_t pressure, const Vector &input,
+                           const Material &material, const Alike &as) const {
+  if (material.effects.size() < 2 ||
+      (number != FilmNumber::PorosityAfter && number != FilmNumber::Springback))
+    return {};
+  const auto alone = [&](FilmNumber of) {
+    return base_[std::size_t(of)][pressure].at(input, Vector()).mean;
+  };
+  const auto changed = [&](FilmNumber of, const Acting &a) {
+    return change(of, pressure, input, a, as).mean;
+  };
+  const Response base = {alone(FilmNumber::PorosityAfter), alone(FilmNumber::Springback)};
+  std::vector<Response> changes;
+  for (const Acting &a : material.effects)
+    changes.push_back({changed(FilmNumber::PorosityAfter, a), changed(FilmNumber::Springback, a)});
+  if (number == FilmNumber::Springback)
+    return {springback_beyond_sum(base, changes), 0.0};
+  const double more = porosity_beyond_sum(base, changes);
+  return {kShown * more, kShownError * kShownError * more * more};
+}
+
 std::vector<Guess> FilmBank::at_pressures(FilmNumber number, const Film &film,
                                           const Material &material) const {
   const auto n = std::size_t(number);
@@ -280,18 +323,13 @@ std::vector<Guess> FilmBank::at_pressures(FilmNumber number, const Film &film,
       const inference::Mean base = base_[n][p].at(x, Vector());
       g = {base.mean, base.variance};
     }
-    for (const Acting &a : material.effects) {
-      if (with_[std::size_t(a.effect)][n].empty())
-        continue;
-      const inference::Parameter &q = effects_[std::size_t(a.effect)];
-      Vector with(x.size() + 1), strength(1);
-      with << x, q.input(a.amplitude);
-      strength << q.strength(a.amplitude);
-      const inference::Mean more = with_[std::size_t(a.effect)][n][p].at(with, strength);
-      const double of = q.name == kCollapse ? as.collapse : 1.0;
-      g.mean += of * more.mean;
-      g.variance += of * of * more.variance;
-    }
+    const auto add = [&](const Guess &more) {
+      g.mean += more.mean;
+      g.variance += more.variance;
+    };
+    for (const Acting &a : material.effects)
+      add(change(number, p, x, a, as));
+    add(beyond_sum(number, p, x, material, as));
     if (share != 0.0 && !full_cell_[n].change.empty())
       g.mean += share * full_cell_[n].change[p];
     if (number == FilmNumber::PorosityAfter)

@@ -88,7 +88,7 @@ public:
 
   /// Throws Failure(2) if its recipe is another electrode than the bank's but for the parameters.
   /// Other particles pass where the bank's cell could hardly show the difference: percentiles by
-  /// volume within 5 % there, within 20 % in the whole film.
+  /// volume within a factor of 1.2 there, of 1.6 in the whole film.
   Film film_of(const Recipe &recipe) const;
   /// The same of any electrode: what the bank's parameters are for it.
   Film described(const Recipe &recipe) const;
@@ -153,6 +153,12 @@ private:
   /// Those of the base model; of the nanoporosity, which only collapse changes, those of collapse.
   const Emulators *emulators_of(FilmNumber number) const;
   double full_cell_share(const Film &film) const;
+  /// What one effect changes at one of the bank's pressures.
+  Guess change(FilmNumber number, std::size_t pressure, const inference::Vector &input,
+               const Acting &acting, const Alike &as) const;
+  /// What several change beyond the sum of these.
+  Guess beyond_sum(FilmNumber number, std::size_t pressure, const inference::Vector &input,
+                   const Material &material, const Alike &as) const;
 };
 
 /// How porosity may depend on the particles' median size by volume: standard deviation for a factor

@@ -178,29 +178,34 @@ Json emulators_of(const FilmBank &bank) {
   return out;
 }
 
-Json hypotheses_of(const FilmBank &bank, const Calibration &c) {
+Json hypotheses_of(const Calibration &c) {
   Json out = Json::array();
-  for (std::size_t h = 0; h < c.hypotheses.size(); ++h) {
-    const Weighed &w = c.hypotheses[h];
-    Json row = {{"name", w.name},
-                {"probability", w.probability},
-                {"effective_samples", w.effective_samples},
-                {"effects", Json::array()}};
-    const std::vector<int> effects = hypotheses_of(bank)[h];
-    for (std::size_t k = 0; k < effects.size(); ++k)
-      for (std::size_t m = 0; m < c.materials.size(); ++m) {
-        std::vector<double> values;
-        for (const Draw &d : c.draws)
-          if (effects_of(d.materials[m]) == effects)
-            values.push_back(key_value(bank, d.materials[m].effects[k]));
-        if (values.empty())
-          continue;
-        const std::string &name = bank.effects()[std::size_t(effects[k])].name;
-        Json of = {{"name", name},
-                   {"key", find_effect(name).parameter.keys.front() + of_material(c, m)}};
+  for (const Weighed &w : c.hypotheses)
+    out.push_back({{"name", w.name},
+                   {"probability", w.probability},
+                   {"effective_samples", w.effective_samples}});
+  return out;
+}
+
+/// How probably each acts in each material, and the values of its key where it does.
+Json effects_json(const FilmBank &bank, const Calibration &c) {
+  Json out = Json::array();
+  for (std::size_t e = 0; e < bank.effects().size(); ++e) {
+    const std::string &name = bank.effects()[e].name;
+    Json row = {{"name", name},
+                {"key", find_effect(name).parameter.keys.front()},
+                {"materials", Json::array()}};
+    for (std::size_t m = 0; m < c.materials.size(); ++m) {
+      std::vector<double> values;
+      for (const Draw &d : c.draws)
+        for (const Acting &a : d.materials[m].effects)
+          if (a.effect == int(e))
+            values.push_back(key_value(bank, a));
+      Json of = {{"material", c.materials[m]}, {"probability", acting(bank, c, int(e), m)}};
+      if (!values.empty())
         of.update(spread_of(values));
-        row["effects"].push_back(of);
-      }
+      row["materials"].push_back(of);
+    }
     out.push_back(row);
   }
   return out;
@@ -256,7 +261,8 @@ Json to_json(const FilmBank &bank, const Calibration &c, const std::vector<LeftO
             {"low", c.error.low},
             {"high", c.error.high},
             {"cracked", c.error.cracked}}},
-          {"hypotheses", hypotheses_of(bank, c)},
+          {"hypotheses", hypotheses_of(c)},
+          {"effects", effects_json(bank, c)},
           {"parameters", parameters_of(bank, c)},
           {"learnt", learnt_of(bank, c)},
           {"trade_offs", trade_offs_json(bank, c)},

@@ -86,23 +86,53 @@ json heads_of(const Calibration &c) {
   return out;
 }
 
+json effects_part(const Json &model) {
+  json rows = json::array();
+  for (const Json &e : model.at("effects"))
+    for (const Json &m : e["materials"]) {
+      const std::string material = m["material"];
+      const auto text = m.contains("median") ? shown_alike({m["median"], m["low90"], m["high90"]})
+                                             : std::vector<std::string>(3);
+      rows.push_back({{"name", e["name"]},
+                      {"material", material},
+                      {"percent", fmt::format("{:.0f}", kPercent * m["probability"].get<double>())},
+                      {"key", e["key"]},
+                      {"median", text[0]},
+                      {"low", text[1]},
+                      {"high", text[2]}});
+    }
+  return rows;
+}
+
+constexpr double kShown = 0.02; // probability in any material
+
+/// Sets of effects; those that are improbable in every material as one row.
 json hypotheses_part(const Json &model) {
   json rows = json::array();
+  std::vector<double> rest;
+  int others = 0;
+  const auto percents = [](const std::vector<double> &of) {
+    json out = json::array();
+    for (const double probability : of)
+      out.push_back(fmt::format("{:.0f}", kPercent * probability));
+    return out;
+  };
   for (const Json &h : model.at("hypotheses")) {
-    std::string values;
-    for (const Json &e : h["effects"]) {
-      const auto text = shown_alike({e["median"], e["low90"], e["high90"]});
-      values += fmt::format("{}{} = {} (90 %: {} to {})", values.empty() ? "" : "; ",
-                            e["key"].get<std::string>(), text[0], text[1], text[2]);
+    const std::vector<double> of = h["probability"];
+    rest.resize(of.size());
+    if (*std::max_element(of.begin(), of.end()) >= kShown) {
+      rows.push_back({{"name", h["name"]},
+                      {"percents", percents(of)},
+                      {"samples", shown(h["effective_samples"], "{:.0f}")}});
+      continue;
     }
-    json percents = json::array();
-    for (const double probability : h["probability"])
-      percents.push_back(fmt::format("{:.0f}", kPercent * probability));
-    rows.push_back({{"name", h["name"]},
-                    {"percents", percents},
-                    {"value", values},
-                    {"samples", shown(h["effective_samples"], "{:.0f}")}});
+    ++others;
+    std::transform(of.begin(), of.end(), rest.begin(), rest.begin(), std::plus<>());
   }
+  if (others > 0)
+    rows.push_back({{"name", fmt::format("{} others", others)},
+                    {"percents", percents(rest)},
+                    {"samples", ""}});
   return rows;
 }
 
@@ -209,6 +239,7 @@ std::string model_page(const FilmBank &bank, const Calibration &c, const Json &m
                  {"confirmed_rows", confirmed_part(model)},
                  {"any_confirmed", !model.value("confirmed", Json::array()).empty()},
                  {"probabilities", heads_of(c)},
+                 {"effects_rows", effects_part(model)},
                  {"hypotheses_rows", hypotheses_part(model)},
                  {"parameters_rows", parameters_part(model)},
                  {"learnt_rows", learnt_part(model)},

@@ -35,31 +35,18 @@ std::vector<Draw> prior_draws(const FilmBank &bank, const ModelError &error,
   return out;
 }
 
-/// Of a hypothesis that is as probable before the data as all others of as many effects.
-double prior_of(const std::vector<std::vector<int>> &all, const std::vector<int> &effects,
-                double pair_share) {
-  const auto pairs =
-      double(std::count_if(all.begin(), all.end(), [](const auto &of) { return of.size() > 1; }));
-  return effects.size() > 1 ? pair_share / pairs
-                            : (pairs > 0.0 ? 1.0 - pair_share : 1.0) / (double(all.size()) - pairs);
-}
-
 /// A sample on its way to one more material. Materials that follow what all have in common have the
 /// same effects, the others effects of their own: each follows with a probability whose square is
 /// Draw::alike, so that this is how often two of them do.
 struct Sample {
   Draw draw;
   int follows = -1; ///< place of a material that does; -1: none
+  Curves known;     ///< of the films of its materials
 };
 
-/// The hypothesis at a place (0-1) of all, each as wide as its prior probability.
-std::vector<int> effects_at(const std::vector<std::vector<int>> &all, double pair_share,
-                            double place) {
-  double passed = 0.0;
-  for (const std::vector<int> &effects : all)
-    if ((passed += prior_of(all, effects, pair_share)) > place)
-      return effects;
-  return all.back();
+/// The hypothesis at a place (0-1) of all, each as wide as the others.
+const std::vector<int> &effects_at(const std::vector<std::vector<int>> &all, double place) {
+  return all[std::min(all.size() - 1, std::size_t(place * double(all.size())))];
 }
 
 /// A score of a new material, given those that others have of the same parameter.
@@ -72,8 +59,7 @@ double score_given(const std::vector<double> &others, double alike, double own) 
 
 /// Gives each of the samples one more material; with the second, how alike materials are. Scores are
 /// normal with that correlation between any two materials that have the parameter.
-void add_material(const FilmBank &bank, double pair_share, std::uint64_t seed,
-                  std::vector<Sample> &samples) {
+void add_material(const FilmBank &bank, std::uint64_t seed, std::vector<Sample> &samples) {
   const inference::Prior alike = {inference::Prior::uniform, 0.0, 1.0};
   const auto hypotheses = hypotheses_of(bank);
   const std::size_t d = bank.material().size(), effects = bank.effects().size(),
@@ -103,10 +89,9 @@ void add_material(const FilmBank &bank, double pair_share, std::uint64_t seed,
         return std::optional<double>(m.parameters[j]);
       }));
     const bool follows = alike.value(own(d + effects + 2)) < std::sqrt(draw.alike);
-    const std::vector<int> acting =
-        follows && sample.follows >= 0
-            ? effects_of(draw.materials[std::size_t(sample.follows)])
-            : effects_at(hypotheses, pair_share, alike.value(own(d + effects + 3)));
+    const std::vector<int> acting = follows && sample.follows >= 0
+                                        ? effects_of(draw.materials[std::size_t(sample.follows)])
+                                        : effects_at(hypotheses, alike.value(own(d + effects + 3)));
     for (const int effect : acting)
       more.effects.push_back(
           {effect, next(bank.effects()[std::size_t(effect)].prior, d + std::size_t(effect),
@@ -162,12 +147,12 @@ Sampled sampled(const FilmBank &bank, const CalibrationSettings &settings, const
                 const std::vector<int> &effects, std::uint64_t seed) {
   Sampled out;
   for (Draw &draw : prior_draws(bank, c.error, effects, settings.samples, seed))
-    out.samples.push_back({std::move(draw), -1});
+    out.samples.push_back({std::move(draw), -1, {}});
   const auto likelihoods = [&](std::size_t materials) {
     const Calibration seen = of_first(c, materials);
     std::vector<double> logs;
-    for (const Sample &s : out.samples)
-      logs.push_back(log_likelihood(bank, seen, s.draw));
+    for (Sample &s : out.samples)
+      logs.push_back(log_likelihood(bank, seen, s.draw, s.known));
     return logs;
   };
   std::vector<double> before = likelihoods(1);
@@ -183,7 +168,7 @@ Sampled sampled(const FilmBank &bank, const CalibrationSettings &settings, const
       of_again.push_back(before[k]);
     }
     out.samples = again;
-    add_material(bank, settings.pair_share, seed, out.samples);
+    add_material(bank, seed, out.samples);
     before = likelihoods(next);
     for (std::size_t k = 0; k < before.size(); ++k)
       out.logs[k] = evidence + before[k] - of_again[k];
@@ -196,12 +181,15 @@ Sampled sampled(const FilmBank &bank, const CalibrationSettings &settings, const
 
 std::vector<std::vector<int>> hypotheses_of(const FilmBank &bank) {
   const auto effects = int(bank.effects().size());
-  std::vector<std::vector<int>> out = {{}};
-  for (int a = 0; a < effects; ++a)
-    out.push_back({a});
-  for (int a = 0; a < effects; ++a)
-    for (int b = a + 1; b < effects; ++b)
-      out.push_back({a, b});
+  std::vector<std::vector<int>> out;
+  for (unsigned set = 0; set < 1U << effects; ++set) {
+    out.emplace_back();
+    for (int k = 0; k < effects; ++k)
+      if (set >> k & 1U)
+        out.back().push_back(k);
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const auto &a, const auto &b) { return a.size() < b.size(); });
   return out;
 }
 
@@ -217,6 +205,15 @@ std::vector<int> effects_of(const Material &material) {
   for (const Acting &a : material.effects)
     out.push_back(a.effect);
   return out;
+}
+
+double acting(const FilmBank &bank, const Calibration &c, int effect, std::size_t material) {
+  const auto of = hypotheses_of(bank);
+  double sum = 0.0;
+  for (std::size_t h = 0; h < of.size() && h < c.hypotheses.size(); ++h)
+    if (std::find(of[h].begin(), of[h].end(), effect) != of[h].end())
+      sum += c.hypotheses[h].probability[material];
+  return sum;
 }
 
 std::vector<std::size_t> resampled(const std::vector<double> &weights, int count) {
@@ -237,13 +234,12 @@ void calibrate(const FilmBank &bank, const CalibrationSettings &settings, Calibr
   const auto of = hypotheses_of(bank);
   c.hypotheses.clear();
   for (std::size_t h = 0; h < of.size(); ++h) {
-    const double prior = std::log(prior_of(of, of[h], settings.pair_share));
     const Sampled samples = sampled(bank, settings, c, of[h], std::uint64_t(h) + 1);
     c.hypotheses.push_back(
         {name_of(bank, of[h]), std::vector<double>(c.materials.size(), 0.0), samples.effective});
     all.insert(all.end(), samples.samples.begin(), samples.samples.end());
     for (const double l : samples.logs)
-      logs.push_back(prior + l);
+      logs.push_back(l);
   }
   const Weights weights(logs);
   for (std::size_t k = 0; k < all.size(); ++k)
@@ -254,7 +250,7 @@ void calibrate(const FilmBank &bank, const CalibrationSettings &settings, Calibr
   std::vector<Sample> kept;
   for (const std::size_t k : resampled(weights.of, settings.draws))
     kept.push_back(all[k]);
-  add_material(bank, settings.pair_share, 1, kept); // the one that was not measured
+  add_material(bank, 1, kept); // the one that was not measured
   c.draws.clear();
   for (Sample &s : kept)
     c.draws.push_back(std::move(s.draw));

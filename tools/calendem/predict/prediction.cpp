@@ -2,7 +2,6 @@
 #include "predict/prediction.h"
 #include "base/messages.h"
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <fmt/format.h>
@@ -16,7 +15,7 @@ namespace {
 double share_below(const Guess &g, double value) {
   if (!(g.variance > 0.0))
     return g.mean < value ? 1.0 : 0.0;
-  return cdf(boost::math::normal(g.mean, std::sqrt(g.variance)), value);
+  return 0.5 * std::erfc((g.mean - value) / std::sqrt(2.0 * g.variance));
 }
 
 std::vector<Band> bands_of(const Guesses &draws, double low, double high) {
