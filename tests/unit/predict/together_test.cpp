@@ -43,7 +43,11 @@ TEST(Together, NoSpringbackIsLeftWhereAnEffectTakesAll) {
 }
 
 TEST(Together, TheBankAddsItsErrorOnlyWhereSeveralAct) {
-  const FilmBank bank(made_coatings({"nmc_plasticity", "cbd_collapse"}));
+  BankTable table = made_coatings({"nmc_plasticity", "cbd_collapse"});
+  for (BankRow &row : table.rows)
+    if (SimulatedRun &r = row.run; !row.point.effect.empty()) // half of the springback
+      r.porosity_at_max = 0.5 * (r.porosity_at_max + r.porosity_after);
+  const FilmBank bank(table);
   const Film film = made_film("x", 46.0, 2.2);
   const Acting yields = {0, find_effect("nmc_plasticity").parameter.amplitude(2.5)},
                collapses = {1, find_effect("cbd_collapse").parameter.amplitude(30.0)};
@@ -63,6 +67,7 @@ TEST(Together, TheBankAddsItsErrorOnlyWhereSeveralAct) {
       {other.porosity - none.porosity, other.springback - none.springback}};
   const Response both = response({yields, collapses});
   const double more = porosity_beyond_sum(none, changes);
+  EXPECT_GT(more, 0.005);
   EXPECT_NEAR(both.porosity, one.porosity + other.porosity - none.porosity + kShown * more, 1e-12);
   EXPECT_NEAR(both.springback,
               one.springback + other.springback - none.springback +
