@@ -30,8 +30,8 @@ TEST(Together, SpringbackIsMultipliedAndPorosityUnderLoadAdded) {
   EXPECT_NEAR(porosity_beyond_sum(kBase, both), after(load, 0.03) - kBase.porosity - 2.0 * half,
               1e-12);
   // Effects that leave springback alone add.
-  const double densed = after(load - 0.03, 0.12) - kBase.porosity;
-  EXPECT_NEAR(porosity_beyond_sum(kBase, {{densed, 0.0}, {densed, 0.0}}), 0.0, 1e-12);
+  const double denser = after(load - 0.03, 0.12) - kBase.porosity;
+  EXPECT_NEAR(porosity_beyond_sum(kBase, {{denser, 0.0}, {denser, 0.0}}), 0.0, 1e-12);
 }
 
 // An emulator that takes more springback than there is does not turn the product's sign.
@@ -68,7 +68,8 @@ TEST(Together, TheBankAddsItsErrorOnlyWhereSeveralAct) {
   const Response both = response({yields, collapses});
   const double more = porosity_beyond_sum(none, changes);
   EXPECT_GT(more, 0.005);
-  EXPECT_NEAR(both.porosity, one.porosity + other.porosity - none.porosity + kShown * more, 1e-12);
+  EXPECT_NEAR(both.porosity, one.porosity + other.porosity - none.porosity + kRunsOverRule * more,
+              1e-12);
   EXPECT_NEAR(both.springback,
               one.springback + other.springback - none.springback +
                   springback_beyond_sum(none, changes),
@@ -78,7 +79,7 @@ TEST(Together, TheBankAddsItsErrorOnlyWhereSeveralAct) {
   };
   EXPECT_NEAR(variance({yields, collapses}) - variance({yields}) - variance({collapses}) +
                   variance({}),
-              kShownError * kShownError * more * more, 1e-12);
+              kRunsOverRuleError * kRunsOverRuleError * more * more, 1e-12);
 }
 
 /// Runs of every set of three effects on one film at one pressure, means over packings.
@@ -111,7 +112,7 @@ std::vector<Sets> simulated() {
   return all;
 }
 
-// Four points lie between the sum and what runs show of effects together; one is left.
+// Nearly five points lie between the sum and what runs show of effects together; one is left.
 TEST(Together, RunsShowWhatIsStated) {
   double products = 0.0, squares = 0.0, beyond_sum = 0.0, left = 0.0;
   const std::vector<Sets> all = simulated();
@@ -129,10 +130,10 @@ TEST(Together, RunsShowWhatIsStated) {
       products += given * shown;
       squares += given * given;
       beyond_sum += shown * shown / 16.0;
-      left += (shown - kShown * given) * (shown - kShown * given) / 16.0;
+      left += (shown - kRunsOverRule * given) * (shown - kRunsOverRule * given) / 16.0;
     }
-  EXPECT_NEAR(products / squares, kShown, 0.5 * kShownError);
-  EXPECT_NEAR(std::sqrt(left * 16.0 / squares), kShownError, 0.1);
+  EXPECT_NEAR(products / squares, kRunsOverRule, 0.5 * kRunsOverRuleError);
+  EXPECT_NEAR(std::sqrt(left * 16.0 / squares), kRunsOverRuleError, 0.1);
   EXPECT_GT(std::sqrt(beyond_sum), 0.04);
   EXPECT_LT(std::sqrt(left), 0.012);
 }

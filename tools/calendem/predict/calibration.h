@@ -96,8 +96,8 @@ std::vector<Guess> each_from_the_others(const FilmBank &bank, const Calibration 
 /// Prior of the model's own error.
 inference::Prior discrepancy_of(const ModelError &error);
 
-/// The effects of each hypothesis, few before many: every set of the bank's. All amplitudes are free,
-/// and the emulators add.
+/// The effects of each hypothesis, few before many: every set of the bank's. All amplitudes are free;
+/// what they change together: together.h.
 std::vector<std::vector<int>> hypotheses_of(const FilmBank &bank);
 std::string name_of(const FilmBank &bank, const std::vector<int> &effects);
 /// The effects that act in a material.

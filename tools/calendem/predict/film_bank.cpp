@@ -214,6 +214,11 @@ void FilmBank::learn(const BankTable &table) {
       continue;
     effects_.push_back(inference_effect(effect_of(spec_, name)).parameters.front());
     effects_.back().name = name;
+    if (effects_.size() > kMostEffects)
+      throw Failure(kBadInput,
+                    fmt::format("{}: the table has runs of more than {} effects; calibrate "
+                                "compares every set of them. List the most important in effects.",
+                                spec_.file, kMostEffects));
     with_.emplace_back();
     for (int number = 0; number < kByBase; ++number)
       if (knows(FilmNumber(number)))
@@ -222,12 +227,6 @@ void FilmBank::learn(const BankTable &table) {
     if (name == kCollapse)
       with_.back()[kByBase] = calendem::emulators_of(with, kByBase, nullptr);
   }
-  if (effects_.size() > kMostEffects)
-    throw Failure(
-        kBadInput,
-        fmt::format("{}: the table has runs of {} effects; calibrate compares every set of "
-                    "them and takes {} at most. List the most important in effects.",
-                    spec_.file, effects_.size(), kMostEffects));
   for (int number = 0; number < kByBase; ++number)
     for (const auto &of_effect : with_)
       if (of_effect[std::size_t(number)].empty())
@@ -307,7 +306,7 @@ Guess FilmBank::beyond_sum(FilmNumber number, std::size_t pressure, const Vector
   if (number == FilmNumber::Springback)
     return {springback_beyond_sum(base, changes), 0.0};
   const double more = porosity_beyond_sum(base, changes);
-  return {kShown * more, kShownError * kShownError * more * more};
+  return {kRunsOverRule * more, kRunsOverRuleError * kRunsOverRuleError * more * more};
 }
 
 std::vector<Guess> FilmBank::at_pressures(FilmNumber number, const Film &film,

@@ -237,7 +237,8 @@ void calibrate(const FilmBank &bank, const CalibrationSettings &settings, Calibr
     const Sampled samples = sampled(bank, settings, c, of[h], std::uint64_t(h) + 1);
     c.hypotheses.push_back(
         {name_of(bank, of[h]), std::vector<double>(c.materials.size(), 0.0), samples.effective});
-    all.insert(all.end(), samples.samples.begin(), samples.samples.end());
+    for (const Sample &sample : samples.samples)
+      all.push_back({sample.draw, sample.follows, {}});
     for (const double l : samples.logs)
       logs.push_back(l);
   }

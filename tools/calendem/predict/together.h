@@ -22,7 +22,7 @@ double springback_beyond_sum(const Response &base, const std::vector<Response> &
 double porosity_beyond_sum(const Response &base, const std::vector<Response> &changes);
 
 /// What runs show of porosity_beyond_sum, and its standard deviation.
-constexpr double kShown = 1.8, kShownError = 0.4;
+constexpr double kRunsOverRule = 1.8, kRunsOverRuleError = 0.4;
 
 } // namespace calendem
 
