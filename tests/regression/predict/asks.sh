@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # asks.sh BIN CASES WORK [ASKS]: design asked about materials that it cannot see. For each ask a material, in which each of
-# the bank's effects acts or does not, and three films are drawn; two films are pressed in the simulation, three pressures each, and serve as measurements; `design` chooses a
-# pressure, then a gap, for a porosity of the third; that film is pressed to the one and rolled to the other, on three other
-# packings. All hits together are beside the mean probability that was stated; the hits of each ask beside the probability that was assured of it, which four of five
-# materials are to reach. Three films show thirds only: an ask of which 0.6 is assured passes with two hits of three, as
+# the bank's effects acts or does not, and three films are drawn; two films are pressed in the simulation, three pressures
+# each, and serve as measurements; `design` chooses a pressure, then a gap, for a porosity of the third; that film is
+# pressed to the one and rolled to the other, on three other packings. All hits together are beside the mean probability
+# that was stated; the hits of each ask beside the probability that was assured of it, which four of five materials are to
+# reach. Three films show thirds only: an ask of which 0.6 is assured passes with two hits of three, as
 # it does at a true 0.5 half of the time. Runs with CALENDEM_HEAVY=1: some 12 runs of 10 to 20 s for each of 20 asks.
 set -euo pipefail
 bin=$1 cases=$2 work=$3 asks=${4:-20}

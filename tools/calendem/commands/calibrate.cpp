@@ -71,7 +71,7 @@ void say_effects(const FilmBank &bank, const Calibration &c) {
       fmt::print(" {:5.1f} %", kPercent * acting(bank, c, int(e), m));
     fmt::print("\n");
   }
-  fmt::print("those that act together\n");
+  fmt::print("sets of them, from {:.0f} % on\n", kPercent * kWorthSaying);
   for (const Weighed &w : c.hypotheses) {
     if (*std::max_element(w.probability.begin(), w.probability.end()) < kWorthSaying)
       continue;

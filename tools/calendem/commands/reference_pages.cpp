@@ -45,7 +45,8 @@ std::string typeset(std::string text) {
       {std::regex("/s2\\b"), "/s²"},
       {std::regex("([0-9])-([0-9])"), "$1–$2"},
       {std::regex("(^|[ (^])-([0-9a-z])"), "$1−$2"},
-      {std::regex("e\\+0*([0-9])"), "e$1"}};
+      {std::regex("e\\+0*([0-9])"), "e$1"},
+      {std::regex("\\+-"), "±"}};
   for (const auto &[what, by] : rules)
     text = std::regex_replace(text, what, by);
   return text;

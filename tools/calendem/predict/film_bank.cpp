@@ -289,21 +289,23 @@ Guess FilmBank::change(FilmNumber number, std::size_t pressure, const Vector &in
 }
 
 Guess FilmBank::beyond_sum(FilmNumber number, std::size_t pressure, const Vector &input,
-                           const Material &material, const Alike &as) const {
+                           const Material &material, const Alike &as, double alone,
+                           const std::vector<double> &changed) const {
   if (material.effects.size() < 2 ||
       (number != FilmNumber::PorosityAfter && number != FilmNumber::Springback))
     return {};
-  const auto alone = [&](FilmNumber of) {
-    return base_[std::size_t(of)][pressure].at(input, Vector()).mean;
+  const bool springs = number == FilmNumber::Springback;
+  const FilmNumber other = springs ? FilmNumber::PorosityAfter : FilmNumber::Springback;
+  const auto response = [&](double of_number, double of_other) {
+    return springs ? Response{of_other, of_number} : Response{of_number, of_other};
   };
-  const auto changed = [&](FilmNumber of, const Acting &a) {
-    return change(of, pressure, input, a, as).mean;
-  };
-  const Response base = {alone(FilmNumber::PorosityAfter), alone(FilmNumber::Springback)};
+  const Response base =
+      response(alone, base_[std::size_t(other)][pressure].at(input, Vector()).mean);
   std::vector<Response> changes;
-  for (const Acting &a : material.effects)
-    changes.push_back({changed(FilmNumber::PorosityAfter, a), changed(FilmNumber::Springback, a)});
-  if (number == FilmNumber::Springback)
+  for (std::size_t k = 0; k < changed.size(); ++k)
+    changes.push_back(
+        response(changed[k], change(other, pressure, input, material.effects[k], as).mean));
+  if (springs)
     return {springback_beyond_sum(base, changes), 0.0};
   const double more = porosity_beyond_sum(base, changes);
   return {kRunsOverRule * more, kRunsOverRuleError * kRunsOverRuleError * more * more};
@@ -322,13 +324,16 @@ std::vector<Guess> FilmBank::at_pressures(FilmNumber number, const Film &film,
       const inference::Mean base = base_[n][p].at(x, Vector());
       g = {base.mean, base.variance};
     }
+    const double alone = g.mean;
+    std::vector<double> changed;
     const auto add = [&](const Guess &more) {
       g.mean += more.mean;
       g.variance += more.variance;
+      return more.mean;
     };
     for (const Acting &a : material.effects)
-      add(change(number, p, x, a, as));
-    add(beyond_sum(number, p, x, material, as));
+      changed.push_back(add(change(number, p, x, a, as)));
+    add(beyond_sum(number, p, x, material, as, alone, changed));
     if (share != 0.0 && !full_cell_[n].change.empty())
       g.mean += share * full_cell_[n].change[p];
     if (number == FilmNumber::PorosityAfter)

@@ -156,9 +156,10 @@ private:
   /// What one effect changes at one of the bank's pressures.
   Guess change(FilmNumber number, std::size_t pressure, const inference::Vector &input,
                const Acting &acting, const Alike &as) const;
-  /// What several change beyond the sum of these.
+  /// What several change beyond the sum of these; `alone`: without them, `changed`: by each.
   Guess beyond_sum(FilmNumber number, std::size_t pressure, const inference::Vector &input,
-                   const Material &material, const Alike &as) const;
+                   const Material &material, const Alike &as, double alone,
+                   const std::vector<double> &changed) const;
 };
 
 /// How porosity may depend on the particles' median size by volume: standard deviation for a factor
