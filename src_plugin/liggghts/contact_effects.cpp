@@ -71,13 +71,13 @@ void ContactEffects::read(PropertyRegistry &registry, int i, int j, const char *
   p.modulus = registry.getMatrixProperty("Yeff", caller)->data[i][j];
   p.shear_modulus = registry.getMatrixProperty("Geff", caller)->data[i][j];
   p.damping = registry.getMatrixProperty("betaeff", caller)->data[i][j];
-  const double cohesion = optional(lmp, "cohesionEnergyDensity", types_, i, j);
+  p.cohesion = optional(lmp, "cohesionEnergyDensity", types_, i, j);
   for (int n = 0; n < static_cast<int>(kContactLaws.size()); ++n)
     if (optional(lmp, kContactLaws[n]->properties[0].name, types_, i, j) != 0.0)
-      choose(lmp, n, i, j, cohesion);
+      choose(lmp, n, i, j);
 }
 
-void ContactEffects::choose(LAMMPS *lmp, int n, int i, int j, double cohesion) {
+void ContactEffects::choose(LAMMPS *lmp, int n, int i, int j) {
   TypePair &p = pairs_[i * (types_ + 1) + j];
   const ContactLaw &law = *kContactLaws[n];
   char why[400];
@@ -91,7 +91,7 @@ void ContactEffects::choose(LAMMPS *lmp, int n, int i, int j, double cohesion) {
     refuse(lmp, law.properties[0], i, j, p.values[0], why);
   }
   p.law = n;
-  const calendem::ContactLimits limits = law.limits({cohesion, p.modulus});
+  const calendem::ContactLimits limits = law.limits({p.cohesion, p.modulus}, p.values.data());
   const bool low = p.values[0] < limits.least;
   snprintf(why, sizeof why, "%s. Give at %s %g, or 0 (off)", limits.why, low ? "least" : "most",
            low ? limits.least : limits.most);

@@ -98,7 +98,7 @@ public:
 private:
   struct TypePair {
     int law = -1; ///< in ContactLaws; -1: Hertz
-    double modulus = 0.0, shear_modulus = 0.0, damping = 0.0;
+    double modulus = 0.0, shear_modulus = 0.0, damping = 0.0, cohesion = 0.0;
     std::array<double, std::tuple_size_v<decltype(calendem::ContactLaw::properties)>> values = {};
   };
 
@@ -107,7 +107,7 @@ private:
 
   const TypePair &pair(int i, int j) const { return pairs_[i * (types_ + 1) + j]; }
   void read(PropertyRegistry &registry, int i, int j, const char *caller);
-  void choose(class LAMMPS *lmp, int law, int i, int j, double cohesion);
+  void choose(class LAMMPS *lmp, int law, int i, int j);
 
   /// f(law, memory values ...) with the law of the contact's types: a switch over ContactLaws.
   template <int n = 0, class Value, class F>
@@ -117,8 +117,8 @@ private:
     if constexpr (n + 1 < std::tuple_size_v<calendem::ContactLaws>)
       if (p.law != n)
         return with_law<n + 1>(c, memory, f);
-    return with_values(Law({p.modulus, c.effective_radius, c.radius}, p.values.data()), memory, f,
-                       std::make_index_sequence<Law::kMemory>());
+    return with_values(Law({p.modulus, c.effective_radius, c.radius, p.cohesion}, p.values.data()),
+                       memory, f, std::make_index_sequence<Law::kMemory>());
   }
   template <class Law, class Value, class F, std::size_t... k>
   static double with_values(const Law &law, Value *memory, F f, std::index_sequence<k...>) {

@@ -79,7 +79,7 @@ private:
 };
 
 /// Of the bulk modulus: any. Contacts only become stiffer.
-inline ContactLimits confined_contact_limits(const PhasePair &) { return {}; }
+inline ContactLimits confined_contact_limits(const PhasePair &, const double *) { return {}; }
 
 } // namespace calendem
 

@@ -21,9 +21,10 @@ namespace calendem {
 
 /// The two surfaces of a contact.
 struct ContactSurfaces {
-  double E_eff;  ///< effective modulus [kPa]
-  double R_eff;  ///< effective radius [um]
-  double radius; ///< of the smaller sphere [um]
+  double E_eff;          ///< effective modulus [kPa]
+  double R_eff;          ///< effective radius [um]
+  double radius;         ///< of the smaller sphere [um]
+  double cohesion = 0.0; ///< energy density [kPa]
 };
 
 /// What a law's advance returns, as a term of the energy ledger.

@@ -15,7 +15,9 @@
 // can stand for; h <= E/(2 pi), for which loading stays below Hertz up to d = R (F' is straight,
 // Hertz' concave, and at R it is pi (p_y R + 2 h (R - d_y)) <= 2 E R). Energy: elastic_energy is
 // given back, plastic_work (of d* alone) is not. Below SJKR's 2 CED such a contact cannot carry its
-// own cohesion: F ~ pi p_y R d, F_C ~ 2 pi CED R d. Source: Thornton, J. Appl. Mech. 64 (1997) 383,
+// own cohesion: F ~ pi p_y R d, F_C ~ 2 pi CED R d. An indenter, which does not stick, measures what
+// a contact carries beyond that: p_y = p + 2 b CED with p the pressure that is given and 0 <= b <= 1
+// (0: p is the whole pressure). Source: Thornton, J. Appl. Mech. 64 (1997) 383,
 // eqs 8-21; hardening in proportion to the area, a^2/R^2, as of Meyer's law p ~ a^(n-2) with n = 4
 // beyond yield (Tabor, The Hardness of Metals, ch. 1: n = 2 to 2.5 for single indents). Deviations:
 // hardening; otherwise none; written in d* alone (a*^2 = R d* follows from his R_p F* = R F_e), so
@@ -41,7 +43,12 @@ public:
       : E_(E_eff), R_(R_eff), slope_(kPi_ * yield_pressure * R_eff), growth_(kPi_ * hardening),
         yield_overlap_(slope_ * slope_ / (4.0 * E_eff * E_eff * R_eff)) {}
   PlasticContact(const ContactSurfaces &s, const double *values)
-      : PlasticContact(s.E_eff, s.R_eff, values[0], values[1]) {}
+      : PlasticContact(s.E_eff, s.R_eff, values[0] + of_cohesion(s.cohesion, values), values[1]) {}
+
+  /// What cohesion adds to the pressure that is given, values[0] [kPa].
+  static double of_cohesion(double energy_density, const double *values) {
+    return 2.0 * values[2] * energy_density;
+  }
 
   double yield_overlap() const { return yield_overlap_; }
 
@@ -125,10 +132,10 @@ private:
   }
 };
 
-/// Of the limiting pressure [kPa]: a contact that yields below 2 CED cannot carry its cohesion.
-inline ContactLimits plastic_contact_limits(const PhasePair &phases) {
+/// Of the pressure that is given [kPa]: a contact that yields below 2 CED cannot carry its cohesion.
+inline ContactLimits plastic_contact_limits(const PhasePair &phases, const double *values) {
   ContactLimits limits;
-  limits.least = 2.5 * phases.cohesion;
+  limits.least = 2.5 * phases.cohesion - PlasticContact::of_cohesion(phases.cohesion, values);
   limits.why = "contacts that yield below twice the cohesion energy density cannot carry their own "
                "cohesion, and the packing collapses";
   return limits;

@@ -91,7 +91,7 @@ private:
 
 /// Of the relaxed fraction: it leaves cohesion a softer contact, whose overlap grows by 1/(1 -
 /// g)^2; at most 0.3 of the radius of equal spheres.
-inline ContactLimits viscous_contact_limits(const PhasePair &phases) {
+inline ContactLimits viscous_contact_limits(const PhasePair &phases, const double *) {
   const double overlap = sjkr_equilibrium_overlap(phases.cohesion, phases.modulus, 0.5);
   ContactLimits limits;
   limits.most = std::fmax(0.0, 1.0 - std::sqrt(overlap / 0.3));

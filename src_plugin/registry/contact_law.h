@@ -32,7 +32,8 @@ struct ContactLaw {
   std::array<ContactProperty, 4> properties;
   /// Contacts get stiffer than Hertz' under the same force: the time step is checked as they do.
   bool stiffens;
-  ContactLimits (*limits)(const PhasePair &phases); ///< of the first property
+  /// Of the first property, all of them given.
+  ContactLimits (*limits)(const PhasePair &phases, const double *values);
   WorkTaken takes = WorkTaken::Nothing;
   /// Largest overlap with a wall, of the radius: deeper, the host may lose a sphere through it.
   double deepest = std::numeric_limits<double>::infinity();
@@ -42,7 +43,8 @@ inline constexpr ContactLaw kPlasticContact = {
     "elastic-plastic",
     "plastic_contact.h",
     {{{"contactYieldPressure", "kPa"},
-      {"contactHardening", "kPa", HUGE_VAL, true, PlasticContact::kMostHardening}}},
+      {"contactHardening", "kPa", HUGE_VAL, true, PlasticContact::kMostHardening},
+      {"contactBeyondCohesion", "", HUGE_VAL, true}}},
     true,
     &plastic_contact_limits,
     WorkTaken::PlasticFlow,

@@ -126,11 +126,16 @@ inline Effect cbd_plasticity() {
   const std::string at = "effects.cbd_plasticity.";
   e.settings = {{at + "yield_pressure_GPa", "cbd_contact_yield_GPa", "0", 0, 1000, "GPa",
                  "limit of the contact pressure of CBD on all phases and walls; 0: elastic"},
-                hardening(at + "hardening_GPa", "cbd_contact_hardening_GPa")};
+                hardening(at + "hardening_GPa", "cbd_contact_hardening_GPa"),
+                {at + "beyond_cohesion", "cbd_beyond_cohesion", "0", 0, 1, "fraction",
+                 "part of the pressure of cohesion, 2 c_CED, that the limit leaves out; 0: the "
+                 "limit is of the whole contact pressure; 1: of what a contact carries beyond "
+                 "cohesion, as an indenter measures it"}};
   e.parameter = strength(e.settings[0], 0.55, 3, Spread::LogUniform, AmplitudeScale::Reciprocal, 0);
   e.contact = {&kPlasticContact, all_of_cbd()};
   e.moves = "lower pressure and less springback where CBD carries load; because of the cohesion "
-            "between AM and CBD the yield pressure cannot be below 0.5 GPa";
+            "between AM and CBD the yield pressure cannot be below 0.5 GPa, or 0.1 GPa beyond "
+            "cohesion";
   e.source =
       "Thornton 1997; the range is what cohesion allows, an unsourced prior; indented, a matrix "
       "of carbon black and PVdF has a hardness of 0.043 +- 0.010 GPa (Xu et al., J. "

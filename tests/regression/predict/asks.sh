@@ -22,7 +22,7 @@ awk -v n="$asks" 'function key(low, high, off) { return rand() < 0.5 ? low * (hi
   BEGIN { srand(20)
   for (k = 1; k <= n; ++k) {
     material = sprintf("%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g", 120 * 2.5 ^ rand(), 1.6 * 2.5 ^ rand(), 250 * 4 ^ rand(),
-      rand() < 0.5 ? 0.05 + 0.55 * rand() : 0.001, key(6, 12, 0), key(0.55, 1, 0), key(5, 300, 0))
+      rand() < 0.5 ? 0.05 + 0.55 * rand() : 0.001, key(6, 12, 0), key(0.12, 0.25, 0), key(5, 300, 0))
     printf "%d %s %.4g %.4g %.4g %.4g %.4g %.4g %.4g\n", k, material, 42 + 9 * rand(), 1.5 + 2 * rand(), 42 + 9 * rand(),
       1.5 + 2 * rand(), 42 + 9 * rand(), 1.5 + 2 * rand(), 0.66 + 0.16 * rand() } }' >asks.txt # the target is a share of the porosity before
 

@@ -157,6 +157,17 @@ TEST(Bank, AnEffectMayHaveANarrowerRange) {
   }
 }
 
+// Requirement: what yields may do so at a tenth of the prior's lower end, but not be weaker than the
+// prior, where emulators take the effect to cease.
+TEST(Bank, WhatYieldsMayBeSofterThanItsPrior) {
+  const std::string effects = "effects = [\"cbd_plasticity\"]\n",
+                    range = "[[effect]]\nname = \"cbd_plasticity\"\n";
+  const BankSpec spec = spec_of(kBank + effects + kParameters + range + "low = 0.12\nhigh = 0.4\n");
+  EXPECT_EQ(effect_of(spec, "cbd_plasticity").parameter.low, 0.12);
+  for (const char *refused : {"low = 0.05\nhigh = 0.4\n", "low = 0.12\nhigh = 3.1\n"})
+    EXPECT_THROW(spec_of(kBank + effects + kParameters + range + refused), Failure) << refused;
+}
+
 TEST(Bank, PricesOfMeasurementsAreTheUsualOnesUnlessGiven) {
   const BankSpec spec = spec_of(kBank + kParameters +
                                 "[[measurement]]\nname = \"cracked_bodies\"\nhours = 3\nsd = "

@@ -118,6 +118,12 @@ TEST(Settings, LimitsOfContactLawsCountCohesion) {
   EXPECT_NE(refusal(yields + "1.49\n").find(":3: "), std::string::npos);
   EXPECT_EQ(refusal(yields + "1.51\n"), ""); // 2.5 x 0.6 GPa
   EXPECT_EQ(refusal("[effects.collector_indentation]\nyield_pressure_GPa = 0.1\n"), "");
+  // AM and CBD: 2.5 x 0.205 GPa, of which 2 x 0.205 may be left out
+  const std::string binder = "[effects.cbd_plasticity]\nyield_pressure_GPa = ";
+  EXPECT_NE(refusal(binder + "0.5\n").find("at least 0.512 GPa"), std::string::npos);
+  EXPECT_NE(refusal(binder + "0.1\nbeyond_cohesion = 1\n").find("at least 0.102 GPa"),
+            std::string::npos);
+  EXPECT_EQ(refusal(binder + "0.103\nbeyond_cohesion = 1\n"), "");
   // AM and CBD: CED sqrt(6e5 7e4) kPa, 1/E* = 0.91/2e8 + 0.7599/2e6 1/kPa, overlap 0.0689 R
   const std::string relaxes = "[effects.cbd_viscoelasticity]\nrelaxed_fraction = ";
   EXPECT_EQ(refusal(relaxes + "0.52\n"), "");

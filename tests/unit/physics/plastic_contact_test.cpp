@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "physics/plastic_contact.h"
+#include "physics/sjkr_cohesion.h"
 
 #include <gtest/gtest.h>
 
@@ -139,14 +140,35 @@ TEST(PlasticContact, HardeningRaisesThePressureOfWhatHasYielded) {
 
 // Requirement: hardening 0 is the perfectly plastic law to the bit.
 TEST(PlasticContact, NoHardeningChangesNoBit) {
-  const double values[] = {p_y, 0.0};
-  const PlasticContact none({E, R, R}, values);
+  const double values[] = {p_y, 0.0, 0.0};
+  const PlasticContact none({E, R, R, 1e5}, values);
   for (double times : {0.5, 3.0, 40.0}) {
     const double d = times * contact.yield_overlap();
     EXPECT_EQ(none.force(0.9 * d, d), contact.force(0.9 * d, d));
     EXPECT_EQ(none.plastic_work(d), contact.plastic_work(d));
     EXPECT_EQ(none.overlap_under(none.loading_force(d)),
               contact.overlap_under(none.loading_force(d)));
+  }
+}
+
+// Requirement: with the limit p beyond cohesion a contact that has yielded carries pi R (p + CED d/2R)
+// more for each um, though SJKR pulls it together: of spheres of radius 2 R its force grows by
+// pi CED (2 R - d/2). Round-off 1e-15/1e-5.
+TEST(PlasticContact, TheLimitMayBeBeyondCohesion) {
+  constexpr double ced = 1e5, soft = 5e4; // p_y below 2 CED
+  for (double part : {0.5, 1.0}) {
+    const double values[] = {soft + (1.0 - part) * 2.0 * ced, 0.0, part};
+    const PlasticContact law({E, R, R, ced}, values);
+    const auto carried = [&](double d) {
+      return law.loading_force(d) - sjkr_force(ced, 4 * R - d, 2 * R, 2 * R);
+    };
+    const double d = 1e-3 * R, h = 1e-2 * d;
+    ASSERT_GT(d - h, law.yield_overlap());
+    EXPECT_NEAR((carried(d + h) - carried(d - h)) / (2 * h) / (kPi * R), soft + ced * d / (2.0 * R),
+                1e-9 * soft);
+    EXPECT_GT(carried(d), 0.0);
+    EXPECT_EQ(law.yield_overlap(), PlasticContact(E, R, soft + 2.0 * ced).yield_overlap());
+    EXPECT_NEAR(plastic_contact_limits({ced, E}, values).least, (2.5 - 2.0 * part) * ced, 1e-9);
   }
 }
 

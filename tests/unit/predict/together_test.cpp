@@ -18,28 +18,58 @@ double after(double load, double springback) { return 1.0 - (1.0 - load) / (1.0 
 double load_of(const Response &r) { return 1.0 - (1.0 - r.porosity) * (1.0 + r.springback); }
 
 TEST(Together, OneEffectIsWhatItIsAlone) {
-  EXPECT_NEAR(springback_beyond_sum(kBase, {{-0.05, -0.04}}), 0.0, 1e-15);
-  EXPECT_NEAR(porosity_beyond_sum(kBase, {{-0.05, -0.04}}), 0.0, 1e-15);
+  for (const Response &change : {Response{-0.05, -0.04}, Response{0.03, 0.02}}) {
+    const Response more = beyond_sum(kBase, {change});
+    EXPECT_NEAR(more.springback, 0.0, 1e-15);
+    EXPECT_NEAR(more.porosity, 0.0, 1e-15);
+  }
 }
 
-// Two that halve the springback and take nothing under load leave a quarter of it.
-TEST(Together, SpringbackIsMultipliedAndPorosityUnderLoadAdded) {
-  const double load = load_of(kBase), half = after(load, 0.06) - kBase.porosity;
-  const std::vector<Response> both = {{half, -0.06}, {half, -0.06}};
-  EXPECT_NEAR(springback_beyond_sum(kBase, both), 0.03, 1e-12);
-  EXPECT_NEAR(porosity_beyond_sum(kBase, both), after(load, 0.03) - kBase.porosity - 2.0 * half,
-              1e-12);
-  // Effects that leave springback alone add.
-  const double denser = after(load - 0.03, 0.12) - kBase.porosity;
-  EXPECT_NEAR(porosity_beyond_sum(kBase, {{denser, 0.0}, {denser, 0.0}}), 0.0, 1e-12);
+// Two that leave 1/2 and 1/4 of the springback and take nothing under load.
+TEST(Together, TheStrongestTakesItsShareOfTheSpringback) {
+  const double load = load_of(kBase), s = kBase.springback;
+  const Response half = {after(load, s / 2) - kBase.porosity, -s / 2},
+                 most = {after(load, s / 4) - kBase.porosity, -s * 3 / 4};
+  const double left = s / 4 * std::pow(0.5, kOthers);
+  for (const std::vector<Response> &both : {std::vector{half, most}, std::vector{most, half}}) {
+    const Response more = beyond_sum(kBase, both);
+    EXPECT_NEAR(more.springback, left - (s - s / 2 - s * 3 / 4), 1e-12);
+    EXPECT_NEAR(more.porosity, after(load, left) - (kBase.porosity + half.porosity + most.porosity),
+                1e-12);
+  }
 }
 
-// An emulator that takes more springback than there is does not turn the product's sign.
+TEST(Together, OfWhatTheyTakeUnderLoadTheMostCountsAndRisesAdd) {
+  const double load = load_of(kBase), s = kBase.springback;
+  const auto change = [&](double by) {
+    return Response{after(load + by, s) - kBase.porosity, 0.0};
+  };
+  const auto together = [&](const std::vector<Response> &changes) {
+    double sum = kBase.porosity;
+    for (const Response &c : changes)
+      sum += c.porosity;
+    return sum + beyond_sum(kBase, changes).porosity;
+  };
+  EXPECT_NEAR(together({change(-0.03), change(-0.01)}), after(load - 0.03, s), 1e-12);
+  EXPECT_NEAR(together({change(0.05), change(-0.01), change(0.02)}), after(load + 0.06, s), 1e-12);
+  EXPECT_NEAR(beyond_sum(kBase, {{0.0, 0.03}, {0.0, 0.02}}).springback, 0.0, 1e-12);
+}
+
+// Requirement: an effect that does nothing changes nothing, nor does one that is hardly there jump.
+TEST(Together, AWeakEffectDoesLittle) {
+  const Response one = {-0.05, -0.04}, weak = {-1e-6, -1e-6};
+  const Response more = beyond_sum(kBase, {one, weak});
+  EXPECT_NEAR(more.porosity, 0.0, 3e-6);
+  EXPECT_NEAR(more.springback, 0.0, 3e-6);
+}
+
+// An emulator that takes more springback than there is, or of a base model that hardly springs back.
 TEST(Together, NoSpringbackIsLeftWhereAnEffectTakesAll) {
-  const double s =
-      springback_beyond_sum(kBase, {{0.0, -0.2}, {0.0, -0.2}}) + kBase.springback - 0.4;
-  EXPECT_GT(s, 0.0);
-  EXPECT_LT(s, 1e-4);
+  EXPECT_GT(beyond_sum(kBase, {{0.0, -0.2}, {0.0, -0.2}}).springback + kBase.springback - 0.4, 0.0);
+  EXPECT_LT(beyond_sum(kBase, {{0.0, -0.2}, {0.0, -0.2}}).springback + kBase.springback - 0.4,
+            2e-3);
+  const Response stiff = {0.36, -0.01};
+  EXPECT_LT(beyond_sum(stiff, {{0.0, 0.03}, {0.0, 0.02}}).springback + 0.04, 0.06);
 }
 
 TEST(Together, TheBankAddsItsErrorOnlyWhereSeveralAct) {
@@ -62,24 +92,22 @@ TEST(Together, TheBankAddsItsErrorOnlyWhereSeveralAct) {
                     value(FilmNumber::Springback, effects)};
   };
   const Response none = response({}), one = response({yields}), other = response({collapses});
-  const std::vector<Response> changes = {
-      {one.porosity - none.porosity, one.springback - none.springback},
-      {other.porosity - none.porosity, other.springback - none.springback}};
   const Response both = response({yields, collapses});
-  const double more = porosity_beyond_sum(none, changes);
-  EXPECT_GT(more, 0.005);
-  EXPECT_NEAR(both.porosity, one.porosity + other.porosity - none.porosity + kRunsOverRule * more,
-              1e-12);
+  const Response more =
+      beyond_sum(none, {{one.porosity - none.porosity, one.springback - none.springback},
+                        {other.porosity - none.porosity, other.springback - none.springback}});
+  EXPECT_GT(more.porosity, 0.005);
+  EXPECT_NEAR(both.porosity, one.porosity + other.porosity - none.porosity + more.porosity, 1e-12);
   EXPECT_NEAR(both.springback,
-              one.springback + other.springback - none.springback +
-                  springback_beyond_sum(none, changes),
-              1e-12);
-  const auto variance = [&](const std::vector<Acting> &effects) {
-    return at(effects, FilmNumber::PorosityAfter).variance;
+              one.springback + other.springback - none.springback + more.springback, 1e-12);
+  const auto variance = [&](FilmNumber number, const std::vector<Acting> &effects) {
+    return at(effects, number).variance;
   };
-  EXPECT_NEAR(variance({yields, collapses}) - variance({yields}) - variance({collapses}) +
-                  variance({}),
-              kRunsOverRuleError * kRunsOverRuleError * more * more, 1e-12);
+  for (const auto &[number, beyond] : {std::pair(FilmNumber::PorosityAfter, more.porosity),
+                                       std::pair(FilmNumber::Springback, more.springback)})
+    EXPECT_NEAR(variance(number, {yields, collapses}) - variance(number, {yields}) -
+                    variance(number, {collapses}) + variance(number, {}),
+                std::pow(kBeyondSumError * beyond, 2), 1e-12);
 }
 
 /// Runs of every set of three effects on one film at one pressure, means over packings.
@@ -112,30 +140,39 @@ std::vector<Sets> simulated() {
   return all;
 }
 
-// Nearly five points lie between the sum and what runs show of effects together; one is left.
+// More than five points of porosity lie between the sum and what runs show of effects together, and as much
+// springback; less than one is left, as much as is stated.
 TEST(Together, RunsShowWhatIsStated) {
-  double products = 0.0, squares = 0.0, beyond_sum = 0.0, left = 0.0;
   const std::vector<Sets> all = simulated();
   ASSERT_EQ(all.size(), 4u);
+  Response beyond, left, of_sum; // sums of squares
   for (const Sets &s : all)
     for (const std::size_t set : {3, 5, 6, 7}) {
       std::vector<Response> changes;
-      double sum = s[0].porosity;
+      Response sum = s[0];
       for (const std::size_t one : {1, 2, 4})
         if (set & one) {
           changes.push_back({s[one].porosity - s[0].porosity, s[one].springback - s[0].springback});
-          sum += changes.back().porosity;
+          sum.porosity += changes.back().porosity;
+          sum.springback += changes.back().springback;
         }
-      const double given = porosity_beyond_sum(s[0], changes), shown = s[set].porosity - sum;
-      products += given * shown;
-      squares += given * given;
-      beyond_sum += shown * shown / 16.0;
-      left += (shown - kRunsOverRule * given) * (shown - kRunsOverRule * given) / 16.0;
+      const Response more = beyond_sum(s[0], changes);
+      const auto add = [](Response &to, double porosity, double springback) {
+        to.porosity += porosity * porosity / 16.0;
+        to.springback += springback * springback / 16.0;
+      };
+      add(beyond, more.porosity, more.springback);
+      add(of_sum, s[set].porosity - sum.porosity, s[set].springback - sum.springback);
+      add(left, s[set].porosity - sum.porosity - more.porosity,
+          s[set].springback - sum.springback - more.springback);
     }
-  EXPECT_NEAR(products / squares, kRunsOverRule, 0.5 * kRunsOverRuleError);
-  EXPECT_NEAR(std::sqrt(left * 16.0 / squares), kRunsOverRuleError, 0.1);
-  EXPECT_GT(std::sqrt(beyond_sum), 0.04);
-  EXPECT_LT(std::sqrt(left), 0.012);
+  EXPECT_GT(std::sqrt(of_sum.porosity), 0.05);
+  EXPECT_GT(std::sqrt(of_sum.springback), 0.05);
+  EXPECT_LT(std::sqrt(left.porosity), 0.009);
+  EXPECT_LT(std::sqrt(left.springback), 0.006);
+  EXPECT_LT(std::sqrt(left.porosity / beyond.porosity), kBeyondSumError);
+  EXPECT_GT(std::sqrt(left.porosity / beyond.porosity), 0.5 * kBeyondSumError);
+  EXPECT_LT(std::sqrt(left.springback / beyond.springback), kBeyondSumError);
 }
 
 } // namespace

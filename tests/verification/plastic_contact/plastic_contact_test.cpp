@@ -7,6 +7,7 @@
 #include "meeting.h"
 #include "physics/hertz_contact.h"
 #include "physics/plastic_contact.h"
+#include "physics/sjkr_cohesion.h"
 #include "spheres.h"
 
 using namespace calendem;
@@ -25,9 +26,11 @@ struct Errors {
   double force, elastic, taken; ///< largest, in parts of the largest value of the law
 };
 
-// In, halfway out, in deeper, all with the law beside it.
-Errors pressed(double touch, double R_eff, Settings settings, double hardening = 0.0) {
-  const PlasticContact law(E_eff, R_eff, p_y, hardening);
+// In, halfway out, in deeper, all with the law beside it. `ced` [kPa]: of spheres whose limit is
+// beyond cohesion.
+Errors pressed(double touch, double R_eff, Settings settings, double hardening = 0.0,
+               double ced = 0.0) {
+  const PlasticContact law(E_eff, R_eff, p_y + 2.0 * ced, hardening);
   settings.insert({{"z0", number(touch)}, {"down", "1000"}, {"up", "200"}, {"again", "500"}});
   const CaseRun run("plastic_contact/in.press", settings);
   EXPECT_TRUE(run.finished()) << run.why();
@@ -39,7 +42,8 @@ Errors pressed(double touch, double R_eff, Settings settings, double hardening =
     const double d = std::fmax(touch - row.at("z"), 0.0);
     largest = std::fmax(largest, d);
     force = std::fmax(force, row.at("f"));
-    worst.force = std::fmax(worst.force, std::fabs(row.at("f") - law.force(d, largest)));
+    const double expected = law.force(d, largest) - sjkr_force(ced, row.at("z"), R, R);
+    worst.force = std::fmax(worst.force, std::fabs(row.at("f") - expected));
     worst.elastic =
         std::fmax(worst.elastic, std::fabs(row.at("elastic") - law.elastic_energy(d, largest)));
     worst.taken = std::fmax(worst.taken, std::fabs(row.at("taken") - law.plastic_work(largest)));
@@ -86,6 +90,15 @@ TEST(VerificationPlasticContact, HardeningFollowsTheLaw) {
   Settings settings = elastic_otherwise();
   settings.insert({{"hardening", "1e7"}, {"down", "4000"}});
   expect_small("hardening", pressed(2 * R, effective_radius(R, R), settings, 1e7));
+}
+
+// The limit beyond cohesion: the spheres carry p_y of a load, whatever pulls them together.
+TEST(VerificationPlasticContact, TheLimitMayBeBeyondCohesion) {
+  constexpr double ced = 6e5;
+  Settings settings = elastic_otherwise();
+  settings["ced"] = number(ced);
+  settings.insert({{"beyond", "1"}, {"down", "4000"}});
+  expect_small("beyond cohesion", pressed(2 * R, effective_radius(R, R), settings, 0.0, ced));
 }
 
 // Primaries of one body that were never bonded, and meet closer than at the sum of their radii.

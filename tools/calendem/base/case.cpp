@@ -2,6 +2,7 @@
 #include "base/case.h"
 #include "physics/hertz_contact.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
@@ -67,10 +68,16 @@ void check_collapse(const Settings &s, Phase first, Phase second, double limit,
 // What cohesion and modulus of the phases leave to the strength of a contact law between them.
 void check_contact(const Settings &s, const Effect &e, Phase a, Phase b, Mistakes &mistakes) {
   const Key &key = e.settings.front();
-  if (!s.sound({key.name}) || !sound(s, keys_of(a)) || !sound(s, keys_of(b)))
+  std::vector<std::string> names;
+  for (const Key &setting : e.settings)
+    names.push_back(setting.name);
+  if (!sound(s, names) || !sound(s, keys_of(a)) || !sound(s, keys_of(b)))
     return;
   const double factor = script_units(key.unit), value = factor * s.number(key.name);
-  const ContactLimits limits = e.contact.law->limits(pair_of(s, a, b));
+  std::array<double, std::tuple_size_v<decltype(ContactLaw::properties)>> values = {};
+  for (std::size_t k = 0; k < e.settings.size(); ++k)
+    values.at(k) = script_units(e.settings[k].unit) * s.number(e.settings[k].name);
+  const ContactLimits limits = e.contact.law->limits(pair_of(s, a, b), values.data());
   if (value <= 0.0 || (value >= limits.least && value <= limits.most))
     return;
   const bool low = value < limits.least;

@@ -281,7 +281,7 @@ inference::ModelledEffect inference_effect(const Effect &effect) {
   if (low > high)
     std::swap(low, high);
   const Spread spread = p.scale == AmplitudeScale::Logarithm ? Spread::Uniform : p.spread;
-  const EffectParameter &whole = find_effect(effect.name).parameter; // a bank's may be narrower
+  const EffectParameter &whole = find_effect(effect.name).parameter; // a bank's may be another
   const double weakest = std::min(whole.amplitude(whole.low), whole.amplitude(whole.high));
   return {effect.name,
           {{"amplitude", prior_of(spread, low, high), true, p.power, weakest}},

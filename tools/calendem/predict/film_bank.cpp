@@ -305,10 +305,9 @@ Guess FilmBank::beyond_sum(FilmNumber number, std::size_t pressure, const Vector
   for (std::size_t k = 0; k < changed.size(); ++k)
     changes.push_back(
         response(changed[k], change(other, pressure, input, material.effects[k], as).mean));
-  if (springs)
-    return {springback_beyond_sum(base, changes), 0.0};
-  const double more = porosity_beyond_sum(base, changes);
-  return {kRunsOverRule * more, kRunsOverRuleError * kRunsOverRuleError * more * more};
+  const Response of = calendem::beyond_sum(base, changes);
+  const double more = springs ? of.springback : of.porosity;
+  return {more, kBeyondSumError * kBeyondSumError * more * more};
 }
 
 std::vector<Guess> FilmBank::at_pressures(FilmNumber number, const Film &film,

@@ -107,6 +107,13 @@ public:
                                 out.base_points));
   }
 
+  /// The widest range: that of the effect's prior; what yields may be ten times as soft.
+  static EffectParameter at_most(EffectParameter p) {
+    if (p.scale == AmplitudeScale::Reciprocal)
+      p.low *= 0.1;
+    return p;
+  }
+
   /// Range and number of points of one of the bank's effects.
   void read_range(const toml::node &node, BankSpec &out) {
     const toml::table *t = node.as_table();
@@ -126,7 +133,7 @@ public:
       if (!t->contains("low") && !t->contains("high"))
         return;
     }
-    const EffectParameter &table = find_effect(name).parameter;
+    const EffectParameter table = at_most(find_effect(name).parameter);
     const double low = number(*t, {"low", "", "", table.low, table.high, "", "end of the range"}),
                  high = number(*t, {"high", "", "", table.low, table.high, "", "end of it"});
     if (mistakes_.count() == before && low >= high)

@@ -24,7 +24,7 @@
 //   prior = "log-uniform"            # or "uniform"
 //   [[effect]]                       # optional, of one effect:
 //   name = "friction"
-//   low = 0.1                        # a narrower range, in its key's unit
+//   low = 0.1                        # another range, in its key's unit
 //   high = 0.4
 //   points = 32                      # another number of points
 //   [full_cell]                      # optional: what the bank's small cell does to the observables
