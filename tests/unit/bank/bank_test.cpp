@@ -4,6 +4,7 @@
 #include "base/provenance.h"
 #include "diagnose/bank/bank_table.h"
 #include <cmath>
+#include <fmt/format.h>
 #include <fstream>
 #include <map>
 #include <set>
@@ -165,7 +166,9 @@ TEST(Bank, WhatYieldsMayBeSofterThanItsPrior) {
   const BankSpec spec = spec_of(kBank + effects + kParameters + range + "low = 0.12\nhigh = 0.4\n");
   EXPECT_EQ(effect_of(spec, "cbd_plasticity").parameter.low, 0.12);
   for (const char *refused : {"low = 0.05\nhigh = 0.4\n", "low = 0.12\nhigh = 3.1\n"})
-    EXPECT_THROW(spec_of(kBank + effects + kParameters + range + refused), Failure) << refused;
+    EXPECT_THROW(spec_of(fmt::format("{}{}{}{}{}", kBank, effects, kParameters, range, refused)),
+                 Failure)
+        << refused;
 }
 
 TEST(Bank, PricesOfMeasurementsAreTheUsualOnesUnlessGiven) {

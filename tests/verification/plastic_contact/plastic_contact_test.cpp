@@ -128,7 +128,7 @@ TEST(VerificationPlasticContact, RestitutionIsThorntons) {
     const CaseRun run("plastic_contact/in.press", settings);
     ASSERT_TRUE(run.finished()) << run.why();
     const std::vector<Row> rows = run.rows("curve.csv");
-    const Row last = rows.back();
+    const Row &last = rows.back();
     ASSERT_EQ(last.at("f"), 0.0) << "still in contact";
     const double measured = (last.at("v") - last.at("v_low")) / (times * at_yield);
     const double s = 1.0 / times;
