@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What effects that act together change beyond the sum of what each changes alone.
 //
-// The strongest decides. Under load the porosity falls by what the strongest of the effects takes that
-// let it fall: binder that has yielded is no softer for nanopores that collapse too. Of the springback
-// the strongest takes its share, each other the share that it would take alone to the power kOthers.
-// What raises either adds. Porosity after release: 1 - after = (1 - load) / (1 + springback).
+// The strongest decides. Of the effects that lower the porosity under load only the strongest counts:
+// binder that has yielded is no softer for nanopores that collapse too. Of the springback the strongest
+// leaves the share that it leaves alone, each other one that share to the power kOthers. What raises
+// either is added. Porosity after release: 1 - after = (1 - load) / (1 + springback).
 // Source: runs of three effects on two films, docs/validation/predictions.md.
 #ifndef CALENDEM_PREDICT_TOGETHER_H
 #define CALENDEM_PREDICT_TOGETHER_H
