@@ -30,7 +30,7 @@ public:
   int state() const { return static_cast<int>(h_[kState]); }
   void set_state(BondState s) { h_[kState] = s; }
   /// Centre distance [um] from which the contact counts: that at creation while bonded, and until a
-  /// broken pair has separated; 0: the sum of radii.
+  /// broken pair has separated; 0: the sum of radii; negative: the sum of radii and this.
   double length() const { return h_[kLength]; }
   double strength_factor() const { return h_[7]; }
 
@@ -60,8 +60,9 @@ public:
 
   /// Overlap [um] at that distance, subtracted from the contact's overlap.
   double reference_overlap(double radius_sum) const {
-    const bool counts = state() != kBridge && length() > 0.0 && length() < radius_sum;
-    return counts ? radius_sum - length() : 0.0;
+    if (state() == kBridge || length() == 0.0 || length() >= radius_sum)
+      return 0.0;
+    return length() > 0.0 ? radius_sum - length() : -length();
   }
 
 private:

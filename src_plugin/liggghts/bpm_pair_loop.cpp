@@ -223,20 +223,20 @@ void BpmPairLoop::add_gradient(int size) {
 void BpmPairLoop::act_effects(const ContactTile &t) {
   PairStep &s = *step_;
   for (int p = 0; p < t.size; ++p) {
-    if (!s.touches(p)) {
+    const double overlap = acting_overlap(t, s, p);
+    if (overlap == 0.0) {
       table_.forget_effect(t.history[p]);
       continue;
     }
     const int a = atom->type[t.i[p]], b = atom->type[t.j[p]];
     if (!effects_.act(a, b) || BondHistory(t.history[p] + bond_).has_reference())
       continue;
-    const double overlap = acting_overlap(t, s, p);
     const EffectContact contact =
         EffectContact::of_spheres(a, b, s.radius_i[p], s.radius_j[p], overlap);
     double *memory = t.history[p] + memory_;
     if (update_) {
       const Vec3 n = (1.0 / std::sqrt(s.r_squared[p])) * s.d[p];
-      const double before = overlap > 0.0 ? overlap + dot(s.v[p], n) * update->dt : 0.0;
+      const double before = overlap + dot(s.v[p], n) * update->dt;
       const double taken = effects_.advance(contact, before, update->dt, memory);
       if (energy_ && taken != 0.0)
         energy_->add_taken(t.i[p], t.j[p], taken, effects_.law(a, b).takes);

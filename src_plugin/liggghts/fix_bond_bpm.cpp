@@ -174,7 +174,8 @@ void FixBondBpm::setup_pre_force(int) {
 
 // Pairs that are new in the lists, or whose history the host has dropped, know of no bond.
 void FixBondBpm::pre_force(int) {
-  if (settings_.contact_diameter == 1.0 || neighbor->ago != 0)
+  const bool others = settings_.contact_diameter < 1.0 || settings_.surface_inset > 0.0;
+  if (!others || neighbor->ago != 0)
     return;
   comm->forward_comm_fix(this);
   for_each_neighbor([this](int i, int j, BondHistory &bond) {

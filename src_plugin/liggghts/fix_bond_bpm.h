@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // fix ID all bond/bpm bodies FILE youngs_modulus E nu NU radius_ratio L tensile S shear T
 //     criterion signed|unsigned|as_printed damping D weibull M SEED breakable yes|no log FILE
-//     pressure PLATEN_FIX contact_diameter D LAW NUMBERS ...
+//     pressure PLATEN_FIX contact_diameter D surface_inset S LAW NUMBERS ...
 // fix_modify ID LAW NUMBERS ...       with a further law of strength, see bond_strengths.h
 // fix_modify ID bridges E NU L GAP S_AM S_CBD S_COLLECTOR RATIO
 // fix_modify ID shrinkage EPS T
@@ -13,13 +13,15 @@
 // and the event log. Every copy of a pair breaks in the same step, without communication; the
 // rank that owns the lower tag records the event, and events are gathered on
 // request, at the latest after 100 steps. Two primaries of one body that are not bonded, nor have
-// touched since their bond broke, meet at D times the sum of their radii, 1 by default. All
+// touched since their bond broke, meet at D times the sum of their radii, 1 by default. For all
+// other spheres, but not for walls, the surface of a body's primary lies S [um] inside it, 0 by
+// default; not with bridges. All
 // stresses in kPa (units micro). Everything restarts, under the same fix ID. Bridges
 // (physics/binder_bridge.h) of modulus E, radius ratio L and tensile strengths S between CBD and
 // AM, CBD, collector (types as in registry/effect.h) are made with the bonds and damped as they
 // are; the script gives them again after a restart. No bond of a body and nothing of bodies counts
 // them. In the time T [us] from their creation they shrink by EPS (physics/drying_shrinkage.h); a
-// restart with another EPS, T or D is refused. Global vector: 1-9 as compute bond/bpm; bridges made 10 to AM 11 to CBD 12 to the
+// restart with another EPS, T, D or S is refused. Global vector: 1-9 as compute bond/bpm; bridges made 10 to AM 11 to CBD 12 to the
 // collector; broken 13 14 15; 16 their strain energy, 17 that released by breaks [fJ]; 18 how far
 // they have shrunk [-].
 #ifdef FIX_CLASS
@@ -52,6 +54,7 @@ struct BondSettings {
   BondStrengths strengths; ///< from bond to bond
   bool breakable = true;
   double contact_diameter = 1.0; ///< of a body's primaries that meet, over the sum of radii
+  double surface_inset = 0.0;    ///< how far inside a primary its surface is for others [um]
 
   calendem::BondStrength strength_of(double factor) const {
     return {factor * strength.tensile, factor * strength.shear};
@@ -178,7 +181,7 @@ private:
   calendem::DryingShrinkage shrinkage_;
   double shrunk_ = 0.0, shrinking_ = 0.0; // of `shrinkage_`; in this step, of the length
   bool restarted_ = false;
-  std::array<double, 3> earlier_ = {}; // what remembered() was in the run that goes on
+  std::array<double, 4> earlier_ = {}; // what remembered() was in the run that goes on
   class FixEnergyBpm *energy_;         // NULL when no ledger is kept
   std::string bodies_file_, log_file_, platen_id_;
   std::vector<int> body_of_tag_;        // from the body map; empty after a restart
@@ -218,7 +221,7 @@ private:
   int parse_strength(int narg, char **arg);
   int parse_bridges(int narg, char **arg);
   int parse_shrinkage(int narg, char **arg);
-  std::array<Remembered, 3> remembered() const;
+  std::array<Remembered, 4> remembered() const;
   void check_remembered();
   void check_shrinkage();
   void shrink(double dt);

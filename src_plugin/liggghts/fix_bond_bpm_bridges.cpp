@@ -105,6 +105,16 @@ void FixBondBpm::check_radii() {
     error->fix_error(FLERR, this,
                      "'bridges' and fix cbd/collapse exclude each other: a bridge keeps its length "
                      "while its spheres would shrink");
+  if (bridges_.on() && settings_.surface_inset > 0.0)
+    error->fix_error(FLERR, this,
+                     "'bridges' and 'surface_inset' exclude each other: of a pair with a bridge the "
+                     "spheres' own surfaces meet");
+  double least = HUGE_VAL, all = 0.0;
+  for (int i = 0; i < atom->nlocal; ++i)
+    least = std::fmin(least, atom->radius[i]);
+  MPI_Allreduce(&least, &all, 1, MPI_DOUBLE, MPI_MIN, world);
+  if (settings_.surface_inset > 0.5 * all)
+    error->fix_error(FLERR, this, "'surface_inset' is more than half of the smallest radius");
 }
 
 BridgeKind FixBondBpm::kind_of_bridge(int i, int j) const {

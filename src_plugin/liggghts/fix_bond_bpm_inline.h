@@ -25,11 +25,12 @@ inline void FixBondBpm::create(int i, int j, double r, BondHistory &bond) const 
       r, settings_.strengths.factor({atom->tag[i], atom->tag[j], body, body_diameter_.at(body)}));
 }
 
-// 0: the sum of radii.
+// As BondHistory::length.
 inline double FixBondBpm::meeting_distance(int i, int j) const {
   const double D = settings_.contact_diameter;
-  const bool one_body = D < 1.0 && body_[i] > 0 && body_[i] == body_[j];
-  return one_body ? D * (atom->radius[i] + atom->radius[j]) : 0.0;
+  if (body_[i] > 0 && body_[i] == body_[j])
+    return D < 1.0 ? D * (atom->radius[i] + atom->radius[j]) : 0.0;
+  return -settings_.surface_inset * ((body_[i] > 0) + (body_[j] > 0));
 }
 
 inline void FixBondBpm::separate(int i, int j, BondHistory &bond) const {

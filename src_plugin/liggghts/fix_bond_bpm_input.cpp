@@ -89,6 +89,8 @@ int FixBondBpm::parse_keyword(int iarg, int narg, char **arg) {
     settings_.strengths.seed = seed(arg[iarg + 2]);
   } else if (key == "contact_diameter")
     settings_.contact_diameter = positive("contact_diameter", value, false);
+  else if (key == "surface_inset")
+    settings_.surface_inset = positive("surface_inset", value, true);
   else if (key == "log")
     log_file_ = value;
   else if (key == "pressure")
@@ -106,7 +108,7 @@ int FixBondBpm::parse_keyword(int iarg, int narg, char **arg) {
         "unknown setting '" + key + " " + value +
         "'; known: bodies FILE, youngs_modulus, nu, radius_ratio, tensile, shear, criterion "
         "signed|unsigned|as_printed, damping, weibull MODULUS SEED, breakable yes|no, log FILE, "
-        "pressure FIX, contact_diameter";
+        "pressure FIX, contact_diameter, surface_inset";
     for (const BondStrengths::Keyword &law : BondStrengths::keywords())
       message += std::string(", ") + law.name;
     error->fix_error(FLERR, this, message.c_str());

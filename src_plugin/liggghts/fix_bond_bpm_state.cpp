@@ -16,7 +16,7 @@
 using namespace LAMMPS_NS;
 
 namespace {
-const int kHeader = 19; // values before the list of breaks in the restart record
+const int kHeader = 20; // values before the list of breaks in the restart record
 const int kEventSize = sizeof(BreakEvent) / sizeof(double);
 } // namespace
 
@@ -133,8 +133,9 @@ void FixBondBpm::restart(char *buf) {
 }
 
 // What pairs keep in their histories follows from these.
-std::array<FixBondBpm::Remembered, 3> FixBondBpm::remembered() const {
+std::array<FixBondBpm::Remembered, 4> FixBondBpm::remembered() const {
   return {{{"contact_diameter", settings_.contact_diameter},
+           {"surface_inset", settings_.surface_inset},
            {"shrinkage", shrinkage_.strain},
            {"shrinkage's time", shrinkage_.time}}};
 }

@@ -62,7 +62,9 @@ public:
                   : EffectContact::of_spheres(s.itype, s.jtype, s.radi, s.radj, s.deltan);
     double radius = std::sqrt(contact.effective_radius * s.deltan);
     double force = 4.0 / 3.0 * effects_.modulus(s.itype, s.jtype) * radius * s.deltan;
-    if (effects_.act(s.itype, s.jtype) && meets(s)) {
+    if (s.deltan <= 0.0)
+      forget(s.contact_history);
+    else if (effects_.act(s.itype, s.jtype) && meets(s)) {
       double *memory = s.contact_history + memory_;
       if (s.computeflag && s.shearupdate) {
         stop_if_sunk(s, contact);
@@ -78,9 +80,7 @@ public:
   void surfacesClose(SurfacesCloseData &s, ForceData &, ForceData &) {
     if (s.contact_flags)
       *s.contact_flags |= CONTACT_NORMAL_MODEL;
-    if (s.contact_history)
-      for (int k = 0; k < LAMMPS_NS::ContactEffects::kMemory; ++k)
-        s.contact_history[memory_ + k] = 0.0;
+    forget(s.contact_history);
   }
 
   void beginPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
@@ -91,6 +91,11 @@ private:
   FixEnergyBpm *energy_; // NULL when no ledger is kept
   bool tangential_damping_;
   int memory_, bond_; // offsets in the history; bond_ is -1 without bonds
+
+  void forget(double *history) const {
+    for (int k = 0; history && k < LAMMPS_NS::ContactEffects::kMemory; ++k)
+      history[memory_ + k] = 0.0;
+  }
 
   bool meets(const SurfacesIntersectData &s) const {
     return bond_ < 0 || !LAMMPS_NS::BondHistory(s.contact_history + bond_).has_reference();

@@ -59,6 +59,9 @@ inline std::vector<Key> base_settings() {
        "distance at which primaries of one body touch if they were never bonded or have separated "
        "since: the sum of their radii, or the spacing of their lattice",
        "radii|lattice"},
+      {"bond.surface_inset_um", "surface_inset", "0", 0, 0.3, "um",
+       "how far inside the tips of its primaries the surface of a body lies, for other bodies and "
+       "CBD; 0: at the tips"},
       {"bond.damping", "bond_damping", "0.02", 0, 1, "", "fraction of critical damping"},
       {"bond.weibull_modulus", "weibull_m", "0", 0, 100, "",
        "Weibull modulus of the bond strength, at least 1; 0: no scatter"},

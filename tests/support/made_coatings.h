@@ -71,12 +71,8 @@ inline SimulatedRun made_coating(const BankPoint &point, double target) {
 
 inline BankTable made_coatings(const std::vector<std::string> &effects = {"nmc_plasticity"}) {
   BankTable table;
-  table.spec = read_bank_spec(CALENDEM_SOURCE_DIR "/input_scripts/cases/coatings/bank.toml");
-  table.spec.packings = 8;
-  table.spec.base_points = 40;
-  table.spec.effect_points = 16;
+  table.spec = read_bank_spec(CALENDEM_SOURCE_DIR "/tests/support/made_coatings.toml");
   table.spec.effects = effects;
-  table.spec.ranges.clear();
   table.spec.full_cell.points = 0;
   table.spec.nanoporosity_within = 0.0;
   for (const BankPoint &point : bank_points(table.spec))

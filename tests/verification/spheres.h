@@ -45,7 +45,8 @@ inline Files files_of(const std::vector<BodySphere> &spheres, const Vec3 &low, c
     ++tag;
     data << tag << " 1 " << 2.0 * s.radius << " " << kDensity << " " << s.x.x << " " << s.x.y << " "
          << s.x.z << "\n";
-    map << tag << " " << s.body << "\n";
+    if (s.body > 0)
+      map << tag << " " << s.body << "\n";
     if (norm(s.v) + norm(s.omega) > 0.0)
       start << "set atom " << tag << " vx " << s.v.x << " vy " << s.v.y << " vz " << s.v.z
             << " omegax " << s.omega.x << " omegay " << s.omega.y << " omegaz " << s.omega.z

@@ -11,28 +11,18 @@
 namespace {
 using namespace calendem_test;
 
-/// A bank on disk whose spec is the shipped one with fewer points.
+/// The made bank on disk.
 std::string bank_on_disk(const std::filesystem::path &folder) {
   namespace fs = std::filesystem;
-  const fs::path cases = CALENDEM_SOURCE_DIR "/input_scripts/cases";
+  const fs::path source = CALENDEM_SOURCE_DIR, cases = source / "input_scripts/cases";
   fs::create_directories(folder / "coatings");
-  fs::copy(cases / "demo", folder / "demo", fs::copy_options::recursive);
-  fs::copy(cases / "studies/case.toml", folder / "case.toml");
   for (const char *file : {"electrode.toml", "case.toml", "crushing.csv"})
     fs::copy(cases / "coatings" / file, folder / "coatings" / file);
-  std::string text = text_of_file((cases / "coatings/bank.toml").string());
-  const auto replace = [&](const std::string &what, const std::string &with) {
-    text.replace(text.find(what), what.size(), with);
-  };
-  replace("base_points = 64", "base_points = 40");
-  replace("packings = 12", "packings = 8");
-  const auto cut = [&](const std::string &from, const std::string &to) {
-    text.erase(text.find(from), text.find(to) - text.find(from));
-  };
-  cut("effects = [", "\n# Indented");
-  cut("[[effect]]", "[[parameter]]");
-  text.insert(text.find("\n# Indented"), "effects = [\"nmc_plasticity\"]\n");
-  cut("[full_cell]", "# What the bank's runs");
+  std::string text = text_of_file((source / "tests/support/made_coatings.toml").string());
+  const std::string there = "../../input_scripts/cases/coatings/";
+  for (auto at = text.find(there); at != std::string::npos; at = text.find(there))
+    text.erase(at, there.size());
+  text.erase(text.find("[full_cell]"), text.find("[[numerics]]") - text.find("[full_cell]"));
   const std::string file = (folder / "coatings/bank.toml").string();
   write_file(file, text);
   write_file(table_file(file), write_bank_table(made_coatings()));

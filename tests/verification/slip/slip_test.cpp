@@ -122,6 +122,43 @@ TEST(VerificationSlip, RowsOfTwoBodiesMeetAtTheSumOfRadii) {
   expect_closed_form(run, 2.0 * R, 2.0 * R);
 }
 
+// Of another body, and of none, as CBD; the body's own meet as before.
+TEST(VerificationSlip, SurfacesLieInsideThePrimariesForOthers) {
+  constexpr double kInset = 0.12;
+  Settings s = settings(kLattice);
+  s["inset"] = number(kInset);
+  for (const auto &[body, distance] :
+       {std::pair{2, 2.0 * R - 2.0 * kInset}, std::pair{0, 2.0 * R - kInset}}) {
+    SCOPED_TRACE(body);
+    const CaseRun run("slip/in.slip", s, 1, two_rows(body, distance));
+    expect_closed_form(run, distance, distance);
+  }
+  const CaseRun own("slip/in.slip", s, 1, two_rows());
+  expect_closed_form(own, kSpacing, kSpacing);
+}
+
+// A yielded contact opens while the primaries still overlap, and closes again.
+TEST(VerificationSlip, ContactsOfInsetSurfacesAreTheSameInEitherLoop) {
+  constexpr double kInset = 0.15;
+  const double distance = 2.0 * (R - kInset), way = 22000 * kStep * kSpeed;
+  ASSERT_LT(std::hypot(way, distance), 2.0 * R) << "they would part altogether";
+  std::vector<double> ends;
+  for (const char *fused : {"on", "off"}) {
+    Settings s = settings(1.0);
+    s["inset"] = number(kInset);
+    s["contact"] = "hertz_effects";
+    s["yield"] = "1e6";
+    s["fused"] = fused;
+    s["half"] = s["rest"] = "22000";
+    s["back"] = "1";
+    const CaseRun run("slip/in.slip", s, 1, two_rows(2, distance));
+    ASSERT_TRUE(run.finished()) << run.why();
+    ends.push_back(run.rows("curve.csv").back().at("height"));
+  }
+  EXPECT_NEAR(ends[0], ends[1], 1e-9);
+  EXPECT_LT(ends[0], distance - 1e-4) << "nothing yields";
+}
+
 // Contacts that meet at the lattice follow their law, in the plugin's loop over pairs as in the
 // host's.
 TEST(VerificationSlip, TheHostsLoopGivesTheSame) {
@@ -194,4 +231,18 @@ TEST(VerificationSlip, ARestartWithAnotherDiameterStops) {
                              "file began with 0.805031"),
             std::string::npos)
       << other.why();
+  s["meet"] = number(kLattice);
+  s["inset"] = "0.1";
+  EXPECT_NE(CaseRun("slip/in.slip", s, 1, files).why().find("surface_inset is 0.1, and"),
+            std::string::npos);
+}
+
+TEST(VerificationSlip, AnInsetOfHalfARadiusStops) {
+  Settings s = settings(1.0);
+  s["inset"] = "0.4";
+  const CaseRun run("slip/in.slip", s, 1, two_rows());
+  EXPECT_FALSE(run.finished());
+  EXPECT_NE(run.why().find("'surface_inset' is more than half of the smallest radius"),
+            std::string::npos)
+      << run.why();
 }

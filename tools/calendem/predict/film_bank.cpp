@@ -100,7 +100,7 @@ FilmBank::FilmBank(const BankTable &table)
 
 namespace {
 
-/// A point's input, and its values at the bank's pressures.
+/// A point's input, and its values at the bank's pressures; NaN: it has no such run.
 Vector input_of(const BankSpec &spec, const BankPoint &point) {
   Vector out(Eigen::Index(spec.parameters.size()));
   for (std::size_t k = 0; k < spec.parameters.size(); ++k)
@@ -110,8 +110,10 @@ Vector input_of(const BankSpec &spec, const BankPoint &point) {
 
 Vector values_of(FilmNumber number, const BankSpec &spec, const PointRuns &runs) {
   Vector out{Eigen::Index(spec.pressures.size())};
-  for (std::size_t k = 0; k < spec.pressures.size(); ++k)
-    out[Eigen::Index(k)] = value_of(number, run_to({spec.pressures[k]}, runs)->run);
+  for (std::size_t k = 0; k < spec.pressures.size(); ++k) {
+    const BankRow *row = run_to({spec.pressures[k]}, runs);
+    out[Eigen::Index(k)] = row ? value_of(number, row->run) : NAN;
+  }
   return out;
 }
 
@@ -168,7 +170,7 @@ emulators_of(const Learnt &learnt, int number, const std::vector<inference::Gaus
   std::vector<inference::GaussianProcess> out;
   const inference::Matrix &values = learnt.values[std::size_t(number)];
   for (Eigen::Index p = 0; p < values.rows(); ++p) {
-    std::vector<Eigen::Index> known; // a run may lack a number, as the rows of a release
+    std::vector<Eigen::Index> known; // a point may lack a run, a run a number
     for (Eigen::Index k = 0; k < values.cols(); ++k)
       if (std::isfinite(values(p, k)))
         known.push_back(k);
@@ -195,9 +197,10 @@ emulators_of(const Learnt &learnt, int number, const std::vector<inference::Gaus
 
 void FilmBank::learn(const BankTable &table) {
   std::vector<std::string> ignored;
-  std::vector<PressedTo> wanted;
+  std::vector<PressedTo> wanted; // a soft film may have no pores left before the highest
   for (const double pressure : spec_.pressures)
-    wanted.push_back({pressure});
+    if (pressure < spec_.pressures.back())
+      wanted.push_back({pressure});
   const std::vector<PointRuns> points = points_of(table, wanted, ignored);
   const Learnt base = learnt_of(spec_, points, "", recipe_.nanoporosity);
   if (base.training.packing.size() < std::size_t(inference::kFewestRuns))

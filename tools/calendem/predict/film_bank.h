@@ -68,8 +68,8 @@ struct Guess {
 
 class FilmBank {
 public:
-  /// Throws Failure(2) with fewer than four pressures or kFewestRuns points. A point that lacks a
-  /// run is left out.
+  /// Throws Failure(2) with fewer than four pressures or kFewestRuns points. A point that lacks
+  /// a run, but for the one to the highest pressure, is left out.
   explicit FilmBank(const BankTable &table);
 
   const BankSpec &spec() const { return spec_; }
