@@ -16,7 +16,7 @@ for file in model.json model.html case.toml; do
   cmp "model/$file" "again/$file" || fail "the same input gave another $file"
 done
 grep -q "p006: its pressure is not known, or outside" calibrate.log || fail "what is left out is not reported"
-grep -q "nmc_plasticity + cbd_collapse" calibrate.log || fail "a pair of effects is no hypothesis"
+grep -q "cbd_collapse + friction" calibrate.log || fail "a pair of effects is no hypothesis"
 calendem validate model/case.toml || fail "the calibrated case is none"
 grep -qE "^# In the recipe: cbd.nanoporosity_percent [0-9.]+ (lower|higher)$" model/case.toml || fail "the case does not say which nanoporosity"
 

@@ -21,11 +21,12 @@ Settings settings(double meet) {
   return {{"meet", number(meet)}, {"dt", number(kStep)}, {"friction", "0"}, {"ced", "0"}};
 }
 
-// The upper row, of that body, at that height.
+// The upper row, of that body, at that height; of no body a single sphere, or they would push each
+// other away.
 Files two_rows(int body = 1, double height = kSpacing) {
   std::vector<BodySphere> rows;
   for (const bool upper : {false, true})
-    for (int n = 0; n < kSpheres; ++n)
+    for (int n = 0; n < (upper && body == 0 ? 1 : kSpheres); ++n)
       rows.push_back({{(n + 0.25) * kSpacing, 0, upper ? height : 0.0}, R, upper ? body : 1});
   return files_of(rows, {0, -5, -5}, {kSpheres * kSpacing, 5, 5});
 }
