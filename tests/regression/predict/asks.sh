@@ -16,28 +16,27 @@ cd "$work"
 cp "$cases/coatings/electrode.toml" "$cases/coatings/case.toml" .
 within=1.5 # points of porosity, about two standard deviations of one packing of so small a cell
 
-# number E_am,E_cbd,strength,friction,yield_am,yield_cbd,collapse porosity_A carbon_A porosity_B carbon_B porosity_C carbon_C
+# number E_cbd,yield_cbd,inset,strength,friction,collapse porosity_A carbon_A porosity_B carbon_B porosity_C carbon_C
 # target; an effect's key within the bank's range, or what switches it off
 awk -v n="$asks" 'function key(low, high, off) { return rand() < 0.5 ? low * (high / low) ^ rand() : off }
   BEGIN { srand(20)
   for (k = 1; k <= n; ++k) {
-    material = sprintf("%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g", 120 * 2.5 ^ rand(), 1.6 * 2.5 ^ rand(), 250 * 4 ^ rand(),
-      rand() < 0.5 ? 0.05 + 0.55 * rand() : 0.001, key(6, 12, 0), key(0.12, 0.25, 0), key(5, 300, 0))
+    material = sprintf("%.4g,%.4g,%.4g,%.4g,%.4g,%.4g", 1.6 * 2.5 ^ rand(), 0.12 * 2.5 ^ rand(), 0.1 * rand(),
+      350 * (2000 / 350) ^ rand(), rand() < 0.5 ? 0.05 + 0.55 * rand() : 0.001, key(5, 300, 0))
     printf "%d %s %.4g %.4g %.4g %.4g %.4g %.4g %.4g\n", k, material, 42 + 9 * rand(), 1.5 + 2 * rand(), 42 + 9 * rand(),
       1.5 + 2 * rand(), 42 + 9 * rand(), 1.5 + 2 * rand(), 0.66 + 0.16 * rand() } }' >asks.txt # the target is a share of the porosity before
 
 study() { # NAME ROWS CONTROL KEY: a study of rows "material porosity carbon KEY seed"
   {
     printf '[study]\nname = "%s"\nrecipe = "electrode.toml"\ncase = "case.toml"\nkeep = "tables"\n' "$1"
-    printf '[[vary]]\nkeys = ["case.material.am.youngs_modulus_GPa", "case.material.cbd.youngs_modulus_GPa", '
-    printf '"case.bond.tensile_strength_MPa", "case.bond.shear_strength_MPa", "case.material.am.friction", '
-    printf '"case.material.cbd.friction", "case.effects.nmc_plasticity.yield_pressure_GPa", '
-    printf '"case.effects.cbd_plasticity.yield_pressure_GPa", "case.effects.cbd_collapse.yield_pressure_MPa", '
+    printf '[[vary]]\nkeys = ["case.material.cbd.youngs_modulus_GPa", "case.effects.cbd_plasticity.yield_pressure_GPa", '
+    printf '"case.bond.surface_inset_um", "case.bond.tensile_strength_MPa", "case.bond.shear_strength_MPa", '
+    printf '"case.material.am.friction", "case.material.cbd.friction", "case.effects.cbd_collapse.yield_pressure_MPa", '
     printf '"recipe.coating.porosity_total_percent", '
     printf '"recipe.composition.carbon_weight_percent", "recipe.composition.binder_weight_percent", '
     printf '"case.platen.%s", "recipe.seed", "case.platen.control"]\nvalues = [\n' "$4"
     awk -v control="$3" '{ split($1, m, ",")
-      print "[" m[1] ", " m[2] ", " m[3] ", " m[3] ", " m[4] ", " m[4] ", " m[5] ", " m[6] ", " m[7] ", " $2 ", " $3 ", " $3 ", " $4 ", " $5 ", \"" control "\"]," }' "$2"
+      print "[" m[1] ", " m[2] ", " m[3] ", " m[4] ", " m[4] ", " m[5] ", " m[5] ", " m[6] ", " $2 ", " $3 ", " $3 ", " $4 ", " $5 ", \"" control "\"]," }' "$2"
     echo ']'
   } >"$1.toml"
   "$bin/calendem" study "$1.toml" -o "$1" --jobs "$(nproc)" >"$1.log" 2>&1 || [ $? -eq 3 ] || { tail "$1.log"; fail "study $1"; }

@@ -6,6 +6,7 @@
 #include "predict/files.h"
 #include "predict/film_sheet.h"
 #include "predict/learnt.h"
+#include "registry/effects.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -296,6 +297,14 @@ std::string nanoporosity_line(const FilmBank &bank, const std::vector<const Draw
                      points < 0.0 ? "lower" : "higher");
 }
 
+/// The effect that a parameter of the bank's case is the strength of; null: of none.
+const Effect *switched_on_by(const BankParameter &p) {
+  for (const Effect &e : effects())
+    if ("case." + e.parameter.keys.front() == p.keys.front())
+      return &e;
+  return nullptr;
+}
+
 } // namespace
 
 std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_those) {
@@ -318,6 +327,14 @@ std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_t
   const auto add = [&](const std::string &key, double value) {
     add_text(key, fmt::format("{:.4g}", value));
   };
+  const Settings of_bank = read_case(bank.spec().case_file);
+  const auto add_settings = [&](const Effect &effect) { // as the bank's runs have them
+    const auto &moved = effect.parameter.keys;
+    for (const Key &key : effect.settings)
+      if (of_bank.text(key.name) != key.fallback &&
+          std::find(moved.begin(), moved.end(), key.name) == moved.end())
+        add_text(key.name, of_bank.text(key.name));
+  };
   std::size_t material = 0;
   for (const BankParameter &p : bank.spec().parameters)
     if (p.keys.front().rfind("case.", 0) == 0) {
@@ -326,9 +343,10 @@ std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_t
       ++material;
       for (const std::string &key : p.keys)
         add(key, value);
+      if (const Effect *effect = switched_on_by(p))
+        add_settings(*effect);
     }
   std::string of_recipe = nanoporosity_line(bank, of, of_those);
-  const Settings of_bank = read_case(bank.spec().case_file);
   for (std::size_t k = 0; k < effects.size(); ++k) {
     const Effect effect = find_effect(bank.effects()[std::size_t(effects[k])].name);
     const double value =
@@ -338,11 +356,8 @@ std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_t
         of_recipe += fmt::format("# In the recipe: {} = {:.4g}\n", key, value);
       else
         add(key, value);
-    const auto &moved = effect.parameter.keys;
-    for (const Key &key : effect.settings) // as the bank's runs have them
-      if (!effect.in_recipe && of_bank.text(key.name) != key.fallback &&
-          std::find(moved.begin(), moved.end(), key.name) == moved.end())
-        add_text(key.name, of_bank.text(key.name));
+    if (!effect.in_recipe)
+      add_settings(effect);
   }
   std::string out = fmt::format(
       "{}{} ({}, {:.0f} %): the middle of its draws, each\n"
