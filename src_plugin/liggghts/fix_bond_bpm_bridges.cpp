@@ -106,9 +106,10 @@ void FixBondBpm::check_radii() {
                      "'bridges' and fix cbd/collapse exclude each other: a bridge keeps its length "
                      "while its spheres would shrink");
   if (bridges_.on() && settings_.surface_inset > 0.0)
-    error->fix_error(FLERR, this,
-                     "'bridges' and 'surface_inset' exclude each other: of a pair with a bridge the "
-                     "spheres' own surfaces meet");
+    error->fix_error(
+        FLERR, this,
+        "'bridges' and 'surface_inset' exclude each other: of a pair with a bridge the "
+        "spheres' own surfaces meet");
   double least = HUGE_VAL, all = 0.0;
   for (int i = 0; i < atom->nlocal; ++i)
     least = std::fmin(least, atom->radius[i]);

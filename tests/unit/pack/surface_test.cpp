@@ -35,8 +35,7 @@ double kept_clear(double diameter, double lattice, double inset) {
   Recipe recipe = cell(15.0);
   recipe.lattice = lattice;
   recipe.primary_diameter = recipe.primary_diameter / 1.28 * lattice;
-  const int count =
-      static_cast<int>(std::lround(M_PI / 6.0 * std::pow(diameter / lattice, 3)));
+  const int count = static_cast<int>(std::lround(M_PI / 6.0 * std::pow(diameter / lattice, 3)));
   Random random(1, 1);
   std::vector<Body> bodies;
   for (int k = 0; k < kBodies; ++k)
