@@ -33,8 +33,8 @@ Body turned(Body body, Random &random) {
 double kept_clear(double diameter, double lattice, double inset) {
   constexpr int kBodies = 16, kPairs = 100;
   Recipe recipe = cell(15.0);
+  recipe.primary_diameter *= lattice / recipe.lattice;
   recipe.lattice = lattice;
-  recipe.primary_diameter = recipe.primary_diameter / 1.28 * lattice;
   const int count = static_cast<int>(std::lround(M_PI / 6.0 * std::pow(diameter / lattice, 3)));
   Random random(1, 1);
   std::vector<Body> bodies;
@@ -60,6 +60,7 @@ TEST(Surface, TipsOfPrimariesKeepBodiesApart) {
     const double shapes = kept_clear(diameter, kFine, 0.155 * kFine / 1.28);
     std::printf("%.1f um: %.3f at the tips, %.3f with an inset of 0.155 um, %.3f of the shapes\n",
                 diameter, tips, flush, shapes);
+    // 0.04 to 0.05: two standard errors of a mean of 100 pairs, whose distances differ by 7 %
     EXPECT_LT(std::fabs(flush - shapes), 0.2 * (tips - shapes));
   }
 }

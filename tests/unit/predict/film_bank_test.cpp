@@ -252,7 +252,7 @@ TEST(FilmBank, TheShippedTableHoldsTheRunsOfItsDesigns) {
       EXPECT_TRUE(p.base[k] >= whole.parameters[k].low && p.base[k] <= whole.parameters[k].high);
     rich += row.point.base_point >= 48;
   }
-  EXPECT_EQ(rich, 144); // of 160: sixteen did not reach 300 MPa
+  EXPECT_EQ(rich, 144); // of 160: twelve lack 300 MPa, four 150
 }
 
 // Every set of effects is compared: of seven there are 128.
