@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "physics/hertz_contact.h"
+#include "physics/plastic_contact.h"
 #include "spheres.h"
 
 using namespace calendem;
@@ -158,6 +159,40 @@ TEST(VerificationSlip, ContactsOfInsetSurfacesAreTheSameInEitherLoop) {
   }
   EXPECT_NEAR(ends[0], ends[1], 1e-9);
   EXPECT_LT(ends[0], distance - 1e-4) << "nothing yields";
+}
+
+// Primaries overlap by more than twice the inset throughout. Pressed to 0.05 um, they are parted by 0.025 and pressed to
+// 0.025 um: as new ones, not as ones that keep a dent of nearly 0.05.
+TEST(VerificationSlip, InsetSurfacesThatPartedMeetAsNewOnes) {
+  constexpr double kInset = 0.15, kYield = 1e6;
+  const double distance = 2.0 * (R - kInset);
+  const PlasticContact law(effective_modulus(2e8, 0.3, 2e8, 0.3), effective_radius(R, R), kYield);
+  for (const char *fused : {"on", "off"}) {
+    Settings s = settings(1.0);
+    s["inset"] = number(kInset);
+    s["contact"] = "hertz_effects";
+    s["yield"] = number(kYield);
+    s["fused"] = fused;
+    s["dt"] = "5e-5";
+    s["restitution"] = "1";
+    const CaseRun run(
+        "slip/in.part", s, 1,
+        files_of({{{0, 0, 0}, R, 1}, {{0, 0, distance}, R, 2}}, {-5, -5, -5}, {5, 5, 5}));
+    ASSERT_TRUE(run.finished()) << run.why();
+    const std::vector<Row> rows = run.rows("curve.csv");
+    const auto expect_force = [&](long step, double overlap) {
+      const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row &r) {
+        return std::lround(r.at("step")) == step;
+      });
+      ASSERT_NE(row, rows.end()) << step;
+      EXPECT_NEAR(distance - row->at("height"), overlap, 1e-9);
+      const double force = overlap > 0.0 ? law.loading_force(overlap) : 0.0;
+      EXPECT_NEAR(row->at("force"), force, 1e-6 * force) << step;
+    };
+    expect_force(1000, 0.05);
+    expect_force(2500, -0.025);
+    expect_force(3500, 0.025);
+  }
 }
 
 // Contacts that meet at the lattice follow their law, in the plugin's loop over pairs as in the
