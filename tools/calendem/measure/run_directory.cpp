@@ -237,7 +237,8 @@ void read_fracture(RunFolder &folder, Run &run) {
 
 void read_optional(RunFolder &folder, Run &run) {
   if (folder.has("electrode.json"))
-    run.electrode = folder.object("electrode.json", run.notes);
+    if (const nlohmann::json &e = folder.object("electrode.json", run.notes); e.is_object())
+      run.electrode = e;
   const auto series = [&](const char *name) {
     return read_series(folder.path_of(std::string("vtk/") + name), run.notes);
   };
