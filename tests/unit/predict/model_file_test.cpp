@@ -135,15 +135,23 @@ TEST(ModelFile, TheCaseIsOneThatRunTakes) {
 // A bank's collapse need not be that of the defaults: whoever runs the case gets the bank's.
 TEST(ModelFile, TheCaseHasTheBanksSettingsOfItsEffect) {
   BankTable table = made_coatings({"cbd_collapse"});
-  table.spec.case_file = CALENDEM_SOURCE_DIR "/input_scripts/cases/bank/case.toml";
+  table.spec.case_file = (test_folder() / "case.toml").string();
+  write_file(table.spec.case_file,
+             text_of_file(CALENDEM_SOURCE_DIR "/input_scripts/cases/bank/case.toml") +
+                 "\n[bond]\nsurface_inset_um = 0.1\ntensile_strength_MPa = 600\n"
+                 "[material.cbd]\nfriction = 0.2\n");
   const FilmBank bank(table);
   Calibration c;
   c.hypotheses = {{"none", {0.1}, 100.0}, {"cbd_collapse", {0.9}, 100.0}};
   c.draws = {{{{{190.0, 2.4, 480.0}, {{0, 0.5}}}}, {0.001, 0.5}}};
   const std::string text = case_of(bank, c, 0);
-  for (const char *part : {"[effects.cbd_collapse]", "floor_nanoporosity = 0\n",
-                           "hardening_MPa = 10\n", "yield_pressure_MPa = "})
+  for (const char *part :
+       {"[effects.cbd_collapse]", "floor_nanoporosity = 0\n", "hardening_MPa = 10\n",
+        "yield_pressure_MPa = ", "surface_inset_um = 0.1\n", "\nfriction = 0.2\n",
+        "\ntensile_strength_MPa = 480\n"})
     EXPECT_NE(text.find(part), std::string::npos) << text;
+  for (const char *part : {"tensile_strength_MPa = 600", "[platen]", "[output]"})
+    EXPECT_EQ(text.find(part), std::string::npos) << text;
 }
 
 TEST(Pages, AreWholeAndHoldTheirNumbers) {

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <set>
 
 namespace calendem {
 
@@ -319,8 +320,11 @@ std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_t
       of.push_back(&d);
   const auto middle = [&](const auto &value) { return middle_of(of, value); };
   std::map<std::string, std::string> tables; // lines by table
+  std::set<std::string> there;
   const auto add_text = [&](const std::string &key, const std::string &value) {
     const std::string bare = key.rfind("case.", 0) == 0 ? key.substr(5) : key;
+    if (!there.insert(bare).second)
+      return;
     const std::size_t dot = bare.rfind('.');
     tables[bare.substr(0, dot)] += fmt::format("{} = {}\n", bare.substr(dot + 1), value);
   };
@@ -328,12 +332,13 @@ std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_t
     add_text(key, fmt::format("{:.4g}", value));
   };
   const Settings of_bank = read_case(bank.spec().case_file);
-  const auto add_settings = [&](const Effect &effect) { // as the bank's runs have them
-    const auto &moved = effect.parameter.keys;
+  const auto add_setting = [&](const Key &key) { // as the bank's runs have it
+    if (of_bank.text(key.name) != key.fallback)
+      add_text(key.name, of_bank.text(key.name));
+  };
+  const auto add_settings = [&](const Effect &effect) {
     for (const Key &key : effect.settings)
-      if (of_bank.text(key.name) != key.fallback &&
-          std::find(moved.begin(), moved.end(), key.name) == moved.end())
-        add_text(key.name, of_bank.text(key.name));
+      add_setting(key);
   };
   std::size_t material = 0;
   for (const BankParameter &p : bank.spec().parameters)
@@ -359,6 +364,9 @@ std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_t
     if (!effect.in_recipe)
       add_settings(effect);
   }
+  for (const Key &key : case_keys())
+    if (key.name.rfind("material.", 0) == 0 || key.name.rfind("bond.", 0) == 0)
+      add_setting(key);
   std::string out = fmt::format(
       "{}{} ({}, {:.0f} %): the middle of its draws, each\n"
       "# parameter by itself. Put the folder of your electrode here.\nelectrode = \"electrode\"\n",
