@@ -734,6 +734,7 @@ report_in_place_of_results() {
   done
   printf '{' >"$work/run/electrode.json"
   expect 2 calendem report "$work/run"
+  says "$work/run/electrode.json: cut or damaged"
 }
 another_case_in_folder() {
   a_case "$electrode" "${quick[@]}"

@@ -236,9 +236,6 @@ void read_fracture(RunFolder &folder, Run &run) {
 }
 
 void read_optional(RunFolder &folder, Run &run) {
-  if (folder.has("electrode.json"))
-    if (const nlohmann::json &e = folder.object("electrode.json", run.notes); e.is_object())
-      run.electrode = e;
   const auto series = [&](const char *name) {
     return read_series(folder.path_of(std::string("vtk/") + name), run.notes);
   };
@@ -275,6 +272,8 @@ Run read_run(const std::string &directory, Mistakes &mistakes) {
   }
   RunFolder folder(run.directory);
   read_summary(folder, run, mistakes);
+  if (folder.has("electrode.json"))
+    run.electrode = folder.object("electrode.json", mistakes);
   run.curve = folder.curve(kRequired, mistakes, run.notes);
   if (run.unfinished.empty() && run.curve.rows() > 0 && run.curve.relaxation().empty())
     run.unfinished = "curve.csv has no relaxation";

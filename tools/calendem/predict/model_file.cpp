@@ -306,6 +306,38 @@ const Effect *switched_on_by(const BankParameter &p) {
   return nullptr;
 }
 
+/// Lines of a case, each key once: the first that is added stays.
+class CaseLines {
+public:
+  explicit CaseLines(const Settings &of_bank) : of_bank_(of_bank) {}
+
+  void add(const std::string &key, double value) { add_text(key, fmt::format("{:.4g}", value)); }
+  /// As the bank's runs have them.
+  void keep(const std::vector<Key> &keys) {
+    for (const Key &key : keys)
+      if (of_bank_.text(key.name) != key.fallback)
+        add_text(key.name, of_bank_.text(key.name));
+  }
+  std::string text() const {
+    std::string out;
+    for (const auto &[table, lines] : tables_)
+      out += fmt::format("\n[{}]\n{}", table, lines);
+    return out;
+  }
+
+private:
+  Settings of_bank_;
+  std::map<std::string, std::string> tables_;
+  std::set<std::string> there_;
+
+  void add_text(const std::string &key, const std::string &value) {
+    if (!there_.insert(key).second)
+      return;
+    const std::size_t dot = key.rfind('.');
+    tables_[key.substr(0, dot)] += fmt::format("{} = {}\n", key.substr(dot + 1), value);
+  }
+};
+
 } // namespace
 
 std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_those) {
@@ -319,27 +351,7 @@ std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_t
     if (effects_of(d.materials[of_those]) == effects)
       of.push_back(&d);
   const auto middle = [&](const auto &value) { return middle_of(of, value); };
-  std::map<std::string, std::string> tables; // lines by table
-  std::set<std::string> there;
-  const auto add_text = [&](const std::string &key, const std::string &value) {
-    const std::string bare = key.rfind("case.", 0) == 0 ? key.substr(5) : key;
-    if (!there.insert(bare).second)
-      return;
-    const std::size_t dot = bare.rfind('.');
-    tables[bare.substr(0, dot)] += fmt::format("{} = {}\n", bare.substr(dot + 1), value);
-  };
-  const auto add = [&](const std::string &key, double value) {
-    add_text(key, fmt::format("{:.4g}", value));
-  };
-  const Settings of_bank = read_case(bank.spec().case_file);
-  const auto add_setting = [&](const Key &key) { // as the bank's runs have it
-    if (of_bank.text(key.name) != key.fallback)
-      add_text(key.name, of_bank.text(key.name));
-  };
-  const auto add_settings = [&](const Effect &effect) {
-    for (const Key &key : effect.settings)
-      add_setting(key);
-  };
+  CaseLines lines(read_case(bank.spec().case_file));
   std::size_t material = 0;
   for (const BankParameter &p : bank.spec().parameters)
     if (p.keys.front().rfind("case.", 0) == 0) {
@@ -347,9 +359,9 @@ std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_t
           middle([&](const Draw &d) { return d.materials[of_those].parameters[material]; });
       ++material;
       for (const std::string &key : p.keys)
-        add(key, value);
+        lines.add(key.substr(5), value);
       if (const Effect *effect = switched_on_by(p))
-        add_settings(*effect);
+        lines.keep(effect->settings);
     }
   std::string of_recipe = nanoporosity_line(bank, of, of_those);
   for (std::size_t k = 0; k < effects.size(); ++k) {
@@ -360,21 +372,18 @@ std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_t
       if (effect.in_recipe)
         of_recipe += fmt::format("# In the recipe: {} = {:.4g}\n", key, value);
       else
-        add(key, value);
+        lines.add(key, value);
     if (!effect.in_recipe)
-      add_settings(effect);
+      lines.keep(effect.settings);
   }
   for (const Key &key : case_keys())
     if (key.name.rfind("material.", 0) == 0 || key.name.rfind("bond.", 0) == 0)
-      add_setting(key);
+      lines.keep({key});
   std::string out = fmt::format(
       "{}{} ({}, {:.0f} %): the middle of its draws, each\n"
       "# parameter by itself. Put the folder of your electrode here.\nelectrode = \"electrode\"\n",
       kHeadOfCase, of_material(c, of_those), best->name, 100.0 * best->probability[of_those]);
-  out += of_recipe;
-  for (const auto &[table, lines] : tables)
-    out += fmt::format("\n[{}]\n{}", table, lines);
-  return out;
+  return out + of_recipe + lines.text();
 }
 
 } // namespace calendem
