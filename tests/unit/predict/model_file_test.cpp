@@ -139,6 +139,7 @@ TEST(ModelFile, TheCaseHasTheBanksSettingsOfItsEffect) {
   write_file(table.spec.case_file,
              text_of_file(CALENDEM_SOURCE_DIR "/input_scripts/cases/bank/case.toml") +
                  "\n[bond]\nsurface_inset_um = 0.1\ntensile_strength_MPa = 600\n"
+                 "contact_diameter = \"lattice\"\n"
                  "[material.cbd]\nfriction = 0.2\n");
   const FilmBank bank(table);
   Calibration c;
@@ -148,9 +149,10 @@ TEST(ModelFile, TheCaseHasTheBanksSettingsOfItsEffect) {
   for (const char *part :
        {"[effects.cbd_collapse]", "floor_nanoporosity = 0\n", "hardening_MPa = 10\n",
         "yield_pressure_MPa = ", "surface_inset_um = 0.1\n", "\nfriction = 0.2\n",
-        "\ntensile_strength_MPa = 480\n"})
+        "\ntensile_strength_MPa = 480\n", "contact_diameter = \"lattice\"\n"})
     EXPECT_NE(text.find(part), std::string::npos) << text;
-  for (const char *part : {"tensile_strength_MPa = 600", "[platen]", "[output]"})
+  for (const char *part :
+       {"tensile_strength_MPa = 600", "[platen]", "[output]", "poisson", "ced_J_m3"})
     EXPECT_EQ(text.find(part), std::string::npos) << text;
 }
 

@@ -161,8 +161,8 @@ TEST(VerificationSlip, ContactsOfInsetSurfacesAreTheSameInEitherLoop) {
   EXPECT_LT(ends[0], distance - 1e-4) << "nothing yields";
 }
 
-// Primaries overlap by more than twice the inset throughout. Pressed to 0.05 um, they are parted by 0.025 and pressed to
-// 0.025 um: as new ones, not as ones that keep a dent of nearly 0.05.
+// The primaries overlap throughout. Pressed to 0.05 um, their surfaces are parted by 0.025 and
+// pressed to 0.025 um: as new ones, not as ones that keep a dent of nearly 0.05.
 TEST(VerificationSlip, InsetSurfacesThatPartedMeetAsNewOnes) {
   constexpr double kInset = 0.15, kYield = 1e6;
   const double distance = 2.0 * (R - kInset);

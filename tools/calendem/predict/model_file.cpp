@@ -2,6 +2,7 @@
 #include "base/case.h"
 #include "base/messages.h"
 #include "base/provenance.h"
+#include "base/registry.h"
 #include "predict/crushed.h"
 #include "predict/files.h"
 #include "predict/film_sheet.h"
@@ -312,11 +313,12 @@ public:
   explicit CaseLines(const Settings &of_bank) : of_bank_(of_bank) {}
 
   void add(const std::string &key, double value) { add_text(key, fmt::format("{:.4g}", value)); }
-  /// As the bank's runs have them.
+  /// Those that the bank's case gives.
   void keep(const std::vector<Key> &keys) {
     for (const Key &key : keys)
-      if (of_bank_.text(key.name) != key.fallback)
-        add_text(key.name, of_bank_.text(key.name));
+      if (of_bank_.line(key.name) > 0)
+        add_text(key.name,
+                 wants_text(key) ? Json(of_bank_.text(key.name)).dump() : of_bank_.text(key.name));
   }
   std::string text() const {
     std::string out;
