@@ -132,7 +132,8 @@ TEST(ModelFile, TheCaseIsOneThatRunTakes) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
 }
 
-// A bank's collapse need not be that of the defaults: whoever runs the case gets the bank's.
+// A bank's collapse, bonds and materials need not be those of the defaults: whoever runs the case
+// gets the bank's, but for what the calibration moves and what belongs to its runs alone.
 TEST(ModelFile, TheCaseHasTheBanksSettingsOfItsEffect) {
   BankTable table = made_coatings({"cbd_collapse"});
   table.spec.case_file = (test_folder() / "case.toml").string();
