@@ -40,7 +40,7 @@ FixBondBpm::FixBondBpm(LAMMPS *lmp, int narg, char **arg)
   vector_flag = 1;
   size_vector = 18;
   global_freq = 1;
-  comm_forward = 1;
+  comm_forward = 2;
   neighbor->register_contact_dist_factor(kContactDistanceFactor);
   grow_arrays(atom->nmax);
   atom->add_callback(0);
@@ -177,11 +177,40 @@ void FixBondBpm::pre_force(int) {
   const bool others = settings_.contact_diameter < 1.0 || settings_.surface_inset > 0.0;
   if (!others || neighbor->ago != 0)
     return;
+  find_insets();
   comm->forward_comm_fix(this);
   for_each_neighbor([this](int i, int j, BondHistory &bond) {
     if (bond.state() == kNeverBonded)
-      bond.meet_at(meeting_distance(i, j));
+      bond.meet_at(not_into_contact(i, j, bond.length(), meeting_distance(i, j)));
   });
+}
+
+// Surfaces that come out again do so up to each other: a contact never begins with a force.
+double FixBondBpm::not_into_contact(int i, int j, double before, double length) const {
+  if (length > 0.0 || before >= length)
+    return length;
+  const double r = norm(calendem::load(atom->x[i]) - calendem::load(atom->x[j]));
+  return std::max(before, std::min(length, r - atom->radius[i] - atom->radius[j]));
+}
+
+// Of the primaries of bodies; smaller by its fading times the part of their bonds that is broken.
+void FixBondBpm::find_insets() {
+  inset_.assign(atom->nmax, 0.0);
+  if (settings_.surface_inset == 0.0)
+    return;
+  if (settings_.inset_fading > 0.0)
+    for_each_neighbor([this](int i, int j, const BondHistory &bond) {
+      if (bond.state() != kIntact)
+        return;
+      ++inset_[i];
+      if (j < atom->nlocal)
+        ++inset_[j];
+    });
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const double lost = broken_[i] == 0 ? 0.0 : broken_[i] / (inset_[i] + broken_[i]);
+    inset_[i] =
+        body_[i] > 0 ? settings_.surface_inset * (1.0 - settings_.inset_fading * lost) : 0.0;
+  }
 }
 
 void FixBondBpm::setup(int) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // fix ID all bond/bpm bodies FILE youngs_modulus E nu NU radius_ratio L tensile S shear T
 //     criterion signed|unsigned|as_printed damping D weibull M SEED breakable yes|no log FILE
-//     pressure PLATEN_FIX contact_diameter D surface_inset S LAW NUMBERS ...
+//     pressure PLATEN_FIX contact_diameter D surface_inset S inset_fading F LAW NUMBERS ...
 // fix_modify ID LAW NUMBERS ...       with a further law of strength, see bond_strengths.h
 // fix_modify ID bridges E NU L GAP S_AM S_CBD S_COLLECTOR RATIO
 // fix_modify ID shrinkage EPS T
@@ -15,15 +15,15 @@
 // request, at the latest after 100 steps. Two primaries of one body that are not bonded, nor have
 // touched since their bond broke, meet at D times the sum of their radii, 1 by default. For all
 // other spheres, but not for walls, the surface of a body's primary lies S [um] inside it, 0 by
-// default; not with bridges. All
+// default, and by the part F times the part of its bonds that is broken less; not with bridges. All
 // stresses in kPa (units micro). Everything restarts, under the same fix ID. Bridges
 // (physics/binder_bridge.h) of modulus E, radius ratio L and tensile strengths S between CBD and
 // AM, CBD, collector (types as in registry/effect.h) are made with the bonds and damped as they
 // are; the script gives them again after a restart. No bond of a body and nothing of bodies counts
 // them. In the time T [us] from their creation they shrink by EPS (physics/drying_shrinkage.h); a
-// restart with another EPS, T, D or S is refused. Global vector: 1-9 as compute bond/bpm; bridges made 10 to AM 11 to CBD 12 to the
-// collector; broken 13 14 15; 16 their strain energy, 17 that released by breaks [fJ]; 18 how far
-// they have shrunk [-].
+// restart with another EPS, T, D, S or F is refused. Global vector: 1-9 as compute bond/bpm; bridges
+// made 10 to AM 11 to CBD 12 to the collector; broken 13 14 15; 16 their strain energy, 17 that
+// released by breaks [fJ]; 18 how far they have shrunk [-].
 #ifdef FIX_CLASS
 
 FixStyle(bond/bpm, FixBondBpm)
@@ -55,6 +55,7 @@ struct BondSettings {
   bool breakable = true;
   double contact_diameter = 1.0; ///< of a body's primaries that meet, over the sum of radii
   double surface_inset = 0.0;    ///< how far inside a primary its surface is for others [um]
+  double inset_fading = 0.0;     ///< part of it that goes as the primary's bonds break
 
   calendem::BondStrength strength_of(double factor) const {
     return {factor * strength.tensile, factor * strength.shear};
@@ -181,7 +182,7 @@ private:
   calendem::DryingShrinkage shrinkage_;
   double shrunk_ = 0.0, shrinking_ = 0.0; // of `shrinkage_`; in this step, of the length
   bool restarted_ = false;
-  std::array<double, 4> earlier_ = {}; // what remembered() was in the run that goes on
+  std::array<double, 5> earlier_ = {}; // what remembered() was in the run that goes on
   class FixEnergyBpm *energy_;         // NULL when no ledger is kept
   std::string bodies_file_, log_file_, platen_id_;
   std::vector<int> body_of_tag_;        // from the body map; empty after a restart
@@ -193,6 +194,7 @@ private:
   bigint initial_;
   bigint by_mode_[5];
   double energy_lost_;
+  std::vector<double> inset_; // of every sphere, and of ghosts; empty without insets
   bigint bridges_made_[calendem::kBridgeKinds], bridges_broken_[calendem::kBridgeKinds];
   double bridge_energy_lost_;
   /// A setting that a restart has to repeat.
@@ -221,7 +223,7 @@ private:
   int parse_strength(int narg, char **arg);
   int parse_bridges(int narg, char **arg);
   int parse_shrinkage(int narg, char **arg);
-  std::array<Remembered, 4> remembered() const;
+  std::array<Remembered, 5> remembered() const;
   void check_remembered();
   void check_shrinkage();
   void shrink(double dt);
@@ -235,6 +237,9 @@ private:
   double bridge_vector(int n);
   double strain_energy_of(BondState state);
   double positive(const char *keyword, const char *text, bool zero_allowed);
+  double fraction(const char *keyword, const char *text);
+  double not_into_contact(int i, int j, double before, double length) const;
+  void find_insets();
   std::uint64_t seed(const char *text);
   void check_settings();
   void check_modulus(const char *what, double value);

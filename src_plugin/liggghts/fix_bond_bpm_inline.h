@@ -30,7 +30,7 @@ inline double FixBondBpm::meeting_distance(int i, int j) const {
   const double D = settings_.contact_diameter;
   if (body_[i] > 0 && body_[i] == body_[j])
     return D < 1.0 ? D * (atom->radius[i] + atom->radius[j]) : 0.0;
-  return -settings_.surface_inset * ((body_[i] > 0) + (body_[j] > 0));
+  return settings_.surface_inset > 0.0 ? -(inset_[i] + inset_[j]) : 0.0;
 }
 
 inline void FixBondBpm::separate(int i, int j, BondHistory &bond) const {

@@ -29,6 +29,16 @@ double FixBondBpm::positive(const char *keyword, const char *text, bool zero_all
   return value;
 }
 
+double FixBondBpm::fraction(const char *keyword, const char *text) {
+  const double value = positive(keyword, text, true);
+  if (value > 1.0) {
+    const std::string message = std::string("'") + keyword + "' is '" + text +
+                                "'; it must be a number between 0 and 1";
+    error->fix_error(FLERR, this, message.c_str());
+  }
+  return value;
+}
+
 std::uint64_t FixBondBpm::seed(const char *text) {
   const double value = positive("weibull seed", text, true);
   if (value != std::floor(value) || value > 4294967295.0)
@@ -91,6 +101,8 @@ int FixBondBpm::parse_keyword(int iarg, int narg, char **arg) {
     settings_.contact_diameter = positive("contact_diameter", value, false);
   else if (key == "surface_inset")
     settings_.surface_inset = positive("surface_inset", value, true);
+  else if (key == "inset_fading")
+    settings_.inset_fading = fraction("inset_fading", value);
   else if (key == "log")
     log_file_ = value;
   else if (key == "pressure")
@@ -108,7 +120,7 @@ int FixBondBpm::parse_keyword(int iarg, int narg, char **arg) {
         "unknown setting '" + key + " " + value +
         "'; known: bodies FILE, youngs_modulus, nu, radius_ratio, tensile, shear, criterion "
         "signed|unsigned|as_printed, damping, weibull MODULUS SEED, breakable yes|no, log FILE, "
-        "pressure FIX, contact_diameter, surface_inset";
+        "pressure FIX, contact_diameter, surface_inset, inset_fading";
     for (const BondStrengths::Keyword &law : BondStrengths::keywords())
       message += std::string(", ") + law.name;
     error->fix_error(FLERR, this, message.c_str());

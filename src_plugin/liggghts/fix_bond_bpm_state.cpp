@@ -16,7 +16,7 @@
 using namespace LAMMPS_NS;
 
 namespace {
-const int kHeader = 20; // values before the list of breaks in the restart record
+const int kHeader = 21; // values before the list of breaks in the restart record
 const int kEventSize = sizeof(BreakEvent) / sizeof(double);
 } // namespace
 
@@ -50,14 +50,20 @@ int FixBondBpm::unpack_exchange(int nlocal, double *buf) {
 }
 
 int FixBondBpm::pack_comm(int n, int *list, double *buf, int, int *) {
-  for (int k = 0; k < n; ++k)
-    buf[k] = body_[list[k]];
-  return 1;
+  for (int k = 0; k < n; ++k) {
+    buf[2 * k] = body_[list[k]];
+    buf[2 * k + 1] = inset_.empty() ? 0.0 : inset_[list[k]];
+  }
+  return 2;
 }
 
 void FixBondBpm::unpack_comm(int n, int first, double *buf) {
-  for (int k = 0; k < n; ++k)
-    body_[first + k] = static_cast<int>(buf[k]);
+  if (int(inset_.size()) < first + n)
+    inset_.resize(first + n, 0.0);
+  for (int k = 0; k < n; ++k) {
+    body_[first + k] = static_cast<int>(buf[2 * k]);
+    inset_[first + k] = buf[2 * k + 1];
+  }
 }
 
 int FixBondBpm::pack_restart(int i, double *buf) {
@@ -133,9 +139,10 @@ void FixBondBpm::restart(char *buf) {
 }
 
 // What pairs keep in their histories follows from these.
-std::array<FixBondBpm::Remembered, 4> FixBondBpm::remembered() const {
+std::array<FixBondBpm::Remembered, 5> FixBondBpm::remembered() const {
   return {{{"contact_diameter", settings_.contact_diameter},
            {"surface_inset", settings_.surface_inset},
+           {"inset_fading", settings_.inset_fading},
            {"shrinkage", shrinkage_.strain},
            {"shrinkage's time", shrinkage_.time}}};
 }

@@ -17,12 +17,19 @@
 // given back, plastic_work (of d* alone) is not. Below SJKR's 2 CED such a contact cannot carry its
 // own cohesion: F ~ pi p_y R d, F_C ~ 2 pi CED R d. An indenter, which does not stick, measures what
 // a contact carries beyond that: p_y = p + 2 b CED with p the pressure that is given and 0 <= b <= 1
-// (0: p is the whole pressure). Source: Thornton, J. Appl. Mech. 64 (1997) 383,
+// (0: p is the whole pressure). At a wall the sphere has nowhere to go but aside, and keeps its
+// volume V. Held from both sides and flattened by u on each it is a disc of thickness 2 (R - u) in
+// the end, whose area V/(2 (R - u)) grows without bound. With the flattening f, 0 to 1, and
+//   g = 1/(1 - (f u/R_y)^(3/2)),  R_y = R - d_y
+// the area that has yielded is pi R g u: for f = 1 the exponent 3/2 is the one with which it tends
+// to that of the disc. Loading is F_y + pi R g u (p_y + h u/R) then, and a*^2 = R (d_y + g u). From
+// the depth on at which that would be stiffer than 2 E a* nothing yields any more: d* stays, and x
+// grows beyond 1. f = 0 leaves the area as it was. Source: Thornton, J. Appl. Mech. 64 (1997) 383,
 // eqs 8-21; hardening in proportion to the area, a^2/R^2, as of Meyer's law p ~ a^(n-2) with n = 4
 // beyond yield (Tabor, The Hardness of Metals, ch. 1: n = 2 to 2.5 for single indents). Deviations:
-// hardening; otherwise none; written in d* alone (a*^2 = R d* follows from his R_p F* = R F_e), so
-// that one number is the contact's memory. Verified by tests/unit/physics/plastic_contact_test.cpp,
-// tests/verification/plastic_contact.
+// hardening; flattening; otherwise none; written in d* alone (a*^2 = R d* follows from his
+// R_p F* = R F_e), so that one number is the contact's memory. Verified by
+// tests/unit/physics/plastic_contact_test.cpp, tests/verification/plastic_contact.
 #ifndef CALENDEM_PHYSICS_PLASTIC_CONTACT_H
 #define CALENDEM_PHYSICS_PLASTIC_CONTACT_H
 
@@ -38,12 +45,16 @@ public:
   static constexpr double kMostHardening = 0.159; ///< 1/(2 pi), of the effective modulus
 
   /// Effective modulus [kPa], effective radius [um], limiting pressure [kPa]; all > 0. Hardening
-  /// [kPa] >= 0.
-  PlasticContact(double E_eff, double R_eff, double yield_pressure, double hardening = 0.0)
+  /// [kPa] >= 0. Flattening: 0 to 1.
+  PlasticContact(double E_eff, double R_eff, double yield_pressure, double hardening = 0.0,
+                 double flattening = 0.0)
       : E_(E_eff), R_(R_eff), slope_(kPi_ * yield_pressure * R_eff), growth_(kPi_ * hardening),
-        yield_overlap_(slope_ * slope_ / (4.0 * E_eff * E_eff * R_eff)) {}
+        yield_overlap_(slope_ * slope_ / (4.0 * E_eff * E_eff * R_eff)),
+        spent_(flattening / (R_eff - yield_overlap_)) {}
+  /// Flattening is for walls, where the effective radius is the sphere's.
   PlasticContact(const ContactSurfaces &s, const double *values)
-      : PlasticContact(s.E_eff, s.R_eff, values[0] + of_cohesion(s.cohesion, values), values[1]) {}
+      : PlasticContact(s.E_eff, s.R_eff, values[0] + of_cohesion(s.cohesion, values), values[1],
+                       s.R_eff < s.radius ? 0.0 : values[3]) {}
 
   /// What cohesion adds to the pressure that is given, values[0] [kPa].
   static double of_cohesion(double energy_density, const double *values) {
@@ -55,15 +66,19 @@ public:
   /// Force [nN] while the overlap is the largest so far.
   double loading_force(double overlap) const {
     const double u = overlap - yield_overlap_;
-    return u <= 0.0 ? hertz_force(E_, R_, overlap)
-                    : slope_ * (overlap - yield_overlap_ / 3.0) + growth_ * u * u;
+    if (u <= 0.0)
+      return hertz_force(E_, R_, overlap);
+    const double perfect = slope_ * (overlap - yield_overlap_ / 3.0) + growth_ * u * u;
+    return spent_ == 0.0 ? perfect : perfect + (spread(u) - 1.0) * u * (slope_ + growth_ * u);
   }
 
-  /// Overlap [um] at which loading reaches a force [nN]: the inverse of loading_force.
+  /// Overlap [um] at which a first loading reaches a force [nN].
   double overlap_under(double force) const {
     const double at_yield = 2.0 / 3.0 * slope_ * yield_overlap_;
     if (force <= at_yield)
       return hertz_overlap(E_, R_, force);
+    if (spent_ > 0.0)
+      return flattened_under(force);
     const double perfect = force / slope_ + yield_overlap_ / 3.0, u = perfect - yield_overlap_;
     const double root = std::sqrt(1.0 + 4.0 * growth_ * u / slope_);
     return perfect - u * (root - 1.0) / (root + 1.0);
@@ -71,61 +86,131 @@ public:
 
   /// Overlap [um] that comes back between the largest one and loss of contact: e*.
   double elastic_overlap(double largest) const {
-    return largest <= yield_overlap_
-               ? largest
-               : 0.75 * loading_force(largest) / (E_ * std::sqrt(R_ * largest));
+    return largest <= yield_overlap_ ? largest
+                                     : 0.75 * loading_force(largest) / (E_ * radius_at(largest));
   }
 
   /// Force [nN] at an overlap with the largest one so far (or the overlap, if that is larger).
   double force(double overlap, double largest) const {
-    if (overlap >= largest)
+    const double from = yielded(overlap, largest);
+    if (overlap == from)
       return loading_force(overlap);
-    const double x = still_elastic(overlap, largest);
-    return loading_force(largest) * x * std::sqrt(x);
+    const double x = still_elastic(overlap, from);
+    return loading_force(from) * x * std::sqrt(x);
   }
 
   /// Radius [um] of the contact's area; the tangent stiffness below d* is 2 E times it.
   double contact_radius(double overlap, double largest) const {
-    if (overlap >= largest)
-      return std::sqrt(R_ * std::fmax(overlap, 0.0));
-    return std::sqrt(R_ * largest * still_elastic(overlap, largest));
+    const double from = yielded(overlap, largest);
+    if (overlap == from)
+      return radius_at(std::fmax(overlap, 0.0));
+    return radius_at(from) * std::sqrt(still_elastic(overlap, from));
   }
 
   /// Unloading begins with the largest stiffness, that of Hertz at the largest overlap.
   double stiffness_radius(double overlap, double largest) const {
-    return std::sqrt(R_ * (largest > overlap ? largest : overlap));
+    const double from = yielded(overlap, largest);
+    const double radius = radius_at(from);
+    return overlap > from ? radius * std::sqrt(still_elastic(overlap, from)) : radius;
   }
-  double radius_under(double force) const { return std::sqrt(R_ * overlap_under(force)); }
+  double radius_under(double force) const { return stiffness_radius(overlap_under(force), 0.0); }
 
   /// Energy [fJ] that unloading gives back.
   double elastic_energy(double overlap, double largest) const {
-    const double from = std::fmax(std::fmax(overlap, largest), 0.0);
-    const double x = overlap >= largest ? 1.0 : still_elastic(overlap, largest);
+    const double from = std::fmax(yielded(overlap, largest), 0.0);
+    const double x = overlap == from ? 1.0 : still_elastic(overlap, from);
     return 0.4 * elastic_overlap(from) * loading_force(from) * x * x * std::sqrt(x);
   }
 
   /// Work [fJ] that plastic flow has taken up to the largest overlap; >= 0.
   double plastic_work(double largest) const {
-    const double d = largest - yield_overlap_;
+    const double from = yielded(largest, largest), d = from - yield_overlap_;
     if (d <= 0.0)
       return 0.0;
+    const double yielding = spent_ == 0.0 ? d * d * (0.5 * slope_ + growth_ * d / 3.0) : work_of(d);
     const double done =
-        hertz_energy(E_, R_, yield_overlap_) +
-        d * (loading_force(yield_overlap_) + 0.5 * slope_ * d + growth_ * d * d / 3.0);
-    return done - elastic_energy(largest, largest);
+        hertz_energy(E_, R_, yield_overlap_) + d * loading_force(yield_overlap_) + yielding;
+    return done - elastic_energy(from, from);
   }
 
   double advance(double, double now, double, double &largest) const {
     if (now <= largest)
       return 0.0;
-    const double taken = plastic_work(now) - plastic_work(largest);
-    largest = now;
-    return taken;
+    const double before = plastic_work(largest);
+    largest = yielded(now, largest);
+    return plastic_work(largest) - before;
+  }
+
+  /// Depth [um] at a wall from which on nothing yields; infinite without flattening.
+  double locking_overlap() const {
+    if (spent_ == 0.0)
+      return HUGE_VAL;
+    double low = kShallow / spent_, high = 1.0 / spent_; // yields; does not
+    for (double u = 0.5 * (low + high); low < u && u < high; u = 0.5 * (low + high))
+      (locks(u) ? high : low) = u;
+    return yield_overlap_ + low;
   }
 
 private:
   static constexpr double kPi_ = 3.14159265358979323846;
+  static constexpr double kShallow = 1e-6; // part of spent_: no contact locks before
   double E_, R_, slope_, growth_, yield_overlap_;
+  double spent_; // f/R_y: where u times it is 1, the sphere is a disc without thickness
+
+  double spread(double u) const { // g of the head comment
+    const double w = spent_ * u;
+    return 1.0 / (1.0 - w * std::sqrt(w));
+  }
+
+  double radius_at(double largest) const { // a*
+    const double u = largest - yield_overlap_;
+    return spent_ == 0.0 || u <= 0.0 ? std::sqrt(R_ * largest)
+                                     : std::sqrt(R_ * (yield_overlap_ + u * spread(u)));
+  }
+
+  // Loading would be stiffer than 2 E a*. At u = 0 the two are equal.
+  bool locks(double u) const {
+    if (!(spent_ * u > kShallow))
+      return false;
+    if (spent_ * u >= 1.0)
+      return true;
+    const double g = spread(u);
+    const double stiffness = g * (slope_ * (1.5 * g - 0.5) + growth_ * u * (1.5 * g + 0.5));
+    return stiffness > 2.0 * E_ * radius_at(yield_overlap_ + u);
+  }
+
+  // d*
+  double yielded(double overlap, double largest) const {
+    const double d = overlap >= largest ? overlap : largest;
+    return locks(d - yield_overlap_) ? locking_overlap() : d;
+  }
+
+  // With w = u spent, A w + B w^2 = 1 - w^(3/2): the left is convex and the right falls, so that
+  // Newton's steps from w = 1 fall to the root.
+  double flattened_under(double force) const {
+    const double lock = locking_overlap(), at_lock = loading_force(lock);
+    if (force > at_lock)
+      return lock + elastic_overlap(lock) * (std::pow(force / at_lock, 2.0 / 3.0) - 1.0);
+    const double beyond = force - 2.0 / 3.0 * slope_ * yield_overlap_;
+    const double A = slope_ / (spent_ * beyond), B = growth_ / (spent_ * spent_ * beyond);
+    double w = 1.0, before = 2.0;
+    while (w < before) {
+      before = w;
+      const double root = std::sqrt(w);
+      w -= (w * (A + B * w + root) - 1.0) / (A + 2.0 * B * w + 1.5 * root);
+    }
+    return yield_overlap_ + before / spent_;
+  }
+
+  // Integral of g u (slope + growth u). With s^2 = w, 2 s^3/(1 - s^3) and 2 s^5/(1 - s^3) over s.
+  double work_of(double u) const {
+    const double s = std::sqrt(spent_ * u), cube = s * s * s, root3 = std::sqrt(3.0);
+    const double turn = std::atan(root3 * s / (2.0 + s)); // atan((2s+1)/root3) - atan(1/root3)
+    const double perfect =
+        2.0 * (turn / root3 + (std::log1p(s + s * s) - 2.0 * std::log1p(-s)) / 6.0 - s);
+    const double hardened = -2.0 / 3.0 * (cube + std::log1p(-cube));
+    return (slope_ * perfect + growth_ / spent_ * hardened) / (spent_ * spent_);
+  }
 
   double still_elastic(double overlap, double largest) const { // x of the head comment
     return std::fmax(0.0, 1.0 - (largest - overlap) / elastic_overlap(largest));

@@ -130,7 +130,11 @@ inline Effect cbd_plasticity() {
                 {at + "beyond_cohesion", "cbd_beyond_cohesion", "0", 0, 1, "fraction",
                  "part of the pressure of cohesion, 2 c_CED, that the limit leaves out; 0: the "
                  "limit is of the whole contact pressure; 1: of what a contact carries beyond "
-                 "cohesion, as an indenter measures it"}};
+                 "cohesion, as an indenter measures it"},
+                {at + "flattening", "cbd_flattening", "1", 0, 1, "fraction",
+                 "depth in a wall at which a sphere would be a disc without thickness, its radius "
+                 "divided by this; 1: as its volume demands; 0: its contact widens as a shallow "
+                 "one's, and it may sink through"}};
   e.parameter = strength(e.settings[0], 0.55, 3, Spread::LogUniform, AmplitudeScale::Reciprocal, 0);
   e.contact = {&kPlasticContact, all_of_cbd()};
   e.moves = "lower pressure and less springback where CBD carries load; because of the cohesion "

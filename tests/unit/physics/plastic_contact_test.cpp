@@ -140,7 +140,7 @@ TEST(PlasticContact, HardeningRaisesThePressureOfWhatHasYielded) {
 
 // Requirement: hardening 0 is the perfectly plastic law to the bit.
 TEST(PlasticContact, NoHardeningChangesNoBit) {
-  const double values[] = {p_y, 0.0, 0.0};
+  const double values[] = {p_y, 0.0, 0.0, 0.0};
   const PlasticContact none({E, R, R, 1e5}, values);
   for (double times : {0.5, 3.0, 40.0}) {
     const double d = times * contact.yield_overlap();
@@ -157,7 +157,7 @@ TEST(PlasticContact, NoHardeningChangesNoBit) {
 TEST(PlasticContact, TheLimitMayBeBeyondCohesion) {
   constexpr double ced = 1e5, soft = 5e4; // p_y below 2 CED
   for (double part : {0.5, 1.0}) {
-    const double values[] = {soft + (1.0 - part) * 2.0 * ced, 0.0, part};
+    const double values[] = {soft + (1.0 - part) * 2.0 * ced, 0.0, part, 0.0};
     const PlasticContact law({E, R, R, ced}, values);
     const auto carried = [&](double d) {
       return law.loading_force(d) - sjkr_force(ced, 4 * R - d, 2 * R, 2 * R);
@@ -194,4 +194,112 @@ TEST(PlasticContact, WorkOfHardeningIsStoredOrTaken) {
            hard.loading_force(y + (k + 2) * h));
   EXPECT_NEAR((hard.elastic_energy(largest, largest) + hard.plastic_work(largest)) / in, 1.0,
               1e-13);
+}
+
+// Requirement: at a wall the area pi R u that has yielded is 1/(1 - (u/R_y)^(3/2)) times as large,
+// carries the same pressure, and is the area of the contact. 8 ulp.
+TEST(PlasticContact, FlatteningWidensTheAreaThatHasYielded) {
+  constexpr double h = 1e7;
+  const double values[] = {p_y, h, 0.0, 1.0};
+  const PlasticContact flat({E, R, R, 0.0}, values);
+  const double y = flat.yield_overlap(), F_y = hertz_force(E, R, y);
+  EXPECT_EQ(flat.force(0.9 * y, 0.0), contact.force(0.9 * y, 0.0));
+  for (double part : {0.03, 0.1, 0.5}) {
+    const double d = y + part * (R - y), u = d - y, g = 1.0 / (1.0 - std::pow(part, 1.5));
+    EXPECT_NEAR(flat.force(d, 0.0) / (F_y + kPi * R * g * u * (p_y + h * u / R)), 1.0, 2e-15);
+    EXPECT_NEAR(flat.contact_radius(d, d) / std::sqrt(R * (y + g * u)), 1.0, 2e-15);
+    EXPECT_EQ(flat.stiffness_radius(0.5 * d, d), flat.contact_radius(d, d));
+    EXPECT_NEAR(flat.overlap_under(flat.force(d, 0.0)) / d, 1.0, 4e-15);
+    EXPECT_NEAR(flat.radius_under(flat.force(d, 0.0)) / flat.contact_radius(d, d), 1.0, 4e-14);
+  }
+}
+
+// Requirement: pressed from both sides, a soft sphere keeps its volume: in the end it is a disc of
+// thickness 2 (R - u) and area pi a^2. With e = 1 - u/R, e/(1 - (1 - e)^1.5) = 2/3 (1 + e/4 + ...),
+// so that pi a^2 2 (R - u) is V (1 - 3 e/4 + ...).
+TEST(PlasticContact, AFlattenedSphereKeepsItsVolume) {
+  const PlasticContact flat(E, R, 1e-4 * p_y, 0.0, 1.0); // d_y/R below 1e-10
+  for (double e : {1e-1, 1e-2}) {
+    const double d = (1.0 - e) * R, a = flat.contact_radius(d, d);
+    ASSERT_LT(d, flat.locking_overlap());
+    EXPECT_NEAR(kPi * a * a * 2.0 * (R - d) / (4.0 / 3.0 * kPi * R * R * R), 1.0 - 0.75 * e, e * e);
+  }
+}
+
+// Requirement: between two spheres, and with flattening 0, all is as without it, to the bit; a part
+// f of it is all of it at the depth f u.
+TEST(PlasticContact, FlatteningIsForWalls) {
+  const double whole[] = {p_y, 0.0, 0.0, 1.0}, none[] = {p_y, 0.0, 0.0, 0.0};
+  for (double d : {0.1 * R, 0.5 * R, 1.5 * R})
+    for (const PlasticContact &law : {PlasticContact({E, R, 2 * R, 0.0}, whole),
+                                      PlasticContact({E, R, R, 0.0}, none)}) {
+      EXPECT_EQ(law.force(d, 0.0), contact.force(d, 0.0));
+      EXPECT_EQ(law.force(0.9 * d, d), contact.force(0.9 * d, d));
+      EXPECT_EQ(law.plastic_work(d), contact.plastic_work(d));
+    }
+  const PlasticContact half(E, R, p_y, 0.0, 0.5), full(E, R, p_y, 0.0, 1.0);
+  const auto widened = [&](const PlasticContact &law, double u) {
+    const double y = law.yield_overlap();
+    return (law.force(y + u, 0.0) - law.force(y, 0.0)) / (kPi * p_y * R * u);
+  };
+  EXPECT_NEAR(widened(half, 0.6 * R) / widened(full, 0.3 * R), 1.0, 1e-14);
+}
+
+// Requirement: a contact never loads more stiffly than it unloads, 2 E a*. Where flattening would
+// make it do so it stops yielding: force, slope and energy go on as on the way back, up to any
+// depth, and back on the same way. Slopes over 1e-6 R: 1e-5.
+TEST(PlasticContact, AFlattenedContactLocks) {
+  for (double p : {1e6, 5e6, 2e7, 5e7})
+    for (double h : {0.0, 1e7}) {
+      const PlasticContact flat(E, R, p, h, 1.0);
+      const double lock = flat.locking_overlap(), step = 1e-6 * R, F = flat.force(lock, 0.0);
+      const auto slope = [&](double d) {
+        return (flat.force(d + step, 0.0) - flat.force(d, 0.0)) / step;
+      };
+      ASSERT_GT(lock, flat.yield_overlap());
+      ASSERT_LT(lock, R);
+      const double stiffness = 2.0 * E * flat.contact_radius(lock, lock);
+      EXPECT_NEAR(slope(lock - 2 * step) / stiffness, 1.0, 1e-4) << p;
+      EXPECT_NEAR(slope(lock + step) / stiffness, 1.0, 1e-5) << p;
+      for (double part : {0.02, 0.5, 0.95}) {
+        const double d = flat.yield_overlap() + part * (lock - flat.yield_overlap());
+        EXPECT_LT(slope(d), 2.0 * E * flat.contact_radius(d, d)) << p << " " << part;
+      }
+      double memory = 0.0;
+      const double deep = 1.2 * R;
+      EXPECT_GT(flat.advance(0.0, deep, 1.0, memory), 0.0);
+      EXPECT_EQ(memory, lock);
+      EXPECT_EQ(flat.advance(0.0, 1.1 * deep, 1.0, memory), 0.0);
+      const double x = 1.0 + (deep - lock) / flat.elastic_overlap(lock);
+      EXPECT_NEAR(flat.force(deep, memory) / (F * std::pow(x, 1.5)), 1.0, 1e-14);
+      EXPECT_NEAR(flat.overlap_under(flat.force(deep, memory)) / deep, 1.0, 1e-14);
+      EXPECT_NEAR(flat.stiffness_radius(deep, memory) / flat.contact_radius(deep, memory), 1.0,
+                  1e-15);
+      EXPECT_NEAR(flat.elastic_energy(deep, memory) /
+                      (flat.elastic_energy(lock, lock) * std::pow(x, 2.5)),
+                  1.0, 1e-14);
+      EXPECT_EQ(flat.plastic_work(deep), flat.plastic_work(lock));
+    }
+}
+
+// Requirement: with flattening too the work of loading is stored or taken, and what is taken never
+// falls. Simpson in s = sqrt(u), in which force ds is smooth: 1e-9.
+TEST(PlasticContact, WorkOfFlatteningIsStoredOrTaken) {
+  for (double h : {0.0, 1e7}) {
+    const PlasticContact flat(E, R, p_y, h, 1.0);
+    const double y = flat.yield_overlap();
+    double before = 0.0;
+    for (double part : {0.01, 0.3, 0.9, 1.0}) {
+      const double end = std::sqrt(part * (flat.locking_overlap() - y)), step = end / 4000;
+      const auto f = [&](double s) { return 2.0 * s * flat.loading_force(y + s * s); };
+      double in = f(0.0) + f(end);
+      for (int k = 1; k < 4000; ++k)
+        in += f(k * step) * (k % 2 ? 4 : 2);
+      in = in * step / 3 + hertz_energy(E, R, y);
+      const double d = y + end * end;
+      EXPECT_NEAR((flat.elastic_energy(d, d) + flat.plastic_work(d)) / in, 1.0, 1e-9);
+      EXPECT_GT(flat.plastic_work(d), before);
+      before = flat.plastic_work(d);
+    }
+  }
 }

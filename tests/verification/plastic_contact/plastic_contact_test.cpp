@@ -29,8 +29,8 @@ struct Errors {
 // In, halfway out, in deeper, all with the law beside it. `ced` [kPa]: of spheres whose limit is
 // beyond cohesion.
 Errors pressed(double touch, double R_eff, Settings settings, double hardening = 0.0,
-               double ced = 0.0) {
-  const PlasticContact law(E_eff, R_eff, p_y + 2.0 * ced, hardening);
+               double ced = 0.0, double flattening = 0.0) {
+  const PlasticContact law(E_eff, R_eff, p_y + 2.0 * ced, hardening, flattening);
   settings.insert({{"z0", number(touch)}, {"down", "1000"}, {"up", "200"}, {"again", "500"}});
   const CaseRun run("plastic_contact/in.press", settings);
   EXPECT_TRUE(run.finished()) << run.why();
@@ -72,6 +72,19 @@ TEST(VerificationPlasticContact, SphereAndWallFollowTheLaw) {
   Settings settings = elastic_otherwise();
   settings["wall"] = "1";
   expect_small("wall", pressed(R, R, settings));
+}
+
+// At a wall the area widens as the sphere's volume demands; between spheres it does not.
+TEST(VerificationPlasticContact, ASphereFlattensAtAWall) {
+  Settings settings = elastic_otherwise();
+  settings.insert({{"flattening", "1"}, {"down", "65000"}}); // 0.65 um, 0.82 of the radius
+  settings["wall"] = "1";
+  expect_small("flattened at a wall", pressed(R, R, settings, 0.0, 0.0, 1.0));
+  settings.insert({{"hardening", "1e7"}});
+  expect_small("the same, hardening", pressed(R, R, settings, 1e7, 0.0, 1.0));
+  settings["wall"] = "0";
+  settings["down"] = "10000";
+  expect_small("spheres", pressed(2 * R, effective_radius(R, R), settings, 1e7));
 }
 
 // Deep overlaps: spheres go on, one that is nearly through a wall stops the run.

@@ -251,6 +251,66 @@ TEST(VerificationSlip, SameBitsOnTwoRanksAndAfterARestart) {
   EXPECT_EQ(CaseRun("slip/in.slip", s, 2, files).text("final.txt"), state);
 }
 
+// A body of three primaries in a row around `middle`, and one of another body above the one in the
+// middle: 0.05 um above where surfaces of that inset meet.
+Files row_and_one(double middle, double inset) {
+  std::vector<BodySphere> all;
+  for (const double x : {0.0, kSpacing, -kSpacing})
+    all.push_back({{middle + x, 0, 0}, R, 1});
+  all.push_back({{middle, 0, 2.0 * (R - inset) + 0.05}, R, 2});
+  return files_of(all, {-6, -6, -6}, {6, 6, 6});
+}
+
+// With one of its two bonds broken the primary has lost half of what can fade. What has come in
+// contact before keeps its overlap; on the way up the surface follows as far as it may.
+TEST(VerificationSlip, AnInsetFadesWithTheBonds) {
+  constexpr double inset = 0.1;
+  const double E = effective_modulus(2e8, 0.3, 2e8, 0.3), R_eff = effective_radius(R, R);
+  for (const double fading : {0.0, 0.5, 1.0})
+    for (const char *fused : {"on", "off"}) {
+      Settings s = settings(1.0);
+      s.insert({{"inset", number(inset)}, {"fading", number(fading)}, {"fused", fused}});
+      s["dt"] = "1e-4";
+      s["restitution"] = "1";
+      const CaseRun run("slip/in.fade", s, 1, row_and_one(0.0, inset));
+      ASSERT_TRUE(run.finished()) << run.why();
+      double meeting = 2.0 * (R - inset), last = 0.0;
+      const double later = meeting + 0.5 * fading * inset;
+      for (const Row &row : run.rows("curve.csv")) {
+        const double r = row.at("height");
+        ASSERT_EQ(row.at("intact"), row.at("step") > 1000 ? 1 : 2) << row.at("step");
+        if (row.at("step") > 1000)
+          meeting = std::fmax(meeting, std::fmin(later, r));
+        last = hertz_force(E, R_eff, meeting - r);
+        EXPECT_NEAR(row.at("force"), last, 1e-9 * hertz_force(E, R_eff, 0.1)) << row.at("step");
+      }
+      EXPECT_EQ(meeting, later);
+      EXPECT_NEAR(last, hertz_force(E, R_eff, 0.05 + 0.5 * fading * inset), 1e-6 * last);
+    }
+}
+
+TEST(VerificationSlip, AFadedInsetIsTheSameOnTwoRanksAndAfterARestart) {
+  Settings s = settings(1.0);
+  s.insert({{"inset", "0.1"}, {"fading", "1"}});
+  s["dt"] = "1e-4";
+  for (const double middle : {-0.6, 0.6}) { // the border cuts the broken bond, or the intact one
+    Files files = row_and_one(middle, 0.1);
+    s["from"] = "0";
+    s["px"] = "1";
+    const CaseRun one("slip/in.fade", s, 1, files);
+    ASSERT_TRUE(one.finished()) << one.why();
+    s["px"] = "2";
+    const CaseRun two("slip/in.fade", s, 2, files);
+    EXPECT_EQ(two.text("curve.csv"), one.text("curve.csv")) << two.why();
+    s["from"] = "1";
+    files["half.restart"] = one.text("half.restart");
+    files["breaks.csv"] = one.text("breaks.csv");
+    const CaseRun later("slip/in.fade", s, 2, files);
+    ASSERT_TRUE(later.finished()) << later.why();
+    EXPECT_EQ(later.rows("curve.csv").back(), one.rows("curve.csv").back());
+  }
+}
+
 TEST(VerificationSlip, ARestartWithAnotherDiameterStops) {
   Settings s = settings(kLattice);
   s["half"] = s["rest"] = "100";
@@ -270,6 +330,22 @@ TEST(VerificationSlip, ARestartWithAnotherDiameterStops) {
   s["meet"] = number(kLattice);
   s["inset"] = "0.1";
   EXPECT_NE(CaseRun("slip/in.slip", s, 1, files).why().find("surface_inset is 0.1, and"),
+            std::string::npos);
+}
+
+TEST(VerificationSlip, AFadingStaysAsItWasAndIsAFraction) {
+  Settings s = settings(1.0);
+  s.insert({{"inset", "0.1"}, {"fading", "1"}});
+  s["dt"] = "1e-4";
+  Files files = row_and_one(0.0, 0.1);
+  const CaseRun one("slip/in.fade", s, 1, files);
+  files["half.restart"] = one.text("half.restart");
+  s["from"] = "1";
+  s["fading"] = "0.5";
+  EXPECT_NE(CaseRun("slip/in.fade", s, 1, files).why().find("inset_fading is 0.5, and"),
+            std::string::npos);
+  s["fading"] = "1.5";
+  EXPECT_NE(CaseRun("slip/in.fade", s, 1, files).why().find("'inset_fading' is '1.5'; it must be"),
             std::string::npos);
 }
 
