@@ -32,8 +32,8 @@ double FixBondBpm::positive(const char *keyword, const char *text, bool zero_all
 double FixBondBpm::fraction(const char *keyword, const char *text) {
   const double value = positive(keyword, text, true);
   if (value > 1.0) {
-    const std::string message = std::string("'") + keyword + "' is '" + text +
-                                "'; it must be a number between 0 and 1";
+    const std::string message =
+        std::string("'") + keyword + "' is '" + text + "'; it must be a number between 0 and 1";
     error->fix_error(FLERR, this, message.c_str());
   }
   return value;

@@ -231,8 +231,8 @@ TEST(PlasticContact, AFlattenedSphereKeepsItsVolume) {
 TEST(PlasticContact, FlatteningIsForWalls) {
   const double whole[] = {p_y, 0.0, 0.0, 1.0}, none[] = {p_y, 0.0, 0.0, 0.0};
   for (double d : {0.1 * R, 0.5 * R, 1.5 * R})
-    for (const PlasticContact &law : {PlasticContact({E, R, 2 * R, 0.0}, whole),
-                                      PlasticContact({E, R, R, 0.0}, none)}) {
+    for (const PlasticContact &law :
+         {PlasticContact({E, R, 2 * R, 0.0}, whole), PlasticContact({E, R, R, 0.0}, none)}) {
       EXPECT_EQ(law.force(d, 0.0), contact.force(d, 0.0));
       EXPECT_EQ(law.force(0.9 * d, d), contact.force(0.9 * d, d));
       EXPECT_EQ(law.plastic_work(d), contact.plastic_work(d));
