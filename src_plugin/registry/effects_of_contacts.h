@@ -132,9 +132,8 @@ inline Effect cbd_plasticity() {
                  "limit is of the whole contact pressure; 1: of what a contact carries beyond "
                  "cohesion, as an indenter measures it"},
                 {at + "flattening", "cbd_flattening", "1", 0, 1, "fraction",
-                 "depth in a wall at which a sphere would be a disc without thickness, its radius "
-                 "divided by this; 1: as its volume demands; 0: its contact widens as a shallow "
-                 "one's, and it may sink through"}};
+                 "how a sphere's contact with a wall widens as it gets deep; 1: as the sphere's "
+                 "volume demands; 0: no more than a shallow one's, so that it may sink through"}};
   e.parameter = strength(e.settings[0], 0.55, 3, Spread::LogUniform, AmplitudeScale::Reciprocal, 0);
   e.contact = {&kPlasticContact, all_of_cbd()};
   e.moves = "lower pressure and less springback where CBD carries load; because of the cohesion "
