@@ -194,7 +194,7 @@ private:
   bigint initial_;
   bigint by_mode_[5];
   double energy_lost_;
-  std::vector<double> inset_; // of every sphere, and of ghosts; empty without insets
+  std::vector<double> inset_; // of spheres and ghosts [um], found when neighbours are listed
   bigint bridges_made_[calendem::kBridgeKinds], bridges_broken_[calendem::kBridgeKinds];
   double bridge_energy_lost_;
   /// A setting that a restart has to repeat.
