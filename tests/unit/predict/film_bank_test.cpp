@@ -272,6 +272,38 @@ TEST(FilmBank, TooFewPressuresAreRefused) {
 
 // Runs on the full cell that are 3 points denser shift every film of its loading by that, and none of the
 // bank's own.
+// A small pressure leaves hardly a row of release on the full cell, where the modulus could be read.
+TEST(FilmBank, TheFullCellsModulusMayLackASmallPressure) {
+  BankTable table = made_coatings();
+  table.spec.full_cell.points = 3;
+  const double first = table.spec.pressures[0], last = table.spec.pressures.back();
+  for (const BankPoint &point : full_cell_points(table.spec))
+    for (const double target : table.spec.pressures) {
+      BankPoint of_full = point;
+      of_full.effect.clear();
+      SimulatedRun run = made_coating(of_full, target);
+      run.thickness_at_max *= 1.1; // and the modulus
+      if (target == first)
+        run.release_pressure.clear();
+      table.rows.push_back({point, run});
+    }
+  Film film = made_film("x", 47.97, 2.0);
+  film.loading = 17.46;
+  const FilmBank with(table);
+  const auto moved = [&](std::size_t pressure) {
+    const auto of = [&](const FilmBank &bank) {
+      return bank.at_pressures(FilmNumber::LogModulus, film, kMiddle)[pressure].mean;
+    };
+    return of(with) - of(made_film_bank());
+  };
+  EXPECT_NEAR(moved(1), std::log(1.1), 0.02);
+  EXPECT_NEAR(moved(0), moved(1), 1e-12);
+  for (BankRow &row : table.rows)
+    if (row.point.effect == kFullCell && row.run.target == last)
+      row.run.release_pressure.clear();
+  EXPECT_THROW(FilmBank{table}, Failure); // no pressure follows
+}
+
 TEST(FilmBank, TheFullCellShiftsFilmsOfItsLoading) {
   BankTable table = made_coatings();
   table.spec.full_cell.points = 3;

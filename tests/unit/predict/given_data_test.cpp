@@ -96,6 +96,32 @@ TEST(LeftOut, IntervalsHoldWhatTheyPromise) {
   EXPECT_GE(inside, 31);
 }
 
+// A reading that is no porosity of the film is predicted as well; no rule of thumb has it.
+TEST(LeftOut, HoldsEveryReading) {
+  Random random(4, 1);
+  Calibration c;
+  c.error = {0.0, 0.001, 0.02, 0.1};
+  measure({}, made_film("a", 48.0, 2.0), {60.0}, 0.003, random, c);
+  measure({}, made_film("b", 43.0, 2.5), {120.0}, 0.003, random, c);
+  Datum cracked = c.data.back();
+  cracked.number = FilmNumber::Cracked;
+  cracked.measured = 0.3;
+  cracked.sd = 0.05;
+  c.data.push_back(cracked);
+  CalibrationSettings settings;
+  settings.samples = 256;
+  settings.draws = 100;
+  const auto rows = left_out(made_film_bank(), c, settings);
+  ASSERT_EQ(rows.size(), 3u);
+  for (const LeftOut &row : rows) {
+    const bool porosity = row.number == FilmNumber::PorosityAfter;
+    EXPECT_EQ(row.rules.size(), porosity ? 2u : 0u);
+    EXPECT_EQ(row.measured == 0.3, !porosity);
+  }
+  // Its own error and that of the model, 0.1, are the least that it may be off by.
+  EXPECT_GT(rows.back().predicted.high90 - rows.back().predicted.low90, 2.0 * 1.6 * 0.11);
+}
+
 // A film of a material that was not measured, predicted from two that were: materials are as alike as the model takes them
 // to be, from not at all to fully. Of 24 values 21.6 are expected inside; 17 is three standard deviations below.
 TEST(LeftOut, IntervalsHoldForAMaterialThatWasNotMeasured) {

@@ -53,8 +53,7 @@ TEST(Lessons, AreThoseOfACalibrationWithoutTheDatum) {
     s.draws = 400;
     calibrate(made_film_bank(), s, without);
     const Datum &d = all.data[k];
-    const Band expected =
-        porosity_band(made_film_bank(), without, all.films[0], d.pressure, d.pressure_sd, d.sd);
+    const Band expected = band_of_reading(made_film_bank(), without, all.films[0], d);
     const double width = expected.high90 - expected.low90;
     EXPECT_NEAR(lessons[k].without.median, expected.median, 0.15 * width);
     EXPECT_NEAR(lessons[k].without.high90 - lessons[k].without.low90, width, 0.3 * width);

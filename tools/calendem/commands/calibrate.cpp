@@ -82,16 +82,24 @@ void say_effects(const FilmBank &bank, const Calibration &c) {
   }
 }
 
+std::string in_words(const LeftOut &r) {
+  return fmt::format(
+      "  {:<36} {:4.0f} MPa  measured {:.1f}, predicted {:.1f} (90 %: {:.1f} to {:.1f})", r.film,
+      r.pressure, kPercent * r.measured, kPercent * r.predicted.median,
+      kPercent * r.predicted.low90, kPercent * r.predicted.high90);
+}
+
 void say(const FilmBank &bank, const Calibration &c, const std::vector<LeftOut> &rows) {
   say_effects(bank, c);
   if (!rows.empty())
     fmt::print("each film left out in turn: porosity after release, %\n");
   for (const LeftOut &r : rows)
-    fmt::print("  {:<36} {:4.0f} MPa  measured {:.1f}, predicted {:.1f} (90 %: {:.1f} to {:.1f}), "
-               "Heckel {:.1f}, Meyer {:.1f}\n",
-               r.film, r.pressure, kPercent * r.measured, kPercent * r.predicted.median,
-               kPercent * r.predicted.low90, kPercent * r.predicted.high90,
-               kPercent * r.rules.at("Heckel"), kPercent * r.rules.at("Meyer"));
+    if (r.number == FilmNumber::PorosityAfter)
+      fmt::print("{}, Heckel {:.1f}, Meyer {:.1f}\n", in_words(r), kPercent * r.rules.at("Heckel"),
+                 kPercent * r.rules.at("Meyer"));
+  for (const LeftOut &r : rows)
+    if (r.number != FilmNumber::PorosityAfter)
+      fmt::print("{}, {}, %\n", in_words(r), reading_in_words(name_of(r.number)));
 }
 
 void run_calibrate(const CalibrateOptions &o) {

@@ -237,7 +237,8 @@ void add_design_verb(CLI::App &app) {
   verb->add_option("--tortuosity-below", o->tortuosity_below,
                    "tortuosity factor of the pores through the plane; default: any")
       ->check(finite_range(1.0, kMostTortuosity));
-  verb->add_option("--pressure", o->pressures, "MPa to choose from: a list or a range");
+  verb->add_option("--pressure", o->pressures,
+                   "MPa to choose from: a list or a range; default: the bank's");
   add_run_options(*verb, o->runs, o->study, "--confirm",
                   "so many simulations of each recipe at the pressure or gap proposed, each with "
                   "another draw of the material on another packing");

@@ -39,7 +39,7 @@ std::vector<double> values_of(const std::string &option, const std::string &text
     throw Failure(kBadInput,
                   fmt::format("{} is '{}'; a range is LOW:HIGH in {}.", option, text, unit));
   if (range)
-    out = spread_pressures(out[0], out[1], 25);
+    out = spread_pressures(out[0], out[1], kOfRange);
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
@@ -135,7 +135,10 @@ int material_of(const FilmOptions &o, const std::vector<std::string> &names) {
 } // namespace
 
 AskedFilms of_model(const FilmOptions &o) {
-  AskedFilms out = {read_model(o.model), 0, {}, pressures_of(o.pressures)};
+  AskedFilms out = {read_model(o.model), 0, {}, {}};
+  const std::vector<double> &bank = out.model.bank.spec().pressures;
+  out.pressures = o.pressures.empty() ? spread_pressures(bank.front(), bank.back(), kOfRange)
+                                      : pressures_of(o.pressures);
   out.material = material_of(o, out.model.calibration.materials);
   return out;
 }
@@ -156,7 +159,8 @@ AskedFilms asked_to_run(const FilmOptions &o) {
   const char *name = gap ? "--gap" : "--pressure";
   if (!o.vary.empty())
     throw Failure(kBadInput, "--runs goes with recipes as they are: without --vary.");
-  if ((gap ? o.gaps : o.pressures).find(':') != std::string::npos)
+  const std::string &asked = gap ? o.gaps : o.pressures;
+  if (asked.empty() || asked.find(':') != std::string::npos)
     throw Failure(kBadInput, fmt::format("--runs needs values of {} one by one: each is so many "
                                          "simulations. Give {} {}.",
                                          name, name, gap ? "52,54" : "80,150"));

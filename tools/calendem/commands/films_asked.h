@@ -12,10 +12,12 @@
 
 namespace calendem {
 
+constexpr int kOfRange = 25; ///< values at equal ratios
+
 struct FilmOptions {
   std::string model, folder;
   std::vector<std::string> recipes, vary;
-  std::string pressures = "20:300", gaps, passes = "1", material;
+  std::string pressures, gaps, passes = "1", material; ///< no pressures: the range of the bank's
   double press_percent = 0.0;
   int runs = 0; ///< of each film's own at each pressure; 0: the bank's emulators
   StudyOptions study;
@@ -39,7 +41,7 @@ struct AskedFilms {
   std::vector<double> pressures;
 };
 
-/// "20,50,80" or "20:300", which is 25 values at equal ratios, ascending. Without a unit what is
+/// "20,50,80" or "20:300", which is kOfRange values, ascending. Without a unit what is
 /// wrong is said of whole numbers. Throws Failure(2).
 std::vector<double> values_of(const std::string &option, const std::string &text,
                               const std::string &unit);

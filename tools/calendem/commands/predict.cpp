@@ -131,7 +131,8 @@ void add_predict_verb(CLI::App &app) {
       app.add_subcommand("predict", "Predict porosity, springback and cracked particles of a film "
                                     "against pressure, with intervals");
   add_film_options(*verb, *o);
-  verb->add_option("--pressure", o->pressures, "MPa: 20,50,80 or a range 20:300 (default)");
+  verb->add_option("--pressure", o->pressures,
+                   "MPa: 20,50,80 or a range 20:300; default: the bank's range");
   add_run_options(
       *verb, o->runs, o->study, "--runs",
       "so many simulations of each recipe at each pressure or gap, each with another draw of "

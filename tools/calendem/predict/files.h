@@ -17,6 +17,8 @@ nlohmann::ordered_json to_json(const FilmBank &bank, const Calibration &calibrat
 
 /// In model.json.
 const char *name_of(FilmNumber number);
+/// A number that is read of films, by its name there.
+const char *reading_in_words(const std::string &name);
 
 /// Rows of "confirmed" of model.json.
 nlohmann::ordered_json to_json(const std::vector<Confirmed> &rows);

@@ -32,7 +32,8 @@ std::vector<double> off_of(const std::map<int, double> &changes, const std::set<
 
 } // namespace
 
-/// What runs on the full cell differ by from the emulators, for the film that they are of.
+/// What runs on the full cell differ by from the emulators, for the film that they are of. The
+/// modulus differs as at the next pressure where the release left too few rows to read it.
 void FilmBank::learn_full_cell(const BankTable &table) {
   const auto pressure_of = [&](const BankRow &row) {
     return std::find(spec_.pressures.begin(), spec_.pressures.end(), row.run.target);
@@ -72,13 +73,16 @@ void FilmBank::learn_full_cell(const BankTable &table) {
       continue;
     }
     for (std::size_t p = 0; p < changes.size(); ++p) {
-      if (few(changes[p]))
+      const auto known = number == int(FilmNumber::LogModulus)
+                             ? std::find_if_not(changes.begin() + long(p), changes.end(), few)
+                             : changes.begin() + long(p);
+      if (known == changes.end() || few(*known))
         throw Failure(kBadInput,
                       fmt::format("{}: {} of the runs on the full cell are usable at {:g} MPa; at "
                                   "least 2 are needed, or a bank without [full_cell].",
                                   spec_.file, changes[p].size(), spec_.pressures[p]));
-      full_cell_[std::size_t(number)].change.push_back(mean_of(changes[p]));
-      full_cell_[std::size_t(number)].off.push_back(off_of(changes[p], points));
+      full_cell_[std::size_t(number)].change.push_back(mean_of(*known));
+      full_cell_[std::size_t(number)].off.push_back(off_of(*known, points));
     }
   }
   full_loading_ = recipe.loading;

@@ -72,6 +72,7 @@ Json left_out_json(const std::vector<LeftOut> &rows) {
   for (const LeftOut &r : rows) {
     Json row = {{"film", r.film},
                 {"condition", r.condition},
+                {"number", name_of(r.number)},
                 {"pressure_MPa", r.pressure},
                 {"measured", r.measured},
                 {"median", r.predicted.median},

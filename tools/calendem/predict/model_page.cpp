@@ -33,30 +33,39 @@ json left_out_part(const Json &model) {
   json table = json::array();
   std::vector<double> off, heckel, meyer;
   int in50 = 0, in90 = 0;
+  json others = json::array();
   for (const Json &r : rows) {
     json row = percent_row(r, {"measured", "median", "low90", "high90"});
     const double measured = r["measured"];
     row["film"] = r["film"];
     row["pressure"] = shown(r["pressure_MPa"], "{:.0f}");
+    row["inside"] = measured >= r["low90"] && measured <= r["high90"] ? "yes" : "no";
+    if (r["rules"].empty()) {
+      row["number"] = reading_in_words(r["number"]);
+      others.push_back(row);
+      continue;
+    }
     row["heckel"] = fmt::format("{:.1f}", kPercent * r["rules"]["Heckel"].get<double>());
     row["meyer"] = fmt::format("{:.1f}", kPercent * r["rules"]["Meyer"].get<double>());
-    const bool inside = measured >= r["low90"] && measured <= r["high90"];
-    row["inside"] = inside ? "yes" : "no";
-    in90 += inside;
+    in90 += row["inside"] == "yes";
     in50 += measured >= r["low50"] && measured <= r["high50"];
     off.push_back(std::fabs(r["median"].get<double>() - measured));
     heckel.push_back(std::fabs(r["rules"]["Heckel"].get<double>() - measured));
     meyer.push_back(std::fabs(r["rules"]["Meyer"].get<double>() - measured));
     table.push_back(row);
   }
-  const auto median = [](std::vector<double> v) {
+  const auto median = [](std::vector<double> v) -> std::string {
     std::sort(v.begin(), v.end());
     const std::size_t n = v.size();
+    if (n == 0)
+      return "–";
     return fmt::format("{:.1f}", kPercent * 0.5 * (v[(n - 1) / 2] + v[n / 2]));
   };
   return {{"rows", table},
-          {"in90", fmt::format("{} of {}", in90, rows.size())},
-          {"in50", fmt::format("{} of {}", in50, rows.size())},
+          {"others", others},
+          {"any_others", !others.empty()},
+          {"in90", fmt::format("{} of {}", in90, table.size())},
+          {"in50", fmt::format("{} of {}", in50, table.size())},
           {"off", median(off)},
           {"heckel_off", median(heckel)},
           {"meyer_off", median(meyer)}};
@@ -165,9 +174,7 @@ json learnt_part(const Json &model) {
     const double shift = l["shift_sd"];
     rows.push_back({{"film", l["film"]},
                     {"condition", l["condition"]},
-                    {"number", porosity                   ? "porosity after release"
-                               : l["number"] == "cracked" ? "cracked particles"
-                                                          : "nanoporosity after release"},
+                    {"number", reading_in_words(l["number"])},
                     {"measured", value(l["measured"])},
                     {"without", fmt::format("{} ({}–{})", value(without["median"]),
                                             value(without["low90"]), value(without["high90"]))},

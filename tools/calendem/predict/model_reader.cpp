@@ -17,6 +17,12 @@ const char *name_of(FilmNumber number) {
   return kNames[int(number)];
 }
 
+const char *reading_in_words(const std::string &name) {
+  return name == name_of(FilmNumber::PorosityAfter) ? "porosity after release"
+         : name == name_of(FilmNumber::Cracked)     ? "cracked particles"
+                                                    : "nanoporosity after release";
+}
+
 namespace {
 
 FilmNumber number_of(const std::string &name) {

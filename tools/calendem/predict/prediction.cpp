@@ -130,11 +130,10 @@ PredictedFilm predicted(const FilmBank &bank, const Calibration &c, const Film &
   return out;
 }
 
-Band porosity_band(const FilmBank &bank, const Calibration &c, const Film &film, double pressure,
-                   double pressure_sd, double sd) {
-  auto draws = under_draws(bank, c, {film, FilmNumber::PorosityAfter, {pressure}}, pressure_sd);
-  for (std::vector<Guess> &d : draws)
-    d.front().variance += sd * sd;
+Band band_of_reading(const FilmBank &bank, const Calibration &c, const Film &film, const Datum &d) {
+  auto draws = under_draws(bank, c, {film, d.number, {d.pressure}}, d.pressure_sd);
+  for (std::vector<Guess> &of : draws)
+    of.front().variance += d.sd * d.sd;
   return bands_of(draws, 0.0, 1.0).front();
 }
 
@@ -289,6 +288,7 @@ std::vector<RuleOfThumb> rules_of_thumb(const std::vector<Pressed> &data) {
 std::vector<LeftOut> left_out(const FilmBank &bank, const Calibration &all,
                               const CalibrationSettings &settings) {
   std::vector<LeftOut> out;
+  const std::vector<RuleOfThumb> no_rules;
   for (int film = 0; film < int(all.films.size()) && all.films.size() > 1; ++film) {
     Calibration others = without(all, film);
     if (others.data.empty() || others.data.size() == all.data.size())
@@ -296,16 +296,13 @@ std::vector<LeftOut> left_out(const FilmBank &bank, const Calibration &all,
     calibrate(bank, settings, others);
     const auto rules = rules_of_thumb(pressed_of(bank, all, film));
     for (const Datum &d : all.data) {
-      if (d.film != film || d.number != FilmNumber::PorosityAfter)
+      if (d.film != film)
         continue;
       const Film &f = all.films[std::size_t(film)];
-      LeftOut row = {f.name,
-                     d.condition,
-                     d.pressure,
-                     d.measured,
-                     porosity_band(bank, others, f, d.pressure, d.pressure_sd, d.sd),
+      LeftOut row = {f.name,     d.condition, d.number,
+                     d.pressure, d.measured,  band_of_reading(bank, others, f, d),
                      {}};
-      for (const RuleOfThumb &rule : rules)
+      for (const RuleOfThumb &rule : d.number == FilmNumber::PorosityAfter ? rules : no_rules)
         row.rules[rule.name] = rule.porosity(rule.constants, porosity_before(bank, f), d.pressure);
       out.push_back(row);
     }

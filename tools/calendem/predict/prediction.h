@@ -60,9 +60,9 @@ Guesses under_load_of(const Guesses &after, const Guesses &springback);
 PredictedFilm predicted(const FilmBank &bank, const Calibration &calibration, const Film &film,
                         const std::vector<double> &pressures, double pressure_sd);
 
-/// A measured porosity after release, with the errors of measurement and press.
-Band porosity_band(const FilmBank &bank, const Calibration &calibration, const Film &film,
-                   double pressure, double pressure_sd, double sd);
+/// A reading of a film, with the errors of measurement and press.
+Band band_of_reading(const FilmBank &bank, const Calibration &calibration, const Film &film,
+                     const Datum &reading);
 
 /// What a film shall be after calendering.
 struct Target {
@@ -119,12 +119,13 @@ std::vector<RuleOfThumb> rules_of_thumb(const std::vector<Pressed> &data);
 
 struct LeftOut {
   std::string film, condition;
-  double pressure = 0.0, measured = 0.0; ///< MPa; porosity 0-1
+  FilmNumber number = FilmNumber::PorosityAfter;
+  double pressure = 0.0, measured = 0.0; ///< MPa; 0-1
   Band predicted;                        ///< with measurement's and press's errors
-  std::map<std::string, double> rules;   ///< porosity by the name of the rule of thumb
+  std::map<std::string, double> rules;   ///< of a porosity, by the name of the rule of thumb
 };
 
-/// Every porosity after calendering, predicted from the other films. Empty with one film.
+/// Every reading of a film, predicted from the other films. Empty with one film.
 std::vector<LeftOut> left_out(const FilmBank &bank, const Calibration &calibration,
                               const CalibrationSettings &settings);
 
