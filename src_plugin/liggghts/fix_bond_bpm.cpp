@@ -24,6 +24,7 @@ using namespace FixConst;
 namespace {
 const int kEventSize = sizeof(BreakEvent) / sizeof(double);
 const int kGatherEvery = 100; // steps
+const char *const kHistoriesId = "contacthistory_bpm";
 } // namespace
 
 FixBondBpm::FixBondBpm(LAMMPS *lmp, int narg, char **arg)
@@ -54,6 +55,16 @@ FixBondBpm::~FixBondBpm() {
   atom->delete_callback(id, 1);
   memory->destroy(body_);
   memory->destroy(broken_);
+}
+
+void FixBondBpm::post_create() {
+  const char *words[] = {kHistoriesId, "all", "contacthistory/bpm"};
+  modify->add_fix(3, const_cast<char **>(words));
+}
+
+void FixBondBpm::pre_delete(bool unfix) {
+  if (unfix)
+    modify->delete_fix(kHistoriesId);
 }
 
 int FixBondBpm::setmask() {
@@ -139,17 +150,11 @@ void FixBondBpm::put_on_grid() {
   }
 }
 
-void FixBondBpm::setup_pre_exchange() {
-  put_on_grid();
-  pre_exchange();
-}
+void FixBondBpm::setup_pre_exchange() { put_on_grid(); }
 
-// New lists follow. The host has saved the old ones before it calls any other fix.
-void FixBondBpm::pre_exchange() {
-  if (!loop_ || !loop_->holds_histories())
-    return;
-  loop_->release_histories();
-  static_cast<PairGran *>(force->pair_match("gran", 1))->get_fix_history()->pre_exchange();
+void FixBondBpm::release_histories() {
+  if (loop_)
+    loop_->release_histories();
 }
 
 void FixBondBpm::store_histories() {
@@ -311,6 +316,16 @@ void FixBondBpm::post_force(int) {
 void FixBondBpm::post_run() {
   stop_if_overflowed();
   gather_breaks();
+  save_histories();
+}
+
+// Commands between runs may look at contacts, and atoms that they make take the places of ghosts: the host
+// saves its lists only when the next run begins.
+void FixBondBpm::save_histories() {
+  release_histories();
+  PairGran *pair = static_cast<PairGran *>(force->pair_match("gran", 1));
+  if (pair && pair->get_fix_history())
+    pair->get_fix_history()->setup_pre_exchange();
 }
 
 bigint FixBondBpm::broken() const { return by_mode_[1] + by_mode_[2] + by_mode_[3] + by_mode_[4]; }

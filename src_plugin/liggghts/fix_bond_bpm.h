@@ -81,10 +81,11 @@ public:
   FixBondBpm(class LAMMPS *, int, char **);
   ~FixBondBpm();
   int setmask();
+  void post_create();
+  void pre_delete(bool);
   int modify_param(int narg, char **arg);
   void init();
   void setup_pre_exchange();
-  void pre_exchange();
   void setup_pre_force(int);
   void setup(int);
   void pre_force(int);
@@ -148,6 +149,8 @@ public:
   int friction_history_offset(int bond_offset);
   /// Who keeps values of histories from step to step, NULL for nobody.
   void set_loop(class BpmPairLoop *loop) { loop_ = loop; }
+  /// Leaves the histories to the host until the next step.
+  void release_histories();
 
   // Neighbours are listed, and histories kept, up to this multiple of the sum of radii. 1.1 is
   // ample for brittle bonds; 1.2 would list the lattice's diagonal neighbours.
@@ -256,6 +259,7 @@ private:
   bigint broken() const;
   template <class Visit> void for_each_neighbor(Visit visit);
   void store_histories();
+  void save_histories();
   void choose_grid();
   void put_on_grid();
   void check_acting(bool new_lists);
