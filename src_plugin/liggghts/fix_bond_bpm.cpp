@@ -100,6 +100,7 @@ int FixBondBpm::friction_history_offset(int bond_offset) {
 }
 
 void FixBondBpm::init() {
+  check_pages();
   choose_grid();
   energy_ = FixEnergyBpm::find(lmp);
   check_materials();
@@ -326,6 +327,20 @@ void FixBondBpm::save_histories() {
   PairGran *pair = static_cast<PairGran *>(force->pair_match("gran", 1));
   if (pair && pair->get_fix_history())
     pair->get_fix_history()->setup_pre_exchange();
+  saved_pages_ = {neighbor->oneatom, neighbor->pgsize};
+}
+
+// The host keeps what it has saved in pages of this size, and frees them when another size is asked for.
+void FixBondBpm::check_pages() {
+  const std::array<int, 2> now = {neighbor->oneatom, neighbor->pgsize};
+  char message[300];
+  snprintf(message, sizeof message,
+           "'neigh_modify one %d page %d' after a run with 'one %d page %d': LIGGGHTS would lose "
+           "the histories of "
+           "all contacts and bonds. Give it before the first run",
+           now[0], now[1], saved_pages_[0], saved_pages_[1]);
+  if (saved_pages_[1] != 0 && now != saved_pages_)
+    error->fix_error(FLERR, this, message);
 }
 
 bigint FixBondBpm::broken() const { return by_mode_[1] + by_mode_[2] + by_mode_[3] + by_mode_[4]; }

@@ -220,6 +220,7 @@ private:
   // when they had to
   bigint acting_, expected_, missing_;
   double spacing_[3]; // of the grid of positions, 0 along sides that are not periodic
+  std::array<int, 2> saved_pages_ = {}; // neigh_modify one, page at the end of the last run
 
   void parse(int narg, char **arg);
   int parse_keyword(int iarg, int narg, char **arg);
@@ -260,6 +261,7 @@ private:
   template <class Visit> void for_each_neighbor(Visit visit);
   void store_histories();
   void save_histories();
+  void check_pages();
   void choose_grid();
   void put_on_grid();
   void check_acting(bool new_lists);
