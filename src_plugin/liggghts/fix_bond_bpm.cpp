@@ -185,6 +185,17 @@ void FixBondBpm::pre_force(int) {
   });
 }
 
+// Pairs of a body that meet at a part of their radii do so at those of now.
+void FixBondBpm::radii_have_changed() {
+  if (settings_.contact_diameter == 1.0)
+    return;
+  for_each_neighbor([this](int i, int j, BondHistory &bond) {
+    const bool apart = bond.state() == kNeverBonded || bond.state() == kBrokenSeparated;
+    if (apart && body_[i] > 0 && body_[i] == body_[j])
+      bond.meet_at(meeting_distance(i, j));
+  });
+}
+
 // Surfaces that come out again do so up to each other: a contact never begins with a force.
 double FixBondBpm::not_into_contact(int i, int j, double before, double length) const {
   if (length > 0.0 || before >= length)

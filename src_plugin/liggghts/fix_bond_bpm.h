@@ -130,6 +130,8 @@ public:
   void create(int i, int j, double r, BondHistory &bond) const;
   /// The spheres of a broken pair have separated, or were bridged.
   void separate(int i, int j, BondHistory &bond) const;
+  /// Those of this rank and of ghosts.
+  void radii_have_changed();
   void bridge(int i, int j, double r, BondHistory &bond) const;
   /// On the collector: all that were made; one of this rank has broken.
   void bridges_made_on_wall(bigint n) {

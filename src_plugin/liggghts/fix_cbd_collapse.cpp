@@ -127,7 +127,7 @@ void FixCbdCollapse::init() {
 
 bool FixCbdCollapse::is_mine(int i) const { return i < atom->nlocal && atom->type[i] == type_; }
 
-// What presses, less what cohesion pulls.
+// What presses, less what cohesion pulls: of the contacts, not of bonds and bridges beside them.
 void FixCbdCollapse::add_pair_forces(std::vector<long long> &sum) const {
   const double *R = atom->radius;
   bonds_->for_each_touching_copy([&](int i, int j, double r, const BondHistory &bond) {
@@ -135,9 +135,11 @@ void FixCbdCollapse::add_pair_forces(std::vector<long long> &sum) const {
       return;
     const int ti = atom->type[i], tj = atom->type[j];
     const double *memory = pairs_have_effects_ ? bond.effect_memory() : NULL;
-    const double net =
-        effects_.force(EffectContact::of_spheres(ti, tj, R[i], R[j], R[i] + R[j] - r), memory) -
-        calendem::sjkr_force(cohesion_energy_density_[ti][tj], r, R[i], R[j]);
+    const calendem::ActingContact acting = bond.contact(r, R[i] + R[j]);
+    double net =
+        effects_.force(EffectContact::of_spheres(ti, tj, R[i], R[j], acting.overlap), memory);
+    if (acting.coheres)
+      net -= calendem::sjkr_force(cohesion_energy_density_[ti][tj], acting.distance, R[i], R[j]);
     for (int a : {i, j})
       if (is_mine(a))
         sum[a] += kForces.of(net);
@@ -210,6 +212,7 @@ void FixCbdCollapse::end_of_step() {
   const double before = energy_ ? energy_->stored_in_contacts() + rotational_energy() : 0.0;
   shrink(next);
   comm->forward_comm_fix(this);
+  bonds_->radii_have_changed();
   if (energy_)
     energy_->add_collapse(before - energy_->stored_in_contacts() - rotational_energy());
 }
