@@ -158,6 +158,8 @@ public:
 
   // for computes and dumps
   int body(int i) const { return body_[i]; }
+  /// Highest number of a body, whether its spheres are still there or not.
+  int bodies() const { return bodies_; }
   int broken_of(int i) const { return broken_[i]; }
   /// All so far; all ranks must call.
   const std::vector<BreakEvent> &breaks() {
@@ -190,6 +192,7 @@ private:
   std::vector<int> body_of_tag_;        // from the body map; empty after a restart
   std::map<int, double> body_diameter_; // of the sphere of the primaries' volume; likewise
   int *body_, *broken_;
+  int bodies_ = 0;
   int history_offset_;
   class BpmPairLoop *loop_ = nullptr;
   bool created_, creating_, log_ready_;

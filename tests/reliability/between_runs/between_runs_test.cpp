@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Requirements: README.md of this folder.
+#include <gtest/gtest.h>
+
+#include "spheres.h"
+
+using namespace calendem;
+
+namespace {
+
+constexpr double R = 0.795, kLength = 1.28;
+
+// A pair of body 1 that stays and one of body 7 that is torn apart in the first steps.
+Files two_pairs() {
+  return files_of({{{0, 0, 0}, R, 1},
+                   {{kLength, 0, 0}, R, 1},
+                   {{0, 4, 0}, R, 7, {-50, 0, 0}},
+                   {{kLength, 4, 0}, R, 7, {50, 0, 0}}},
+                  {-20, -6, -6}, {20, 10, 6});
+}
+
+Settings breakable() {
+  return {{"breakable", "yes"}, {"dt", "1e-4"}, {"steps", "20"},
+          {"every", "10"},      {"ced", "0"},   {"skin", "1"}};
+}
+
+const char *const kBodies = "compute bodies all bond/bpm/body\n"
+                            "variable intact equal c_bodies[1][1]\n"
+                            "variable broken equal c_bodies[7][2]\n"
+                            "fix bodies_out all print 10 \"${intact},${broken}\" file bodies.csv "
+                            "screen no title intact,broken\n";
+
+} // namespace
+
+// Rows of a body stay when its spheres are gone, through a restart too.
+TEST(BetweenRuns, SpheresOfTheLastBodyAreDeleted) {
+  Files files = two_pairs();
+  files["start.in"] += std::string(kBodies) +
+                       "run 20\ngroup torn id 3 4\ndelete_atoms group torn compress no\nrun 20\n"
+                       "write_restart half.restart\n";
+  const CaseRun run("in.body", breakable(), 1, files);
+  ASSERT_TRUE(run.finished()) << run.why();
+  Settings again = breakable();
+  again["restart"] = "1";
+  const CaseRun restarted("in.body", again, 1,
+                          {{"half.restart", run.text("half.restart")},
+                           {"bodies.map", run.text("bodies.map")},
+                           {"start.in", kBodies}});
+  ASSERT_TRUE(restarted.finished()) << restarted.why();
+  for (const CaseRun *each : {&run, &restarted}) {
+    EXPECT_EQ(each->rows("bodies.csv").back().at("intact"), 1.0);
+    EXPECT_EQ(each->rows("bodies.csv").back().at("broken"), 1.0);
+  }
+}
