@@ -89,6 +89,7 @@ int FixBondBpm::friction_history_offset(int bond_offset) {
 }
 
 void FixBondBpm::init() {
+  refuse_minimizer();
   choose_grid();
   energy_ = FixEnergyBpm::find(lmp);
   check_materials();
@@ -225,6 +226,8 @@ void FixBondBpm::find_insets() {
 }
 
 void FixBondBpm::setup(int) {
+  if (spheres_ < 0)
+    spheres_ = static_cast<bigint>(atom->natoms);
   if (!creating_)
     return;
   creating_ = false;
@@ -319,7 +322,10 @@ void FixBondBpm::post_force(int) {
   }
 }
 
+// What is looked for now and then is looked for at the end, if there was a step.
 void FixBondBpm::post_run() {
+  if (expected_ >= 0)
+    stop_if_wrong();
   stop_if_overflowed();
   gather_breaks();
 }

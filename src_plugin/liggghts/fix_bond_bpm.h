@@ -221,7 +221,8 @@ private:
   // intact bonds and bridges that this rank decides: acted in this step; are there; did not act
   // when they had to
   bigint acting_, expected_, missing_;
-  double spacing_[3]; // of the grid of positions, 0 along sides that are not periodic
+  bigint spheres_ = -1; // of all ranks, when all bonds acted last
+  double spacing_[3];   // of the grid of positions, 0 along sides that are not periodic
 
   void parse(int narg, char **arg);
   int parse_keyword(int iarg, int narg, char **arg);
@@ -272,7 +273,9 @@ private:
   double platen_pressure() const;
   void log_breaks(const std::vector<BreakEvent> &all);
   void stop_overstretched(double stretch);
-  void stop_lost(bigint acting, bigint intact);
+  void stop_lost(bigint acting, bigint intact, bigint spheres);
+  std::string why_lost(bigint spheres) const;
+  void refuse_minimizer();
 };
 
 } // namespace LAMMPS_NS

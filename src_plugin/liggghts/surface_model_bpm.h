@@ -45,6 +45,9 @@ public:
 
   void connectToProperties(PropertyRegistry &) {
     fix_ = FixBondBpm::find(lmp, "surface model bpm");
+    if (!static_cast<PairGran *>(force->pair_match("gran", 1))->contact_match("cohesion", "bpm"))
+      error->all(FLERR, "surface model bpm makes bonds whose forces 'cohesion bpm' computes: "
+                        "write 'cohesion bpm surface bpm' in pair_style gran");
     spring_ = fix_->friction_history_offset(offset_);
   }
 

@@ -10,6 +10,14 @@ namespace {
 
 constexpr double R = 0.795, kLength = 1.28;
 
+// Of the error that ended the run.
+bool says(const CaseRun &run, const std::string &words) {
+  const std::string log = run.why();
+  const size_t error = log.find("ERROR: ");
+  return !run.finished() && error != std::string::npos &&
+         log.find(words, error) != std::string::npos;
+}
+
 // A pair of body 1 that stays and one of body 7 that is torn apart in the first steps.
 Files two_pairs() {
   return files_of({{{0, 0, 0}, R, 1},
@@ -51,4 +59,17 @@ TEST(BetweenRuns, SpheresOfTheLastBodyAreDeleted) {
     EXPECT_EQ(each->rows("bodies.csv").back().at("intact"), 1.0);
     EXPECT_EQ(each->rows("bodies.csv").back().at("broken"), 1.0);
   }
+}
+
+TEST(BetweenRuns, MinimizeIsRefused) {
+  Files files = two_pairs();
+  files["start.in"] += "run 10\ncompute thermo_pe all pe\nmin_style cg\nminimize 0 0 50 50\n";
+  EXPECT_TRUE(says(CaseRun("in.body", breakable(), 1, files), "'minimize' does not know"));
+}
+
+TEST(BetweenRuns, BondsWithoutTheirForceAreRefused) {
+  Files files = two_pairs();
+  files["start.in"] += "pair_style gran model hertz tangential history surface bpm\n"
+                       "pair_coeff * *\n";
+  EXPECT_TRUE(says(CaseRun("in.body", breakable(), 1, files), "write 'cohesion bpm surface bpm'"));
 }
