@@ -8,6 +8,7 @@
 #include "fix_contact_history.h"
 #include "fix_elongation.h"
 #include "fix_energy_bpm.h"
+#include "fix_time_bpm.h"
 #include "memory.h"
 #include "modify.h"
 #include "mpi_liggghts.h"
@@ -87,6 +88,8 @@ int FixBondBpm::friction_history_offset(int bond_offset) {
         "friction history; the pair style stores other values too");
   return first;
 }
+
+void FixBondBpm::post_create() { time_ = FixTimeBpm::of(lmp); }
 
 void FixBondBpm::init() {
   refuse_minimizer();
@@ -267,7 +270,7 @@ void FixBondBpm::record_break(int i, int j, BondHistory bond, const calendem::Bo
   const bool i_is_low = atom->tag[i] < atom->tag[j], of_bridge = bond.state() == kBridge;
   const int low = i_is_low ? i : j, high = i_is_low ? j : i;
   const double *a = atom->x[low], *b = atom->x[high];
-  const BreakEvent e = {update->ntimestep * update->dt,
+  const BreakEvent e = {time_->now(),
                         static_cast<double>(atom->tag[low]),
                         static_cast<double>(atom->tag[high]),
                         of_bridge ? -1.0

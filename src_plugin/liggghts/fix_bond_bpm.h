@@ -82,6 +82,7 @@ public:
   ~FixBondBpm();
   int setmask();
   int modify_param(int narg, char **arg);
+  void post_create();
   void init();
   void setup_pre_exchange();
   void pre_exchange();
@@ -188,6 +189,7 @@ private:
   bool restarted_ = false;
   std::array<double, 5> earlier_ = {}; // what remembered() was in the run that goes on
   class FixEnergyBpm *energy_;         // NULL when no ledger is kept
+  class FixTimeBpm *time_ = nullptr;
   std::string bodies_file_, log_file_, platen_id_;
   std::vector<int> body_of_tag_;        // from the body map; empty after a restart
   std::map<int, double> body_diameter_; // of the sphere of the primaries' volume; likewise

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Requirements: README.md of this folder.
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "spheres.h"
@@ -38,6 +40,35 @@ const char *const kBodies = "compute bodies all bond/bpm/body\n"
                             "fix bodies_out all print 10 \"${intact},${broken}\" file bodies.csv "
                             "screen no title intact,broken\n";
 
+constexpr double kDwell = 0.05; // us
+
+// How long the platen stays, by the steps that it takes.
+struct Dwell {
+  double lasted = 0.0, passed = 0.0, clock = 0.0; ///< in the dwell; in all; what the plugin counts
+};
+
+Dwell dwell_of(const CaseRun &run, Dwell so_far = {}, double last_step = HUGE_VAL) {
+  EXPECT_TRUE(run.finished()) << run.why();
+  for (const Row &row : run.rows("dwell.csv")) {
+    if (row.at("step") > last_step)
+      break;
+    so_far.passed += row.at("dt");
+    so_far.lasted += row.at("stage") == 2.0 ? row.at("dt") : 0.0;
+    so_far.clock = row.at("clock");
+  }
+  return so_far;
+}
+
+// A sphere that the platen presses and holds; `meanwhile` is done in the dwell.
+CaseRun hold(const std::string &meanwhile, Settings settings = {}, const Files &more = {}) {
+  Files files = files_of({{{2.5, 2.5, R}, R, 1}}, {0, 0, -0.1}, {5, 5, 4});
+  files["meanwhile.in"] = meanwhile + "# goes on\n";
+  for (const auto &f : more)
+    files[f.first] = f.second;
+  settings.insert({{"friction", "0"}, {"ced", "0"}, {"dwell", number(kDwell)}});
+  return CaseRun("../reliability/between_runs/in.dwell", settings, 1, files);
+}
+
 } // namespace
 
 // Rows of a body stay when its spheres are gone, through a restart too.
@@ -59,6 +90,25 @@ TEST(BetweenRuns, SpheresOfTheLastBodyAreDeleted) {
     EXPECT_EQ(each->rows("bodies.csv").back().at("intact"), 1.0);
     EXPECT_EQ(each->rows("bodies.csv").back().at("broken"), 1.0);
   }
+}
+
+// The dwell ends in the first step in which it is over, and time never goes back.
+TEST(BetweenRuns, StepsOfAnotherLengthOrNumberTakeTheirTime) {
+  for (const char *change : {"", "timestep 5e-5\n", "reset_timestep 0\n", "reset_timestep 100000\n",
+                             "timestep 5e-5\nreset_timestep 7\ntimestep 2e-5\n"}) {
+    const Dwell d = dwell_of(hold(change));
+    EXPECT_NEAR(d.lasted, kDwell, 1.5e-4) << change;
+    EXPECT_NEAR(d.clock, d.passed, 1e-9) << change;
+  }
+}
+
+TEST(BetweenRuns, ARestartWithAnotherStepTakesItsTime) {
+  const CaseRun first = hold("write_restart half.restart\n");
+  const CaseRun again =
+      hold("", {{"from", "1"}, {"dt", "5e-5"}}, {{"half.restart", first.text("half.restart")}});
+  const Dwell d = dwell_of(again, dwell_of(first, {}, 400));
+  EXPECT_NEAR(d.lasted, kDwell, 1.5e-4);
+  EXPECT_NEAR(d.clock, d.passed, 1e-9);
 }
 
 TEST(BetweenRuns, MinimizeIsRefused) {
