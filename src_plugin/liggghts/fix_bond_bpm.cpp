@@ -8,6 +8,7 @@
 #include "fix_contact_history.h"
 #include "fix_elongation.h"
 #include "fix_energy_bpm.h"
+#include "fix_time_bpm.h"
 #include "memory.h"
 #include "modify.h"
 #include "mpi_liggghts.h"
@@ -60,6 +61,7 @@ FixBondBpm::~FixBondBpm() {
 void FixBondBpm::post_create() {
   const char *words[] = {kHistoriesId, "all", "contacthistory/bpm"};
   modify->add_fix(3, const_cast<char **>(words));
+  time_ = FixTimeBpm::of(lmp);
 }
 
 void FixBondBpm::pre_delete(bool unfix) {
@@ -101,6 +103,7 @@ int FixBondBpm::friction_history_offset(int bond_offset) {
 
 void FixBondBpm::init() {
   check_pages();
+  refuse_minimizer();
   choose_grid();
   energy_ = FixEnergyBpm::find(lmp);
   check_materials();
@@ -191,6 +194,17 @@ void FixBondBpm::pre_force(int) {
   });
 }
 
+// Pairs of a body that meet at a part of their radii do so at those of now.
+void FixBondBpm::radii_have_changed() {
+  if (settings_.contact_diameter == 1.0)
+    return;
+  for_each_neighbor([this](int i, int j, BondHistory &bond) {
+    const bool apart = bond.state() == kNeverBonded || bond.state() == kBrokenSeparated;
+    if (apart && body_[i] > 0 && body_[i] == body_[j])
+      bond.meet_at(meeting_distance(i, j));
+  });
+}
+
 // Surfaces that come out again do so up to each other: a contact never begins with a force.
 double FixBondBpm::not_into_contact(int i, int j, double before, double length) const {
   if (length > 0.0 || before >= length)
@@ -220,6 +234,8 @@ void FixBondBpm::find_insets() {
 }
 
 void FixBondBpm::setup(int) {
+  if (spheres_ < 0)
+    spheres_ = static_cast<bigint>(atom->natoms);
   if (!creating_)
     return;
   creating_ = false;
@@ -259,7 +275,7 @@ void FixBondBpm::record_break(int i, int j, BondHistory bond, const calendem::Bo
   const bool i_is_low = atom->tag[i] < atom->tag[j], of_bridge = bond.state() == kBridge;
   const int low = i_is_low ? i : j, high = i_is_low ? j : i;
   const double *a = atom->x[low], *b = atom->x[high];
-  const BreakEvent e = {update->ntimestep * update->dt,
+  const BreakEvent e = {time_->now(),
                         static_cast<double>(atom->tag[low]),
                         static_cast<double>(atom->tag[high]),
                         of_bridge ? -1.0
@@ -314,7 +330,10 @@ void FixBondBpm::post_force(int) {
   }
 }
 
+// What is looked for now and then is looked for at the end, if there was a step.
 void FixBondBpm::post_run() {
+  if (expected_ >= 0)
+    stop_if_wrong();
   stop_if_overflowed();
   gather_breaks();
   save_histories();

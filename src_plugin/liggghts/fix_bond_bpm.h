@@ -131,6 +131,8 @@ public:
   void create(int i, int j, double r, BondHistory &bond) const;
   /// The spheres of a broken pair have separated, or were bridged.
   void separate(int i, int j, BondHistory &bond) const;
+  /// Those of this rank and of ghosts.
+  void radii_have_changed();
   void bridge(int i, int j, double r, BondHistory &bond) const;
   /// On the collector: all that were made; one of this rank has broken.
   void bridges_made_on_wall(bigint n) {
@@ -159,6 +161,8 @@ public:
 
   // for computes and dumps
   int body(int i) const { return body_[i]; }
+  /// Highest number of a body, whether its spheres are still there or not.
+  int bodies() const { return bodies_; }
   int broken_of(int i) const { return broken_[i]; }
   /// All so far; all ranks must call.
   const std::vector<BreakEvent> &breaks() {
@@ -187,10 +191,12 @@ private:
   bool restarted_ = false;
   std::array<double, 5> earlier_ = {}; // what remembered() was in the run that goes on
   class FixEnergyBpm *energy_;         // NULL when no ledger is kept
+  class FixTimeBpm *time_ = nullptr;
   std::string bodies_file_, log_file_, platen_id_;
   std::vector<int> body_of_tag_;        // from the body map; empty after a restart
   std::map<int, double> body_diameter_; // of the sphere of the primaries' volume; likewise
   int *body_, *broken_;
+  int bodies_ = 0;
   int history_offset_;
   class BpmPairLoop *loop_ = nullptr;
   bool created_, creating_, log_ready_;
@@ -219,7 +225,8 @@ private:
   // intact bonds and bridges that this rank decides: acted in this step; are there; did not act
   // when they had to
   bigint acting_, expected_, missing_;
-  double spacing_[3]; // of the grid of positions, 0 along sides that are not periodic
+  bigint spheres_ = -1; // of all ranks, when all bonds acted last
+  double spacing_[3];   // of the grid of positions, 0 along sides that are not periodic
   std::array<int, 2> saved_pages_ = {}; // neigh_modify one, page at the end of the last run
 
   void parse(int narg, char **arg);
@@ -273,7 +280,9 @@ private:
   double platen_pressure() const;
   void log_breaks(const std::vector<BreakEvent> &all);
   void stop_overstretched(double stretch);
-  void stop_lost(bigint acting, bigint intact);
+  void stop_lost(bigint acting, bigint intact, bigint spheres);
+  std::string why_lost(bigint spheres) const;
+  void refuse_minimizer();
 };
 
 } // namespace LAMMPS_NS

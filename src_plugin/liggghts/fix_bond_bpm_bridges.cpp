@@ -4,6 +4,7 @@
 #include "error.h"
 #include "fix_bond_bpm.h"
 #include "fix_energy_bpm.h"
+#include "fix_time_bpm.h"
 #include "modify.h"
 #include "mpi_liggghts.h"
 #include "registry/effect.h"
@@ -150,7 +151,7 @@ void FixBondBpm::count_bridges_made() {
 
 void FixBondBpm::bridge_breaks_on_wall(int i, double energy) {
   BreakEvent e = {};
-  e.time = update->ntimestep * update->dt;
+  e.time = time_->now();
   e.tag_high = static_cast<double>(atom->tag[i]);
   e.body = -1.0;
   e.mode = static_cast<double>(BridgeKind::CbdCollector);

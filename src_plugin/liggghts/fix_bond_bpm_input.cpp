@@ -7,6 +7,7 @@
 #include "modify.h"
 #include "physics/hertz_contact.h"
 #include "update.h"
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
@@ -270,6 +271,7 @@ void FixBondBpm::read_bodies() {
   if (problem[0])
     error->fix_error(FLERR, this, problem);
   MPI_Bcast(body_of.data(), highest + 1, MPI_INT, 0, world);
+  bodies_ = *std::max_element(body_of.begin(), body_of.end());
   for (int i = 0; i < atom->nlocal; ++i)
     body_[i] = body_of[atom->tag[i]];
   measure_bodies();

@@ -15,6 +15,7 @@
 #include "update.h"
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -32,7 +33,8 @@ FixCbdCollapse::FixCbdCollapse(LAMMPS *lmp, int narg, char **arg)
   law_.yield_pressure = law_.hardening = -1.0;
   nevery = 50;
   parse(narg, arg);
-  restart_peratom = create_attribute = 1;
+  since_.first = static_cast<double>(update->ntimestep);
+  restart_global = restart_peratom = create_attribute = 1;
   vector_flag = 1;
   size_vector = 4;
   global_freq = 1;
@@ -107,6 +109,7 @@ void FixCbdCollapse::check() {
 }
 
 void FixCbdCollapse::init() {
+  reset_dt();
   bonds_ = FixBondBpm::find(lmp, "fix cbd/collapse");
   energy_ = FixEnergyBpm::find(lmp);
   effects_.connect(force->registry, "fix cbd/collapse");
@@ -127,7 +130,7 @@ void FixCbdCollapse::init() {
 
 bool FixCbdCollapse::is_mine(int i) const { return i < atom->nlocal && atom->type[i] == type_; }
 
-// What presses, less what cohesion pulls.
+// What presses, less what cohesion pulls: of the contacts, not of bonds and bridges beside them.
 void FixCbdCollapse::add_pair_forces(std::vector<long long> &sum) const {
   const double *R = atom->radius;
   bonds_->for_each_touching_copy([&](int i, int j, double r, const BondHistory &bond) {
@@ -135,9 +138,11 @@ void FixCbdCollapse::add_pair_forces(std::vector<long long> &sum) const {
       return;
     const int ti = atom->type[i], tj = atom->type[j];
     const double *memory = pairs_have_effects_ ? bond.effect_memory() : NULL;
-    const double net =
-        effects_.force(EffectContact::of_spheres(ti, tj, R[i], R[j], R[i] + R[j] - r), memory) -
-        calendem::sjkr_force(cohesion_energy_density_[ti][tj], r, R[i], R[j]);
+    const calendem::ActingContact acting = bond.contact(r, R[i] + R[j]);
+    double net =
+        effects_.force(EffectContact::of_spheres(ti, tj, R[i], R[j], acting.overlap), memory);
+    if (acting.coheres)
+      net -= calendem::sjkr_force(cohesion_energy_density_[ti][tj], acting.distance, R[i], R[j]);
     for (int a : {i, j})
       if (is_mine(a))
         sum[a] += kForces.of(net);
@@ -170,6 +175,8 @@ double FixCbdCollapse::rotational_energy() const {
 
 // The nanoporosities after this update; returns whether one of this rank falls.
 bool FixCbdCollapse::decide(const std::vector<long long> &sum, std::vector<double> &next) {
+  const double step = static_cast<double>(update->ntimestep), time = since_.at(step);
+  since_ = {0.0, step, update->dt};
   bool falls = false;
   largest_pressure_ = 0.0;
   next.assign(atom->nlocal, 0.0);
@@ -177,7 +184,7 @@ bool FixCbdCollapse::decide(const std::vector<long long> &sum, std::vector<doubl
     if (!is_mine(i))
       continue;
     const double p = calendem::mean_pressure(kForces.value(sum[i]), atom->radius[i]);
-    const double phi = nanoporosity_[i], time = nevery * update->dt;
+    const double phi = nanoporosity_[i];
     next[i] = imposed_until_ > 0.0
                   ? law_.follow(phi, law_.imposed(upper_->largest_pressure(), imposed_until_), time)
                   : law_.advance(phi, p, time);
@@ -198,6 +205,14 @@ void FixCbdCollapse::shrink(const std::vector<double> &next) {
   }
 }
 
+void FixCbdCollapse::reset_dt() {
+  since_.set_length(static_cast<double>(update->ntimestep), update->dt);
+}
+
+void FixCbdCollapse::reset_timestep(bigint newstep, bigint oldstep) {
+  since_.renumber(static_cast<double>(oldstep), static_cast<double>(newstep));
+}
+
 void FixCbdCollapse::end_of_step() {
   std::vector<long long> sum(atom->nlocal, 0);
   std::vector<double> next;
@@ -210,6 +225,7 @@ void FixCbdCollapse::end_of_step() {
   const double before = energy_ ? energy_->stored_in_contacts() + rotational_energy() : 0.0;
   shrink(next);
   comm->forward_comm_fix(this);
+  bonds_->radii_have_changed();
   if (energy_)
     energy_->add_collapse(before - energy_->stored_in_contacts() - rotational_energy());
 }
@@ -268,6 +284,16 @@ void FixCbdCollapse::unpack_comm(int n, int first, double *buf) {
   for (int k = 0; k < n; ++k)
     atom->radius[first + k] = buf[k];
 }
+
+void FixCbdCollapse::write_restart(FILE *fp) {
+  if (comm->me != 0)
+    return;
+  const int bytes = sizeof since_;
+  fwrite(&bytes, sizeof(int), 1, fp);
+  fwrite(&since_, sizeof since_, 1, fp);
+}
+
+void FixCbdCollapse::restart(char *buf) { memcpy(&since_, buf, sizeof since_); }
 
 int FixCbdCollapse::pack_restart(int i, double *buf) {
   buf[0] = 3;

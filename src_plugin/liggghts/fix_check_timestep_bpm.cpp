@@ -90,9 +90,8 @@ void FixCheckTimestepBpm::add_contacts(Rows &rows) const {
   FixBondBpm *bonds = FixBondBpm::find(lmp, "fix check/timestep/bpm");
   bonds->for_each_touching_copy([&](int i, int j, double r, const BondHistory &bond) {
     const int ti = atom->type[i], tj = atom->type[j];
-    const double overlap = R[i] + R[j] - r - bond.reference_overlap(R[i] + R[j]);
     const double a = effects_.stiffness_radius(
-        EffectContact::of_spheres(ti, tj, R[i], R[j], std::max(overlap, 0.0)),
+        EffectContact::of_spheres(ti, tj, R[i], R[j], bond.contact(r, R[i] + R[j]).overlap),
         pairs_have_effects_ ? bond.effect_memory() : NULL);
     const calendem::BondCoefficients k = stiffness_of(ti, tj, a);
     const calendem::BondCoefficients c =

@@ -5,6 +5,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_property_atom.h"
+#include "fix_time_bpm.h"
 #include "granular_sliding_wall.h"
 #include "modify.h"
 #include "physics/fixed_point.h"
@@ -182,7 +183,7 @@ void FixWallGranPlaten::parse() {
     error->fix_error(FLERR, this,
                      "the target position must lie below the start ('zplane'); nothing would be "
                      "compressed");
-  enter(record_.state, PlatenStage::Compression, update->ntimestep * update->dt);
+  enter(record_.state, PlatenStage::Compression, 0.0);
 }
 
 void FixWallGranPlaten::check_roll() {
@@ -209,6 +210,7 @@ int FixWallGranPlaten::setmask() { return FixWallGran::setmask() | INITIAL_INTEG
 
 void FixWallGranPlaten::post_create() {
   FixWallGran::post_create();
+  time_ = FixTimeBpm::of(lmp);
   if (bridges_)
     bridges_->add_storage(style);
 }
@@ -254,7 +256,7 @@ void FixWallGranPlaten::initial_integrate(int) {
     return;
   const double dt = update->dt;
   const double z = record_.state.position;
-  advance(programme_, record_.state, record_.average.value(), window_, update->ntimestep * dt, dt,
+  advance(programme_, record_.state, record_.average.value(), window_, time_->now(), dt,
           may_release_);
   // half of the step's work with the load at its beginning, the other half in measure()
   record_.work += 0.5 * kLoads.value(record_.load) * (z - record_.state.position);
@@ -343,9 +345,8 @@ void FixWallGranPlaten::measure_drag() {
 
 double FixWallGranPlaten::compute_vector(int n) {
   const calendem::PlatenState &s = record_.state;
-  const double time = update->ntimestep * update->dt;
   const bool waits = stage_of(s) == PlatenStage::Dwell && !may_release_ &&
-                     last_pass(programme_, s) && time - s.stage_start >= programme_.dwell;
+                     last_pass(programme_, s) && time_->now() - s.stage_start >= programme_.dwell;
   Record whole = record_;
   if (n == 3 || n == 5 || n == 6)
     add_up(whole);

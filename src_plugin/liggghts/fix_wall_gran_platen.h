@@ -104,6 +104,7 @@ private:
   bool may_release_;
   bool moved_;
   double sliding_;
+  class FixTimeBpm *time_ = nullptr;
   int memory_offset_; // -1: another model
   std::unique_ptr<WallBridges> bridges_;
 
