@@ -6,7 +6,7 @@
 #include "fix_energy_bpm.h"
 #include "modify.h"
 #include "mpi_liggghts.h"
-#include "registry/effect.h"
+#include "registry/phases.h"
 #include "update.h"
 #include "wall_bridges.h"
 #include <algorithm>

@@ -48,19 +48,19 @@ std::uint64_t FixBondBpm::seed(const char *text) {
 
 // How many words are a law of strength and its numbers; 0: the first is the name of none.
 int FixBondBpm::parse_strength(int narg, char **arg) {
-  for (const BondStrengths::Keyword &law : BondStrengths::keywords()) {
-    if (strcmp(arg[0], law.name) != 0)
+  for (const calendem::BondStrengthLaw &law : calendem::bond_strength_laws()) {
+    if (strcmp(arg[0], law.keyword) != 0)
       continue;
     const int numbers = static_cast<int>(law.numbers.size());
     char message[256];
-    snprintf(message, sizeof message, "'%s' needs %d number(s)", law.name, numbers);
+    snprintf(message, sizeof message, "'%s' needs %d number(s)", law.keyword, numbers);
     if (narg <= numbers)
       error->fix_error(FLERR, this, message);
     for (int k = 0; k < numbers; ++k) {
-      const BondStrengths::Number &n = law.numbers[k];
-      const double value = positive(law.name, arg[k + 1], true);
+      const calendem::BondStrengthLaw::Number &n = law.numbers[k];
+      const double value = positive(law.keyword, arg[k + 1], true);
       snprintf(message, sizeof message, "number %d of '%s' is %g; it must be between %g and %g",
-               k + 1, law.name, value, n.least, n.most);
+               k + 1, law.keyword, value, n.least, n.most);
       if (value < n.least || value > n.most)
         error->fix_error(FLERR, this, message);
       settings_.strengths.*n.value = value;
@@ -121,8 +121,8 @@ int FixBondBpm::parse_keyword(int iarg, int narg, char **arg) {
         "'; known: bodies FILE, youngs_modulus, nu, radius_ratio, tensile, shear, criterion "
         "signed|unsigned|as_printed, damping, weibull MODULUS SEED, breakable yes|no, log FILE, "
         "pressure FIX, contact_diameter, surface_inset, inset_fading";
-    for (const BondStrengths::Keyword &law : BondStrengths::keywords())
-      message += std::string(", ") + law.name;
+    for (const calendem::BondStrengthLaw &law : calendem::bond_strength_laws())
+      message += std::string(", ") + law.keyword;
     error->fix_error(FLERR, this, message.c_str());
   }
   return iarg + 1 + values;
