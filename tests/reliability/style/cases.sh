@@ -47,6 +47,17 @@ includes_point_one_way() { # physics <- registry <- liggghts, tools/calendem; te
     without "^($known)?$" | report "folders of tools/calendem that have no place in the order of includes" || exit 1
   includes tools/calendem | matching '<(gtest|gmock|benchmark)/' | report "tools/calendem must not include tests"
 }
+named_files_exist() { # those that heads of laws name, and pages (.md) that any comment names; or a program writes them
+  local file name folder found
+  { grep -nE '^//' src_plugin/physics/*.h src_plugin/registry/*.h | grep -oE '^[^:]+:[0-9]+|[A-Za-z0-9_/.]+\.(h|cpp|md|sh)\b'
+    cxx_files | xargs grep -nE '//.*\.md\b' | grep -oE '^[^:]+:[0-9]+|[A-Za-z0-9_/.]+\.md\b'; } |
+    while read -r name; do
+      case $name in *:[0-9]*) file=$name; continue ;; esac
+      found=0
+      for folder in . src_plugin "$(dirname "${file%:*}")"; do [ ! -f "$folder/$name" ] || found=1; done
+      [ $found -eq 1 ] || grep -qrF "$name\"" tools/calendem --include='*.cpp' || echo "$file names $name"
+    done | sort -u | report "files that a comment names and that do not exist"
+}
 header_options=(-std=c++17 -Wall -Wextra -I src_plugin -I tools/calendem -isystem /usr/include/eigen3 -x c++)
 all_headers() { # of physics, registry and tools/calendem as one translation unit
   { find src_plugin/physics src_plugin/registry -name '*.h' -printf '%P %H\n' | sed 's|\(.*\) src_plugin/\(.*\)|\2/\1|'
