@@ -227,7 +227,7 @@ private:
   void check_remembered();
   void check_shrinkage();
   void shrink(double dt);
-  void check_bridges(double poisson);
+  void check_bridges();
   void check_radii();
   calendem::BridgeKind kind_of_bridge(int i, int j) const;
   void count_bridges(bigint *of_kind);
@@ -236,11 +236,8 @@ private:
   bigint acting_pairs() const;
   double bridge_vector(int n);
   double strain_energy_of(BondState state);
-  double positive(const char *keyword, const char *text, bool zero_allowed);
-  double fraction(const char *keyword, const char *text);
   double not_into_contact(int i, int j, double before, double length) const;
   void find_insets();
-  std::uint64_t seed(const char *text);
   void check_settings();
   void check_modulus(const char *what, double value);
   void pair_error(const char *what, double value, int i, int j, const char *why);
