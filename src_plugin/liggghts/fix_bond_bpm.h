@@ -2,7 +2,7 @@
 // fix ID all bond/bpm bodies FILE youngs_modulus E nu NU radius_ratio L tensile S shear T
 //     criterion signed|unsigned|as_printed damping D weibull M SEED breakable yes|no log FILE
 //     pressure PLATEN_FIX contact_diameter D surface_inset S inset_fading F LAW NUMBERS ...
-// fix_modify ID LAW NUMBERS ...       with a further law of strength, see bond_strengths.h
+// fix_modify ID LAW NUMBERS ...       with a further law of strength, see registry/bond_strengths.h
 // fix_modify ID bridges E NU L GAP S_AM S_CBD S_COLLECTOR RATIO
 // fix_modify ID shrinkage EPS T
 //
@@ -18,7 +18,7 @@
 // default, and by the part F times the part of its bonds that is broken less; not with bridges. All
 // stresses in kPa (units micro). Everything restarts, under the same fix ID. Bridges
 // (physics/binder_bridge.h) of modulus E, radius ratio L and tensile strengths S between CBD and
-// AM, CBD, collector (types as in registry/effect.h) are made with the bonds and damped as they
+// AM, CBD, collector (types as in registry/phases.h) are made with the bonds and damped as they
 // are; the script gives them again after a restart. No bond of a body and nothing of bodies counts
 // them. In the time T [us] from their creation they shrink by EPS (physics/drying_shrinkage.h); a
 // restart with another EPS, T, D, S or F is refused. Global vector: 1-9 as compute bond/bpm; bridges
@@ -33,11 +33,11 @@ FixStyle(bond/bpm, FixBondBpm)
 #define LMP_FIX_BOND_BPM_H
 
 #include "bond_bpm_history.h"
-#include "bond_strengths.h"
 #include "fix.h"
 #include "physics/binder_bridge.h"
 #include "physics/bond_failure.h"
 #include "physics/drying_shrinkage.h"
+#include "registry/bond_strengths.h"
 #include <array>
 #include <cstdint>
 #include <map>
@@ -51,7 +51,7 @@ struct BondSettings {
   calendem::BondMaterial material;
   calendem::BondStrength strength = {0.0, 0.0};
   calendem::FailureCriterion criterion = calendem::FailureCriterion::Signed;
-  BondStrengths strengths; ///< from bond to bond
+  calendem::BondStrengths strengths; ///< from bond to bond
   bool breakable = true;
   double contact_diameter = 1.0; ///< of a body's primaries that meet, over the sum of radii
   double surface_inset = 0.0;    ///< how far inside a primary its surface is for others [um]
@@ -238,7 +238,7 @@ private:
   void check_remembered();
   void check_shrinkage();
   void shrink(double dt);
-  void check_bridges(double poisson);
+  void check_bridges();
   void check_radii();
   calendem::BridgeKind kind_of_bridge(int i, int j) const;
   void count_bridges(bigint *of_kind);
@@ -247,11 +247,8 @@ private:
   bigint acting_pairs() const;
   double bridge_vector(int n);
   double strain_energy_of(BondState state);
-  double positive(const char *keyword, const char *text, bool zero_allowed);
-  double fraction(const char *keyword, const char *text);
   double not_into_contact(int i, int j, double before, double length) const;
   void find_insets();
-  std::uint64_t seed(const char *text);
   void check_settings();
   void check_modulus(const char *what, double value);
   void pair_error(const char *what, double value, int i, int j, const char *why);

@@ -13,6 +13,7 @@
 #include "physics/fixed_point.h"
 #include "physics/sjkr_cohesion.h"
 #include "update.h"
+#include "words.h"
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -55,38 +56,27 @@ FixCbdCollapse::~FixCbdCollapse() {
 
 int FixCbdCollapse::setmask() { return END_OF_STEP; }
 
-double FixCbdCollapse::number(const std::string &key, const char *text, double low, double high) {
-  char *end = NULL;
-  const double value = strtod(text, &end);
-  if (end == text || *end != '\0' || !(value >= low && value <= high)) {
-    char message[256];
-    snprintf(message, sizeof message, "'%s' is '%.40s'; it must be a number between %g and %g",
-             key.c_str(), text, low, high);
-    error->fix_error(FLERR, this, message);
-  }
-  return value;
-}
-
 void FixCbdCollapse::parse(int narg, char **arg) {
+  const NumberReader number(error, this);
   for (int i = 3; i < narg; i += 2) {
     const std::string key = arg[i];
     const char *value = i + 1 < narg ? arg[i + 1] : "";
     if (key == "type")
-      type_ = static_cast<int>(number(key, value, 1, atom->ntypes));
+      type_ = static_cast<int>(number(key, value, whole_between(1, atom->ntypes)));
     else if (key == "initial")
-      law_.initial = number(key, value, 0.0, 0.95);
+      law_.initial = number(key, value, between(0.0, 0.95));
     else if (key == "floor")
-      law_.floor = number(key, value, 0.0, 0.95);
+      law_.floor = number(key, value, between(0.0, 0.95));
     else if (key == "yield")
-      law_.yield_pressure = number(key, value, 0.0, 1e9);
+      law_.yield_pressure = number(key, value, between(0.0, 1e9));
     else if (key == "hardening")
-      law_.hardening = number(key, value, 1e-3, 1e9);
+      law_.hardening = number(key, value, between(1e-3, 1e9));
     else if (key == "imposed")
-      imposed_until_ = number(key, value, 1e-3, 1e9);
+      imposed_until_ = number(key, value, between(1e-3, 1e9));
     else if (key == "relaxation")
-      law_.relaxation = number(key, value, 1e-6, 1e9);
+      law_.relaxation = number(key, value, between(1e-6, 1e9));
     else if (key == "every")
-      nevery = static_cast<int>(number(key, value, 1, 1e6));
+      nevery = static_cast<int>(number(key, value, whole_between(1, 1e6)));
     else {
       const std::string message = "unknown setting '" + key +
                                   "'; known: type, initial, floor, yield, hardening, imposed, "

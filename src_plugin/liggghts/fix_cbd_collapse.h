@@ -72,7 +72,6 @@ private:
 
   void parse(int narg, char **arg);
   void check();
-  double number(const std::string &key, const char *text, double low, double high);
   bool is_mine(int i) const;
   void add_pair_forces(std::vector<long long> &sum) const;
   void add_wall_forces(std::vector<long long> &sum) const;

@@ -113,7 +113,6 @@ private:
   bool set_bridges(const std::string &key, const std::string &value);
   bool set_roll_keyword(const std::string &key, const std::string &value);
   void check_roll();
-  double number(const std::string &key, const std::string &value, bool zero_allowed);
   void set_window();
   void place_wall();
   bool slides() const;
