@@ -89,9 +89,13 @@ int FixBondBpm::friction_history_offset(int bond_offset) {
   return first;
 }
 
-void FixBondBpm::post_create() { time_ = FixTimeBpm::of(lmp); }
+void FixBondBpm::post_create() {
+  restarted_state_.remember(modify, this);
+  time_ = FixTimeBpm::of(lmp);
+}
 
 void FixBondBpm::init() {
+  restarted_state_.stop_if_lost(modify, error, this);
   refuse_minimizer();
   choose_grid();
   energy_ = FixEnergyBpm::find(lmp);
