@@ -59,6 +59,7 @@ FixBondBpm::~FixBondBpm() {
 }
 
 void FixBondBpm::post_create() {
+  restarted_state_.remember(modify, this);
   const char *words[] = {kHistoriesId, "all", "contacthistory/bpm"};
   modify->add_fix(3, const_cast<char **>(words));
   time_ = FixTimeBpm::of(lmp);
@@ -102,6 +103,7 @@ int FixBondBpm::friction_history_offset(int bond_offset) {
 }
 
 void FixBondBpm::init() {
+  restarted_state_.stop_if_lost(modify, error, this);
   check_pages();
   refuse_minimizer();
   choose_grid();

@@ -38,6 +38,7 @@ FixStyle(bond/bpm, FixBondBpm)
 #include "physics/bond_failure.h"
 #include "physics/drying_shrinkage.h"
 #include "registry/bond_strengths.h"
+#include "state_in_restart.h"
 #include <array>
 #include <cstdint>
 #include <map>
@@ -192,6 +193,7 @@ private:
   std::array<double, 5> earlier_ = {}; // what remembered() was in the run that goes on
   class FixEnergyBpm *energy_;         // NULL when no ledger is kept
   class FixTimeBpm *time_ = nullptr;
+  StateInRestart restarted_state_;
   std::string bodies_file_, log_file_, platen_id_;
   std::vector<int> body_of_tag_;        // from the body map; empty after a restart
   std::map<int, double> body_diameter_; // of the sphere of the primaries' volume; likewise

@@ -98,7 +98,10 @@ void FixCbdCollapse::check() {
     error->fix_error(FLERR, this, "'floor' must not lie above 'initial'");
 }
 
+void FixCbdCollapse::post_create() { restarted_state_.remember(modify, this); }
+
 void FixCbdCollapse::init() {
+  restarted_state_.stop_if_lost(modify, error, this);
   reset_dt();
   bonds_ = FixBondBpm::find(lmp, "fix cbd/collapse");
   energy_ = FixEnergyBpm::find(lmp);

@@ -24,6 +24,7 @@ FixStyle(cbd/collapse, FixCbdCollapse)
 #include "fix.h"
 #include "physics/nanopore_collapse.h"
 #include "physics/time_count.h"
+#include "state_in_restart.h"
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ public:
   FixCbdCollapse(class LAMMPS *, int, char **);
   ~FixCbdCollapse();
   int setmask();
+  void post_create();
   void init();
   void reset_dt();
   void reset_timestep(bigint newstep, bigint oldstep);
@@ -56,6 +58,7 @@ public:
   void restart(char *);
 
 private:
+  StateInRestart restarted_state_;
   calendem::NanoporeCollapse law_;
   calendem::TimeCount since_; // the last update
   int type_;

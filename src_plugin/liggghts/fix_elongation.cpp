@@ -50,7 +50,10 @@ void FixElongation::check_order(const char *style, int place) {
   error->fix_error(FLERR, this, message.c_str());
 }
 
+void FixElongation::post_create() { restarted_state_.remember(modify, this); }
+
 void FixElongation::init() {
+  restarted_state_.stop_if_lost(modify, error, this);
   if (modify->n_fixes_style_strict("elongation") > 1)
     error->fix_error(FLERR, this, "there may be only one");
   const int place = modify->find_fix(platen_id_.c_str());

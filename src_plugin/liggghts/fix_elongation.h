@@ -17,6 +17,7 @@ FixStyle(elongation, FixElongation)
 
 #include "fix.h"
 #include "physics/web_elongation.h"
+#include "state_in_restart.h"
 #include <string>
 
 namespace LAMMPS_NS {
@@ -25,6 +26,7 @@ class FixElongation : public Fix {
 public:
   FixElongation(class LAMMPS *, int, char **);
   int setmask();
+  void post_create();
   void init();
   void initial_integrate(int);
   void post_force(int);
@@ -41,6 +43,7 @@ public:
   double growth_to_come() const;
 
 private:
+  StateInRestart restarted_state_;
   /// All that restarts. `work` is this rank's share; the sum over ranks restarts.
   struct Record {
     double side = 0.0; ///< at the beginning [um]; 0: not begun

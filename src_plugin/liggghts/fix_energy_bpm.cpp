@@ -40,7 +40,10 @@ FixEnergyBpm *FixEnergyBpm::find(LAMMPS *lmp) {
   return static_cast<FixEnergyBpm *>(lmp->modify->find_fix_style_strict("energy/bpm", 0));
 }
 
+void FixEnergyBpm::post_create() { restarted_state_.remember(modify, this); }
+
 void FixEnergyBpm::init() {
+  restarted_state_.stop_if_lost(modify, error, this);
   if (modify->n_fixes_style_strict("energy/bpm") > 1)
     error->fix_error(FLERR, this, "there may be only one");
   bonds_ = FixBondBpm::find(lmp, "fix energy/bpm");

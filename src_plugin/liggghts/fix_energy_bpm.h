@@ -32,6 +32,7 @@ FixStyle(energy/bpm, FixEnergyBpm)
 #include "fix.h"
 #include "physics/parallel_bond.h"
 #include "physics/web_elongation.h"
+#include "state_in_restart.h"
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -59,6 +60,7 @@ public:
   FixEnergyBpm(class LAMMPS *, int, char **);
   ~FixEnergyBpm();
   int setmask();
+  void post_create();
   void init();
   void setup_pre_force(int);
   void setup(int);
@@ -122,6 +124,7 @@ private:
   };
   enum Sum { kDamped, kFriction, kBreaks, kPlastic, kCollapse, kViscous, kShrinking, kSums };
 
+  StateInRestart restarted_state_;
   class FixBondBpm *bonds_;
   class FixElongation *elongation_; // NULL: the cell keeps its sides
   ContactEffects effects_;

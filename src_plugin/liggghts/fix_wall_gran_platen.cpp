@@ -198,6 +198,7 @@ int FixWallGranPlaten::setmask() { return FixWallGran::setmask() | INITIAL_INTEG
 
 void FixWallGranPlaten::post_create() {
   FixWallGran::post_create();
+  restarted_state_.remember(modify, this);
   time_ = FixTimeBpm::of(lmp);
   if (bridges_)
     bridges_->add_storage(style);
@@ -210,6 +211,7 @@ void FixWallGranPlaten::pre_delete(bool unfix) {
 }
 
 void FixWallGranPlaten::init() {
+  restarted_state_.stop_if_lost(modify, error, this);
   FixWallGran::init();
   if (bridges_)
     bridges_->init(modify->find_fix(id));

@@ -111,6 +111,18 @@ TEST(BetweenRuns, ARestartWithAnotherStepTakesItsTime) {
   EXPECT_NEAR(d.clock, d.passed, 1e-9);
 }
 
+// The state of every style of the plugin that has one, found under no fix of the script.
+TEST(BetweenRuns, ARestartUnderAnotherIdIsRefused) {
+  const CaseRun first = hold("write_restart half.restart\n");
+  for (const char *fix : {"bonds", "platen", "energy", "collapse"}) {
+    const CaseRun again =
+        hold("", {{"from", "1"}, {fix, "other"}}, {{"half.restart", first.text("half.restart")}});
+    EXPECT_TRUE(says(again, "under the ID '" + std::string(fix) + "'")) << again.why();
+    EXPECT_TRUE(says(again, "Name the fix '" + std::string(fix) + "'"));
+    EXPECT_TRUE(says(again, "'other' begin anew"));
+  }
+}
+
 TEST(BetweenRuns, MinimizeIsRefused) {
   Files files = two_pairs();
   files["start.in"] += "run 10\ncompute thermo_pe all pe\nmin_style cg\nminimize 0 0 50 50\n";
