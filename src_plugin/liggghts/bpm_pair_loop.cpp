@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "bpm_pair_loop.h"
 #include "atom.h"
+#include "cell_growth.h"
 #include "contact_readers.h"
 #include "error.h"
-#include "fix_bond_bpm.h"
-#include "fix_elongation.h"
-#include "fix_energy_bpm.h"
 #include "force.h"
 #include "global_properties.h"
+#include "history_layout.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "pair_gran.h"
 #include "physics/hertz_contact.h"
 #include "property_registry.h"
 #include "update.h"
+#include "work_ledger.h"
 #include <algorithm>
 #include <cmath>
 
@@ -37,12 +37,13 @@ Vec3 difference(const double *a, const double *b) {
 BpmPairLoop::BpmPairLoop(LAMMPS *lmp) : Pointers(lmp), table_(lmp), step_(new PairStep()) {}
 
 void BpmPairLoop::connect(int bond_offset, int effects_offset) {
-  fix_ = FixBondBpm::find(lmp, "pair_style gran");
-  energy_ = FixEnergyBpm::find(lmp);
-  elongation_ = FixElongation::find(lmp);
+  bonds_ = BondEvents::find(lmp, "pair_style gran");
+  ledger_ = WorkLedger::find(lmp);
+  cell_ = CellGrowth::find(lmp);
   bond_ = bond_offset;
   memory_ = effects_offset;
-  spring_ = fix_->friction_history_offset(bond_offset);
+  bonds_->pairs().connect(bond_offset);
+  spring_ = friction_history_offset(lmp, bond_offset);
   PropertyRegistry &registry = force->registry;
   registry.registerProperty("Yeff", &MODEL_PARAMS::createYeff);
   registry.registerProperty("Geff", &MODEL_PARAMS::createGeff);
@@ -57,15 +58,15 @@ void BpmPairLoop::connect(int bond_offset, int effects_offset) {
   if (memory_ >= 0)
     effects_.connect(registry, "pair_style gran");
   contacts_are_read_ = contacts_are_read(*modify);
-  table_.connect(fix_, bond_, memory_, spring_);
-  fix_->set_loop(this);
+  table_.connect(bonds_, bond_, memory_, spring_);
+  bonds_->pairs().set_loop(this);
   choose_units();
 }
 
 BpmPairLoop::~BpmPairLoop() {
   for (int k = 0; k < modify->nfix; ++k)
-    if (modify->fix[k] == fix_)
-      fix_->set_loop(nullptr);
+    if (bonds_ && dynamic_cast<BondEvents *>(modify->fix[k]) == bonds_)
+      bonds_->pairs().set_loop(nullptr);
 }
 
 bool BpmPairLoop::serves(PairGran *pair) const {
@@ -77,7 +78,7 @@ bool BpmPairLoop::serves(PairGran *pair) const {
 }
 
 void BpmPairLoop::check_reference() const {
-  if (elongation_)
+  if (cell_)
     error->all(FLERR, "fix elongation needs the fused loop over pairs, and this pair_style gran is "
                       "computed by the host's. Leave out 'fused off', settings of the host's "
                       "models, and fixes and computes that store single contacts");
@@ -89,8 +90,8 @@ void BpmPairLoop::choose_units() {
   for (int i = 0; i < atom->nlocal; ++i)
     radius = std::max(radius, atom->radius[i]);
   MPI_Allreduce(&radius, &largest, 1, MPI_DOUBLE, MPI_MAX, world);
-  double modulus = std::max(fix_->settings().material.youngs_modulus,
-                            fix_->bridge_settings().material.youngs_modulus);
+  double modulus = std::max(bonds_->settings().material.youngs_modulus,
+                            bonds_->bridge_settings().material.youngs_modulus);
   for (int a = 1; a <= atom->ntypes; ++a)
     for (int b = 1; b <= atom->ntypes; ++b)
       modulus = std::max(modulus, modulus_[a][b]);
@@ -145,14 +146,14 @@ void BpmPairLoop::compute_force(PairGran *pair) {
   table_.touch();
   bigint acting = table_.deciding();
   for (int n = 0; n < table_.bonds.tiles(); ++n)
-    acting -= work_off(table_.bonds, n, fix_->settings());
+    acting -= work_off(table_.bonds, n, bonds_->settings());
   for (int n = 0; n < table_.bridges.tiles(); ++n)
-    acting -= work_off(table_.bridges, n, fix_->bridge_settings());
+    acting -= work_off(table_.bridges, n, bonds_->bridge_settings());
   for (int n = 0; n < table_.contacts.tiles(); ++n)
     work_off(table_.contacts.tile(n));
   add_forces(pair);
   if (update_)
-    fix_->count_acting(acting);
+    bonds_->count_acting(acting);
   if (update->whichflag != 1) // nobody says when lists are built
     table_.release();
   else if (contacts_are_read_)
@@ -169,14 +170,14 @@ int BpmPairLoop::work_off(PairTable::Bonds &list, int n, const BondSettings &b) 
   if (&list == &table_.bonds) {
     run_hertz(tile, *step_, materials_.data());
     run_contacts(tile, *step_, materials_.data(), update_, update->dt);
-    if (energy_)
+    if (ledger_)
       book_contacts(tile);
   }
   book_moment(tile);
   sum_forces(tile);
-  if (energy_)
+  if (ledger_)
     book_bonds(tile);
-  if (energy_ && &list == &table_.bridges && fix_->shrinks())
+  if (ledger_ && &list == &table_.bridges && bonds_->shrinks())
     book_shrinking(tile, b.material);
   return lost;
 }
@@ -191,7 +192,7 @@ void BpmPairLoop::work_off(ContactTile &tile) {
     watch_contacts(tile);
   book_moment(tile);
   sum_forces(tile);
-  if (energy_)
+  if (ledger_)
     book_contacts(tile);
 }
 
@@ -212,13 +213,13 @@ void BpmPairLoop::fill(const PairTile &t) {
     s.mass_i[p] = a.mass;
     s.mass_j[p] = b.mass;
   }
-  if (elongation_)
+  if (cell_)
     add_gradient(t.size);
 }
 
 // Velocities are beside the mean motion.
 void BpmPairLoop::add_gradient(int size) {
-  const double gradient = elongation_->step().gradient(update->dt);
+  const double gradient = cell_->step().gradient(update->dt);
   for (int p = 0; p < size; ++p)
     step_->v.x[p] += gradient * step_->d.x[p];
 }
@@ -242,8 +243,8 @@ void BpmPairLoop::act_effects(const ContactTile &t) {
       const Vec3 n = (1.0 / std::sqrt(s.r_squared[p])) * s.d[p];
       const double before = overlap + dot(s.v[p], n) * update->dt;
       const double taken = effects_.advance(contact, before, update->dt, memory);
-      if (energy_ && taken != 0.0)
-        energy_->add_taken(t.i[p], t.j[p], taken, effects_.law(a, b).takes);
+      if (ledger_ && taken != 0.0)
+        ledger_->add_taken(t.i[p], t.j[p], taken, effects_.law(a, b).takes);
     }
     s.contact_radius[p] = effects_.contact_radius(contact, memory);
     s.elastic[p] = effects_.force(contact, memory);
@@ -255,7 +256,7 @@ int BpmPairLoop::watch_bonds(PairTable::Bonds &list, int n, const BondSettings &
   const BondTile &t = list.tile(n);
   PairStep &s = *step_;
   const double range = neighbor->contactDistanceFactor;
-  const double limit = FixBondBpm::kStretchLimit;
+  const double limit = kStretchLimit;
   long long events = 0;
 #pragma GCC ivdep
   for (int p = 0; p < t.size; ++p) {
@@ -267,19 +268,19 @@ int BpmPairLoop::watch_bonds(PairTable::Bonds &list, int n, const BondSettings &
   int lost = 0;
   for (int p = 0; p < t.size; ++p) {
     if (s.r_squared[p] >= range * range * s.radius_sum(p) * s.radius_sum(p)) {
-      lost += fix_->decides(t.i[p], t.j[p]);
+      lost += bonds_->pairs().decides(t.i[p], t.j[p]);
       s.force.set(p, {});
       s.torque_i.set(p, {});
       s.torque_j.set(p, {});
       continue;
     }
-    fix_->check_stretch(std::sqrt(s.r_squared[p]) / s.radius_sum(p));
+    bonds_->check_stretch(std::sqrt(s.r_squared[p]) / s.radius_sum(p));
     if (!update_ || s.failed[p] == 0.0 || !b.breakable)
       continue;
     table_.store_loads(t, p);
     const BondPair bond(b.material, t, s, p);
-    fix_->record_break(t.i[p], t.j[p], BondHistory(t.history[p] + bond_), t.loads(p), bond.tension,
-                       bond.section, bond.stiffness, t.strength[p]);
+    bonds_->record_break(t.i[p], t.j[p], BondHistory(t.history[p] + bond_), t.loads(p),
+                         bond.tension, bond.section, bond.stiffness, t.strength[p]);
     list.failed.push_back(n * kTilePairs + p);
   }
   return lost;
@@ -322,7 +323,7 @@ void BpmPairLoop::add_forces(PairGran *pair) {
     for (int k = 0; k < 3; ++k)
       large |= overflows(sum.force[k]) | overflows(sum.torque[k]);
     if (large)
-      fix_->force_overflows(atom->tag[i]);
+      bonds_->force_overflows(atom->tag[i]);
     for (int k = 0; k < 3; ++k) {
       atom->f[i][k] += relax * force_unit_.value(static_cast<long long>(sum.force[k]));
       atom->torque[i][k] += relax * torque_unit_.value(static_cast<long long>(sum.torque[k]));
@@ -352,34 +353,34 @@ double BpmPairLoop::moment(const PairTile &t, const VectorRow &force) const {
 
 // As long as forces are no whole numbers.
 void BpmPairLoop::book_moment(const PairTile &t) {
-  if (energy_ && elongation_)
-    energy_->moments().all += moment(t, step_->force);
+  if (ledger_ && cell_)
+    ledger_->moments().all += moment(t, step_->force);
 }
 
 void BpmPairLoop::book_bonds(const BondTile &t) {
-  if (elongation_)
-    energy_->moments().damped += moment(t, step_->bond_damping);
+  if (cell_)
+    ledger_->moments().damped += moment(t, step_->bond_damping);
   for (int p = 0; p < t.size; ++p)
-    energy_->add_damping(
+    ledger_->add_damping(
         t.i[p], t.j[p],
         {step_->bond_damping[p], step_->bond_damping_torque_i[p], step_->bond_damping_torque_j[p]});
 }
 
 void BpmPairLoop::book_shrinking(const BondTile &t, const calendem::BondMaterial &material) {
   for (int p = 0; p < t.size; ++p)
-    energy_->add_shrinking(t.i[p], t.j[p], BondPair(material, t, *step_, p).tension * t.length[p]);
+    ledger_->add_shrinking(t.i[p], t.j[p], BondPair(material, t, *step_, p).tension * t.length[p]);
 }
 
 void BpmPairLoop::book_contacts(const PairTile &t) {
   const PairStep &s = *step_;
-  if (elongation_) {
-    energy_->moments().damped += moment(t, s.contact_damping);
-    energy_->moments().friction += moment(t, s.friction_force);
+  if (cell_) {
+    ledger_->moments().damped += moment(t, s.contact_damping);
+    ledger_->moments().friction += moment(t, s.friction_force);
   }
   for (int p = 0; p < t.size; ++p) {
-    energy_->add_damping(t.i[p], s.contact_damping[p]);
-    energy_->add_damping(t.j[p], -s.contact_damping[p]);
-    energy_->add_friction(t.i[p], {s.friction_force[p], s.friction_torque_i[p]});
-    energy_->add_friction(t.j[p], {-s.friction_force[p], s.friction_torque_j[p]});
+    ledger_->add_damping(t.i[p], s.contact_damping[p]);
+    ledger_->add_damping(t.j[p], -s.contact_damping[p]);
+    ledger_->add_friction(t.i[p], {s.friction_force[p], s.friction_torque_i[p]});
+    ledger_->add_friction(t.j[p], {-s.friction_force[p], s.friction_torque_j[p]});
   }
 }

@@ -7,6 +7,7 @@
 #ifndef CALENDEM_BPM_PAIR_LOOP_H
 #define CALENDEM_BPM_PAIR_LOOP_H
 
+#include "bond_events.h"
 #include "contact_effects.h"
 #include "pair_table.h"
 #include "pair_tile.h"
@@ -27,7 +28,7 @@ struct alignas(64) WholeForce {
   unsigned long long force[4], torque[4]; // the last of each to fill the line
 };
 
-class BpmPairLoop : protected Pointers {
+class BpmPairLoop : protected Pointers, public PairLoop {
 public:
   explicit BpmPairLoop(class LAMMPS *lmp);
   ~BpmPairLoop();
@@ -50,9 +51,9 @@ public:
   void stop_overflow(int tag) const;
 
 private:
-  class FixBondBpm *fix_ = nullptr;
-  class FixEnergyBpm *energy_ = nullptr;      // NULL when no ledger is kept
-  class FixElongation *elongation_ = nullptr; // NULL: the cell keeps its sides
+  BondEvents *bonds_ = nullptr;
+  class WorkLedger *ledger_ = nullptr; // NULL when none is kept
+  class CellGrowth *cell_ = nullptr;   // NULL: it keeps its sides
   ContactEffects effects_;
   double **friction_ = nullptr, **cohesion_ = nullptr;
   double **modulus_ = nullptr, **shear_modulus_ = nullptr, **damping_ = nullptr;

@@ -9,14 +9,14 @@ COHESION_MODEL(COHESION_BPM, bpm, 30)
 
 #include "atom.h"
 #include "bond_bpm_history.h"
+#include "bond_events.h"
 #include "cohesion_model_base.h"
 #include "contact_models.h"
-#include "fix_bond_bpm.h"
-#include "fix_energy_bpm.h"
 #include "global_properties.h"
 #include "physics/bond_failure.h"
 #include "physics/sjkr_cohesion.h"
 #include "update.h"
+#include "work_ledger.h"
 #include <cmath>
 
 namespace LIGGGHTS {
@@ -25,7 +25,7 @@ namespace ContactModels {
 template <> class CohesionModel<COHESION_BPM> : public CohesionModelBase {
 public:
   CohesionModel(LAMMPS *lmp, IContactHistorySetup *hsetup, class ContactModelBase *cmb)
-      : CohesionModelBase(lmp, hsetup, cmb), fix_(NULL), energy_(NULL), cohEnergyDens_(NULL),
+      : CohesionModelBase(lmp, hsetup, cmb), bonds_(NULL), ledger_(NULL), cohEnergyDens_(NULL),
         cmb_(cmb), offset_(-1) {
     if (cmb->is_wall())
       error->all(FLERR, "cohesion model bpm is for particle pairs; for a sticky wall use 'cohesion "
@@ -43,8 +43,8 @@ public:
   void connectToProperties(PropertyRegistry &registry) {
     registry.registerProperty("cohEnergyDens", &MODEL_PARAMS::createCohesionEnergyDensity);
     registry.connect("cohEnergyDens", cohEnergyDens_, "cohesion_model bpm");
-    fix_ = FixBondBpm::find(lmp, "cohesion model bpm");
-    energy_ = FixEnergyBpm::find(lmp);
+    bonds_ = BondEvents::find(lmp, "cohesion model bpm");
+    ledger_ = WorkLedger::find(lmp);
   }
 
   void surfacesIntersect(SurfacesIntersectData &s, ForceData &i_forces, ForceData &j_forces) {
@@ -62,7 +62,7 @@ public:
       if (bond.state() == kBridge)
         bond_force(s, bond, n, s.r, i_forces, j_forces);
     }
-    if (energy_)
+    if (ledger_)
       remember(i_forces, j_forces);
   }
 
@@ -79,20 +79,20 @@ public:
     const calendem::Vec3 n = (1.0 / r) * calendem::load(s.delta);
     bond_force(s, bond, n, r, i_forces, j_forces);
     s.has_force_update = true;
-    fix_->check_stretch(r / s.radsum);
+    bonds_->check_stretch(r / s.radsum);
   }
 
   // For the energy ledger: what the tangential model has added since, and the normal damping.
   void endSurfacesIntersect(SurfacesIntersectData &s, ForceData &i_forces, ForceData &j_forces) {
-    if (energy_ && s.computeflag && s.deltan > 0.0)
+    if (ledger_ && s.computeflag && s.deltan > 0.0)
       book_contact(s, i_forces, j_forces);
   }
   void beginPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
   void endPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
 
 private:
-  FixBondBpm *fix_;
-  FixEnergyBpm *energy_;     // NULL when no ledger is kept
+  BondEvents *bonds_;
+  WorkLedger *ledger_;       // NULL when no ledger is kept
   ForceAndTorque so_far_[2]; // on i and j, before the tangential model
   double **cohEnergyDens_;
   ContactModelBase *cmb_;
@@ -112,19 +112,19 @@ private:
                                               const ForceData &j_forces) {
     const double damping = s.Fn - s.kn * s.deltan;
     const calendem::Vec3 force = {damping * s.en[0], damping * s.en[1], damping * s.en[2]};
-    energy_->add_damping(s.i, {force, {}});
-    energy_->add_damping(s.j, {-force, {}});
-    energy_->add_friction(s.i, action_of(i_forces) - so_far_[0]);
-    energy_->add_friction(s.j, action_of(j_forces) - so_far_[1]);
+    ledger_->add_damping(s.i, {force, {}});
+    ledger_->add_damping(s.j, {-force, {}});
+    ledger_->add_friction(s.i, action_of(i_forces) - so_far_[0]);
+    ledger_->add_friction(s.j, action_of(j_forces) - so_far_[1]);
   }
   __attribute__((noinline)) void book_damping(int i, int j, const calendem::PairMotion &motion,
                                               const calendem::BondDamping &damping) {
-    energy_->add_damping(i, j, calendem::damping_action(motion, damping));
+    ledger_->add_damping(i, j, calendem::damping_action(motion, damping));
   }
 
   void bond_force(SurfacesCloseData &s, BondHistory &bond, const calendem::Vec3 &n, double r,
                   ForceData &i_forces, ForceData &j_forces) {
-    const BondSettings &b = fix_->settings_of(bond);
+    const BondSettings &b = bonds_->settings_of(bond);
     const double radius_min = s.radi < s.radj ? s.radi : s.radj;
     const calendem::BondSection section(b.material.radius_ratio * radius_min);
     const calendem::BondStiffness k(b.material, section, bond.length());
@@ -137,12 +137,12 @@ private:
     calendem::BondLoads loads = bond.loads();
     const double tension = calendem::bond_tension(b.material, k, r, bond.length());
     if (s.computeflag && s.shearupdate) {
-      fix_->acts(s.i, s.j);
+      bonds_->acts(s.i, s.j);
       calendem::advance(loads, motion, k, update->dt);
       bond.set_loads(loads);
       if (b.breakable && calendem::fails(loads, tension, section,
                                          b.strength_of(bond.strength_factor()), b.criterion))
-        fix_->record_break(s.i, s.j, bond, loads, tension, section, k, bond.strength_factor());
+        bonds_->record_break(s.i, s.j, bond, loads, tension, section, k, bond.strength_factor());
     }
     calendem::BondDamping damping;
     if (b.material.damping > 0.0) {
@@ -151,10 +151,10 @@ private:
       damping = calendem::BondDamping(b.material, section, k, mi * mj / (mi + mj), radius_min);
     }
     const calendem::BondAction a = calendem::action(loads, tension, motion, damping);
-    if (energy_ && s.computeflag) {
+    if (ledger_ && s.computeflag) {
       book_damping(s.i, s.j, motion, damping);
-      if (bond.state() == kBridge && fix_->shrinks())
-        energy_->add_shrinking(s.i, s.j, tension * bond.length());
+      if (bond.state() == kBridge && bonds_->shrinks())
+        ledger_->add_shrinking(s.i, s.j, tension * bond.length());
     }
     calendem::add_to(a.force, i_forces.delta_F);
     calendem::subtract_from(a.force, j_forces.delta_F);

@@ -33,7 +33,7 @@ void ComputeBondBpmAtom::compute_peratom() {
   }
   for (int i = 0; i < atom->nlocal + atom->nghost; ++i)
     array_atom[i][0] = 0.0;
-  fix_->for_each_intact([this](int i, int j, const BondHistory &) {
+  fix_->pairs().for_each_intact([this](int i, int j, const BondHistory &) {
     array_atom[i][0] += 1.0;
     array_atom[j][0] += 1.0;
   });
@@ -80,7 +80,7 @@ void ComputeBondBpmBody::init() {
 void ComputeBondBpmBody::compute_array() {
   invoked_array = update->ntimestep;
   std::vector<double> mine(size_array_rows, 0.0), all(size_array_rows, 0.0);
-  fix_->for_each_intact([&](int i, int j, const BondHistory &) {
+  fix_->pairs().for_each_intact([&](int i, int j, const BondHistory &) {
     mine[fix_->body(i < atom->nlocal ? i : j) - 1] += 1.0;
   });
   MPI_Allreduce(mine.data(), all.data(), size_array_rows, MPI_DOUBLE, MPI_SUM, world);

@@ -70,7 +70,7 @@ void ComputeContactRange::add(int row, const EffectContact &contact, const doubl
 void ComputeContactRange::add_pairs() {
   const double *radius = atom->radius;
   const int *type = atom->type;
-  bonds_->for_each_touching([&](int i, int j, double r, const BondHistory &bond) {
+  bonds_->pairs().for_each_touching([&](int i, int j, double r, const BondHistory &bond) {
     add(bond.has_reference() ? int(kInsideBodies) : row_of(type[i], type[j]),
         EffectContact::of_spheres(type[i], type[j], radius[i], radius[j],
                                   bond.contact(r, radius[i] + radius[j]).overlap),

@@ -88,7 +88,7 @@ void DumpBondBpmVtk::init_style() { fix_ = FixBondBpm::find(lmp, "dump bond/bpm/
 void DumpBondBpmVtk::write() {
   const BondSettings &set = fix_->settings();
   std::vector<BondLine> lines;
-  fix_->for_each_intact([&](int i, int j, const BondHistory &bond) {
+  fix_->pairs().for_each_intact([&](int i, int j, const BondHistory &bond) {
     const double *radius = atom->radius;
     const calendem::Vec3 d = calendem::load(atom->x[i]) - calendem::load(atom->x[j]);
     const calendem::BondSection s(set.material.radius_ratio * std::min(radius[i], radius[j]));

@@ -32,52 +32,23 @@ FixStyle(bond/bpm, FixBondBpm)
 #ifndef LMP_FIX_BOND_BPM_H
 #define LMP_FIX_BOND_BPM_H
 
-#include "bond_bpm_history.h"
+#include "body_map.h"
+#include "bond_events.h"
+#include "bond_watch.h"
+#include "break_log.h"
 #include "fix.h"
-#include "physics/binder_bridge.h"
-#include "physics/bond_failure.h"
-#include "physics/drying_shrinkage.h"
-#include "registry/bond_strengths.h"
+#include "position_grid.h"
+#include "sphere_bridges.h"
 #include "state_in_restart.h"
+#include "surface_insets.h"
+#include <algorithm>
 #include <array>
-#include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
 
-/// What the user sets for all bonds; stresses in kPa.
-struct BondSettings {
-  calendem::BondMaterial material;
-  calendem::BondStrength strength = {0.0, 0.0};
-  calendem::FailureCriterion criterion = calendem::FailureCriterion::Signed;
-  calendem::BondStrengths strengths; ///< from bond to bond
-  bool breakable = true;
-  double contact_diameter = 1.0; ///< of a body's primaries that meet, over the sum of radii
-  double surface_inset = 0.0;    ///< how far inside a primary its surface is for others [um]
-  double inset_fading = 0.0;     ///< part of it that goes as the primary's bonds break
-
-  calendem::BondStrength strength_of(double factor) const {
-    return {factor * strength.tensile, factor * strength.shear};
-  }
-};
-
-/// One broken bond; the same list on every rank, ordered by step, then tags. Plain doubles, so that
-/// it travels through MPI and restart files as it is. Of a bridge: `mode` is its kind, `body` -1,
-/// and `tag_low` 0 on the collector; it is counted and not kept.
-struct BreakEvent {
-  double time, tag_low, tag_high, body, mode, sigma, tau, x, y, z, pressure, energy;
-
-  bool operator<(const BreakEvent &o) const {
-    return time != o.time         ? time < o.time
-           : tag_low != o.tag_low ? tag_low < o.tag_low
-                                  : tag_high < o.tag_high;
-  }
-  bool of_bridge() const { return body < 0.0; }
-};
-
-class FixBondBpm : public Fix {
+class FixBondBpm : public Fix, public BondEvents {
 public:
   FixBondBpm(class LAMMPS *, int, char **);
   ~FixBondBpm();
@@ -93,7 +64,6 @@ public:
   void post_integrate();
   void post_run();
   void post_force(int);
-  void end_of_step();
   double compute_vector(int);
   double memory_usage();
 
@@ -114,51 +84,28 @@ public:
   /// The one fix bond/bpm of the run; an error that names `caller` if there is none or several.
   static FixBondBpm *find(class LAMMPS *lmp, const char *caller);
 
-  /// Of the grid of positions along axis k [um], 0 along a side that is not periodic.
-  double spacing(int k) const { return spacing_[k]; }
-
-  // for the contact models, per pair and step
+  // BondEvents
+  BondPairs &pairs() { return pairs_; }
   const BondSettings &settings() const { return settings_; }
-  const BondSettings &bridge_settings() const { return bridge_settings_; }
-  const BondSettings &settings_of(const BondHistory &bond) const {
-    return bond.state() == kBridge ? bridge_settings_ : settings_;
-  }
-  const calendem::BinderBridges &bridges() const { return bridges_; }
-  /// By how much of their length at creation bridges have shrunk in this step, and whether they do
-  /// in this or the next one.
-  double shrinking() const { return shrinking_; }
-  bool shrinks() const { return shrinkage_.strain > 0.0 && (shrunk_ < 1.0 || shrinking_ > 0.0); }
+  const BondSettings &bridge_settings() const { return bridges_.settings(); }
+  bool shrinks() const { return bridges_.shrinks(); }
   bool creating() const { return creating_; }
   void create(int i, int j, double r, BondHistory &bond) const;
-  /// The spheres of a broken pair have separated, or were bridged.
+  void bridge(int i, int j, double r, BondHistory &bond) const { bridges_.make(i, j, r, bond); }
   void separate(int i, int j, BondHistory &bond) const;
-  /// Those of this rank and of ghosts.
-  void radii_have_changed();
-  void bridge(int i, int j, double r, BondHistory &bond) const;
-  /// On the collector: all that were made; one of this rank has broken.
-  void bridges_made_on_wall(bigint n) {
-    bridges_made_[int(calendem::BridgeKind::CbdCollector)] = n;
-  }
-  void bridge_breaks_on_wall(int i, double energy);
   void record_break(int i, int j, BondHistory bond, const calendem::BondLoads &, double tension,
                     const calendem::BondSection &, const calendem::BondStiffness &, double factor);
-  void check_stretch(double stretch) {
-    if (stretch > kStretchLimit && overstretched_ == 0.0)
-      overstretched_ = stretch;
-  }
-  void acts(int i, int j) { acting_ += decides(i, j); }
-  void count_acting(bigint bonds) { acting_ += bonds; }
+  void check_stretch(double stretch) { watch_.check_stretch(stretch); }
+  void count_acting(bigint bonds) { watch_.count_acting(bonds); }
   void force_overflows(int tag) { overflowed_ = tag; }
-  int friction_history_offset(int bond_offset);
-  /// Who keeps values of histories from step to step, NULL for nobody.
-  void set_loop(class BpmPairLoop *loop) { loop_ = loop; }
-  /// Leaves the histories to the host until the next step.
-  void release_histories();
+  double largest_radius(double now) { return largest_radius_ = std::max(largest_radius_, now); }
 
-  // Neighbours are listed, and histories kept, up to this multiple of the sum of radii. 1.1 is
-  // ample for brittle bonds; 1.2 would list the lattice's diagonal neighbours.
-  static constexpr double kContactDistanceFactor = 1.1;
-  static constexpr double kStretchLimit = 0.98 * kContactDistanceFactor;
+  const PositionGrid &grid() const { return grid_; }
+  SphereBridges &bridges() { return bridges_; }
+  /// Radii of this rank's atoms and of ghosts are other ones.
+  void radii_have_changed();
+  /// The bridge of atom i of this rank on the collector breaks; its energy in fJ.
+  void bridge_breaks_on_wall(int i, double energy);
 
   // for computes and dumps
   int body(int i) const { return body_[i]; }
@@ -167,47 +114,11 @@ public:
   int broken_of(int i) const { return broken_[i]; }
   /// All so far; all ranks must call.
   const std::vector<BreakEvent> &breaks() {
-    gather_breaks();
-    return breaks_;
+    log_.gather();
+    return log_.events();
   }
-  bigint initial() const { return initial_; }
-  /// Calls visit(i, j, history) for every intact bond, each once over all ranks.
-  template <class Visit> void for_each_intact(Visit visit);
-  /// The same for every copy on this rank: each local atom meets all its bonds.
-  template <class Visit> void for_each_copy(Visit visit);
-  /// The same with bridges between spheres.
-  template <class Visit> void for_each_acting_copy(Visit visit);
-  /// Calls visit(i, j, r, history) for every pair whose spheres overlap, each once over all ranks.
-  template <class Visit> void for_each_touching(Visit visit);
-  /// The same for every copy on this rank.
-  template <class Visit> void for_each_touching_copy(Visit visit);
-  /// True on the rank (and copy) that counts the pair and decides its fate.
-  bool decides(int i, int j) const;
 
 private:
-  BondSettings settings_, bridge_settings_; // of a bridge the strength's factor is sigma_c
-  calendem::BinderBridges bridges_;
-  calendem::DryingShrinkage shrinkage_;
-  double shrunk_ = 0.0, shrinking_ = 0.0; // of `shrinkage_`; in this step, of the length
-  bool restarted_ = false;
-  std::array<double, 5> earlier_ = {}; // what remembered() was in the run that goes on
-  class FixEnergyBpm *energy_;         // NULL when no ledger is kept
-  class FixTimeBpm *time_ = nullptr;
-  StateInRestart restarted_state_;
-  std::string bodies_file_, log_file_, platen_id_;
-  std::vector<int> body_of_tag_;        // from the body map; empty after a restart
-  std::map<int, double> body_diameter_; // of the sphere of the primaries' volume; likewise
-  int *body_, *broken_;
-  int bodies_ = 0;
-  int history_offset_;
-  class BpmPairLoop *loop_ = nullptr;
-  bool created_, creating_, log_ready_;
-  bigint initial_;
-  bigint by_mode_[5];
-  double energy_lost_;
-  std::vector<double> inset_; // of spheres and ghosts [um], found when neighbours are listed
-  bigint bridges_made_[calendem::kBridgeKinds], bridges_broken_[calendem::kBridgeKinds];
-  double bridge_energy_lost_;
   /// A setting that a restart has to repeat.
   struct Remembered {
     const char *name;
@@ -219,74 +130,45 @@ private:
     BondHistory bond;
     BreakEvent event;
   };
-  std::vector<Break> failing_;     // of this step
-  std::vector<BreakEvent> mine_;   // decided here since the last gathering
-  std::vector<BreakEvent> breaks_; // gathered
-  double overstretched_;           // the first stretch beyond the limit, 0 if none
-  int overflowed_ = 0;             // tag of an atom whose forces are beyond the units of their sum
-  // intact bonds and bridges that this rank decides: acted in this step; are there; did not act
-  // when they had to
-  bigint acting_, expected_, missing_;
-  bigint spheres_ = -1; // of all ranks, when all bonds acted last
-  double spacing_[3];   // of the grid of positions, 0 along sides that are not periodic
-  std::array<int, 2> saved_pages_ = {}; // neigh_modify one, page at the end of the last run
 
-  void parse(int narg, char **arg);
-  int parse_keyword(int iarg, int narg, char **arg);
-  int parse_strength(int narg, char **arg);
-  int parse_bridges(int narg, char **arg);
-  int parse_shrinkage(int narg, char **arg);
-  std::array<Remembered, 5> remembered() const;
-  void check_remembered();
-  void check_shrinkage();
-  void shrink(double dt);
+  BondSettings settings_;
+  BondPairs pairs_;
+  PositionGrid grid_;
+  BodyMap map_;
+  SurfaceInsets insets_;
+  SphereBridges bridges_;
+  BondWatch watch_;
+  BreakLog log_;
+  StateInRestart restarted_state_;
+  std::string bodies_file_, log_file_, platen_id_;
+  class WorkLedger *ledger_ = nullptr; // NULL when none is kept
+  class FixTimeBpm *time_ = nullptr;
+  int *body_ = nullptr, *broken_ = nullptr; // of each atom
+  int bodies_ = 0;
+  bool created_ = false, creating_ = false, restarted_ = false;
+  bigint initial_ = 0;
+  std::array<double, 5> earlier_ = {}; // what remembered() was in the run that goes on
+  std::vector<Break> failing_;         // of this step
+  int overflowed_ = 0;          // tag of an atom whose forces are beyond the units of their sum
+  double largest_radius_ = 0.0; // from which these units follow [um]
+
+  void refuse_minimizer();
+  void check_box();
   void check_bridges();
   void check_radii();
-  calendem::BridgeKind kind_of_bridge(int i, int j) const;
-  void count_bridges(bigint *of_kind);
-  void count_bridges_made();
-  void check_bridges_add_up();
-  bigint acting_pairs() const;
-  double bridge_vector(int n);
-  double strain_energy_of(BondState state);
-  double not_into_contact(int i, int j, double before, double length) const;
-  void find_insets();
-  void check_settings();
-  void check_modulus(const char *what, double value);
-  void pair_error(const char *what, double value, int i, int j, const char *why);
-  const double *property(const char *name, const char *kind, int pairs_of);
-  void check_materials();
-  void check_collapse(int i, int j, double ced, double effective_modulus);
-  void read_bodies();
-  void measure_bodies();
-  void check_box();
+  void check_remembered();
+  std::array<Remembered, 5> remembered() const;
   double meeting_distance(int i, int j) const;
-  bigint count_intact();
-  bool copies_agree();
-  bigint broken() const;
-  template <class Visit> void for_each_neighbor(Visit visit);
-  void store_histories();
-  void save_histories();
-  void check_pages();
-  void choose_grid();
-  void put_on_grid();
-  void check_acting(bool new_lists);
+  bigint acting_pairs() const;
   void stop_if_wrong();
   void stop_if_overflowed();
   void apply_breaks();
-  void gather_breaks();
-  void open_log();
   double platen_pressure() const;
-  void log_breaks(const std::vector<BreakEvent> &all);
-  void stop_overstretched(double stretch);
-  void stop_lost(bigint acting, bigint intact, bigint spheres);
-  std::string why_lost(bigint spheres) const;
-  void refuse_minimizer();
+  double checked_intact();
+  double bridge_vector(int n);
 };
 
 } // namespace LAMMPS_NS
-
-#include "fix_bond_bpm_inline.h"
 
 #endif
 #endif

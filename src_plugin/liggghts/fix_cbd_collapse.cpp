@@ -126,7 +126,7 @@ bool FixCbdCollapse::is_mine(int i) const { return i < atom->nlocal && atom->typ
 // What presses, less what cohesion pulls: of the contacts, not of bonds and bridges beside them.
 void FixCbdCollapse::add_pair_forces(std::vector<long long> &sum) const {
   const double *R = atom->radius;
-  bonds_->for_each_touching_copy([&](int i, int j, double r, const BondHistory &bond) {
+  bonds_->pairs().for_each_touching_copy([&](int i, int j, double r, const BondHistory &bond) {
     if (!is_mine(i) && !is_mine(j))
       return;
     const int ti = atom->type[i], tj = atom->type[j];

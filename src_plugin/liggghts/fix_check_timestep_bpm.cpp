@@ -60,7 +60,7 @@ double FixCheckTimestepBpm::bond_bound() const {
   const int nlocal = atom->nlocal;
   Rows rows(nlocal), bridges(nlocal);
   const double *m = atom->rmass, *R = atom->radius;
-  bonds->for_each_acting_copy([&](int i, int j, const BondHistory &bond) {
+  bonds->pairs().for_each_acting_copy([&](int i, int j, const BondHistory &bond) {
     const calendem::BondMaterial &material = bonds->settings_of(bond).material;
     const calendem::BondSection section(material.radius_ratio * std::min(R[i], R[j]));
     const calendem::BondStiffness k(material, section, bond.length());
@@ -89,7 +89,7 @@ void FixCheckTimestepBpm::add_contacts(Rows &rows) const {
   const int nlocal = atom->nlocal;
   const double *R = atom->radius, *m = atom->rmass;
   FixBondBpm *bonds = FixBondBpm::find(lmp, "fix check/timestep/bpm");
-  bonds->for_each_touching_copy([&](int i, int j, double r, const BondHistory &bond) {
+  bonds->pairs().for_each_touching_copy([&](int i, int j, double r, const BondHistory &bond) {
     const int ti = atom->type[i], tj = atom->type[j];
     const double a = effects_.stiffness_radius(
         EffectContact::of_spheres(ti, tj, R[i], R[j], bond.contact(r, R[i] + R[j]).overlap),

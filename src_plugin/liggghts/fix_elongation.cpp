@@ -5,12 +5,12 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_bond_bpm.h"
-#include "fix_energy_bpm.h"
 #include "fix_wall_gran_platen.h"
 #include "modify.h"
 #include "physics/fixed_point.h"
 #include "update.h"
 #include "words.h"
+#include "work_ledger.h"
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -23,7 +23,7 @@ constexpr double kMost = 0.05; // of physics/web_elongation.h
 }
 
 FixElongation::FixElongation(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), at_end_(0.0), platen_(NULL), bonds_(NULL), energy_(NULL) {
+    : Fix(lmp, narg, arg), at_end_(0.0), platen_(NULL), bonds_(NULL), ledger_(NULL) {
   if (narg != 5)
     error->fix_error(FLERR, this, "takes two arguments: 'fix ID all elongation PLATEN E'");
   platen_id_ = arg[3];
@@ -38,10 +38,6 @@ FixElongation::FixElongation(LAMMPS *lmp, int narg, char **arg)
 }
 
 int FixElongation::setmask() { return INITIAL_INTEGRATE | POST_FORCE; }
-
-FixElongation *FixElongation::find(LAMMPS *lmp) {
-  return static_cast<FixElongation *>(lmp->modify->find_fix_style_strict("elongation", 0));
-}
 
 void FixElongation::check_order(const char *style, int place) {
   if (place < modify->find_fix(id))
@@ -64,7 +60,7 @@ void FixElongation::init() {
     error->fix_error(FLERR, this, message.c_str());
   }
   bonds_ = FixBondBpm::find(lmp, "fix elongation");
-  energy_ = FixEnergyBpm::find(lmp);
+  ledger_ = WorkLedger::find(lmp);
   check_order("wall/gran/platen", place);
   check_order("bond/bpm", modify->find_fix(bonds_->id));
   for (int k = 0; k < modify->nfix; ++k)
@@ -82,10 +78,10 @@ double FixElongation::growth_to_come() const {
 void FixElongation::initial_integrate(int) {
   const calendem::WebElongation law = {at_end_, platen_->start(), platen_->last_gap()};
   record_.elongation = std::max(record_.elongation, law.at(platen_->position()));
-  stretch(
-      calendem::nearest_multiple((1.0 + record_.elongation) * record_.side, bonds_->spacing(0)));
-  if (energy_)
-    record_.work += record_.step.work_before(energy_->moments().all);
+  stretch(calendem::nearest_multiple((1.0 + record_.elongation) * record_.side,
+                                     bonds_->grid().spacing(0)));
+  if (ledger_)
+    record_.work += record_.step.work_before(ledger_->moments().all);
 }
 
 void FixElongation::stretch(double side) {
@@ -101,8 +97,8 @@ void FixElongation::stretch(double side) {
 }
 
 void FixElongation::post_force(int) {
-  if (energy_)
-    record_.work += record_.step.work_after(energy_->moments().all);
+  if (ledger_)
+    record_.work += record_.step.work_after(ledger_->moments().all);
 }
 
 double FixElongation::work_of_all() const {

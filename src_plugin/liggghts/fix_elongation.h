@@ -15,6 +15,7 @@ FixStyle(elongation, FixElongation)
 #ifndef LMP_FIX_ELONGATION_H
 #define LMP_FIX_ELONGATION_H
 
+#include "cell_growth.h"
 #include "fix.h"
 #include "physics/web_elongation.h"
 #include "state_in_restart.h"
@@ -22,7 +23,7 @@ FixStyle(elongation, FixElongation)
 
 namespace LAMMPS_NS {
 
-class FixElongation : public Fix {
+class FixElongation : public Fix, public CellGrowth {
 public:
   FixElongation(class LAMMPS *, int, char **);
   int setmask();
@@ -34,12 +35,8 @@ public:
   void write_restart(FILE *);
   void restart(char *);
 
-  /// The fix of the run, NULL if there is none.
-  static FixElongation *find(class LAMMPS *lmp);
-
-  /// Of the latest step.
+  // CellGrowth
   const calendem::ElongationStep &step() const { return record_.step; }
-  /// By how much the cell will grow at most, over its side now.
   double growth_to_come() const;
 
 private:
@@ -56,7 +53,7 @@ private:
   double at_end_;
   class FixWallGranPlaten *platen_;
   class FixBondBpm *bonds_;
-  class FixEnergyBpm *energy_;
+  class WorkLedger *ledger_;
   Record record_;
 
   void check_order(const char *style, int place);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_energy_bpm.h"
+#include "cell_growth.h"
 #include "comm.h"
 #include "error.h"
 #include "fix_bond_bpm.h"
-#include "fix_elongation.h"
 #include "fix_property_atom.h"
 #include "fix_wall_gran_platen.h"
 #include "force.h"
@@ -20,8 +20,8 @@ using namespace FixConst;
 using calendem::Vec3;
 
 FixEnergyBpm::FixEnergyBpm(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), bonds_(NULL), elongation_(NULL), pairs_have_effects_(false),
-      cohesion_energy_density_(NULL), last_moment_(0.0), sums_() {
+    : Fix(lmp, narg, arg), bonds_(NULL), cell_(NULL), pairs_have_effects_(false),
+      cohesion_energy_density_(NULL), last_moment_(0.0) {
   if (narg != 3)
     error->fix_error(FLERR, this, "takes no arguments: 'fix ID all energy/bpm'");
   vector_flag = 1;
@@ -47,7 +47,7 @@ void FixEnergyBpm::init() {
   if (modify->n_fixes_style_strict("energy/bpm") > 1)
     error->fix_error(FLERR, this, "there may be only one");
   bonds_ = FixBondBpm::find(lmp, "fix energy/bpm");
-  elongation_ = FixElongation::find(lmp);
+  cell_ = CellGrowth::find(lmp);
   force->registry.registerProperty("cohEnergyDens", &MODEL_PARAMS::createCohesionEnergyDensity);
   force->registry.connect("cohEnergyDens", cohesion_energy_density_, "fix energy/bpm");
   find_walls();
@@ -56,12 +56,12 @@ void FixEnergyBpm::init() {
 }
 
 void FixEnergyBpm::add_taken(int i, int j, double work, calendem::WorkTaken term) {
-  if (bonds_->decides(i, j))
+  if (bonds_->pairs().decides(i, j))
     add_taken(work, term);
 }
 
 void FixEnergyBpm::add_shrinking(int i, int j, double work) {
-  if (bonds_->decides(i, j))
+  if (bonds_->pairs().decides(i, j))
     add_shrinking(work);
 }
 
@@ -107,8 +107,8 @@ void FixEnergyBpm::post_integrate() {
   for (const LastForce &last : last_forces_)
     sums_[kBreaks] -= work_in_half_step(last.action, last.atom);
   last_forces_.clear();
-  if (elongation_)
-    sums_[kBreaks] += elongation_->step().work_before(last_moment_);
+  if (cell_)
+    sums_[kBreaks] += cell_->step().work_before(last_moment_);
   last_moment_ = 0.0;
 }
 
@@ -120,10 +120,10 @@ void FixEnergyBpm::post_force(int) {
 
 // Pairs dissipate at their whole relative velocity.
 void FixEnergyBpm::add_half_elongation(double (calendem::ElongationStep::*work)(double) const) {
-  if (!elongation_)
+  if (!cell_)
     return;
-  sums_[kDamped] += (elongation_->step().*work)(moments_.damped);
-  sums_[kFriction] += (elongation_->step().*work)(moments_.friction);
+  sums_[kDamped] += (cell_->step().*work)(moments_.damped);
+  sums_[kFriction] += (cell_->step().*work)(moments_.friction);
 }
 
 double FixEnergyBpm::work_in_half_step(const ForceAndTorque &a, int i) const {
@@ -142,7 +142,7 @@ void FixEnergyBpm::add_half_step() {
     damped += 0.5 * update->dt * wall.damping * wall.fix->velocity();
     friction += 0.5 * update->dt * wall.friction * wall.fix->sliding();
   }
-  sums_[kShrinking] += 0.5 * shrinking_ * bonds_->shrinking();
+  sums_[kShrinking] += 0.5 * shrinking_ * bonds_->bridges().shrinking();
   sums_[kDamped] += damped;
   sums_[kFriction] += friction;
 }
@@ -204,7 +204,7 @@ void FixEnergyBpm::bond_breaks(int i, int j, const BondHistory &bond) {
   if (j < atom->nlocal)
     last_forces_.push_back({j, {-force, a.torque_j}});
   last_moment_ += (j < atom->nlocal ? 1.0 : 0.5) * force.x * d.x;
-  if (!bonds_->decides(i, j))
+  if (!bonds_->pairs().decides(i, j))
     return;
   if (begins)
     sums_[kBreaks] -= cohesion(i, j, beyond);
@@ -214,7 +214,7 @@ void FixEnergyBpm::bond_breaks(int i, int j, const BondHistory &bond) {
 
 double FixEnergyBpm::pair_energy(bool of_cohesion) const {
   double sum = 0.0;
-  bonds_->for_each_touching([&](int i, int j, double r, const BondHistory &bond) {
+  bonds_->pairs().for_each_touching([&](int i, int j, double r, const BondHistory &bond) {
     const double *radius = atom->radius;
     const calendem::ActingContact acting = bond.contact(r, radius[i] + radius[j]);
     if (!of_cohesion)

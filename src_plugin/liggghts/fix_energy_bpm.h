@@ -27,35 +27,16 @@ FixStyle(energy/bpm, FixEnergyBpm)
 #define LMP_FIX_ENERGY_BPM_H
 
 #include "atom.h"
-#include "bond_bpm_history.h"
 #include "contact_effects.h"
 #include "fix.h"
-#include "physics/parallel_bond.h"
 #include "physics/web_elongation.h"
 #include "state_in_restart.h"
+#include "work_ledger.h"
 #include <vector>
 
 namespace LAMMPS_NS {
 
-/// On one atom [nN], [nN um].
-struct ForceAndTorque {
-  calendem::Vec3 force, torque;
-};
-
-inline ForceAndTorque operator+(const ForceAndTorque &a, const ForceAndTorque &b) {
-  return {a.force + b.force, a.torque + b.torque};
-}
-inline ForceAndTorque operator-(const ForceAndTorque &a, const ForceAndTorque &b) {
-  return {a.force - b.force, a.torque - b.torque};
-}
-
-/// Sums over this rank's pairs of f_x d_x, f on i, d = x_i - x_j [fJ]: of all forces, of damping, of
-/// friction.
-struct PairMoments {
-  double all = 0.0, damped = 0.0, friction = 0.0;
-};
-
-class FixEnergyBpm : public Fix {
+class FixEnergyBpm : public Fix, public WorkLedger {
 public:
   FixEnergyBpm(class LAMMPS *, int, char **);
   ~FixEnergyBpm();
@@ -76,67 +57,32 @@ public:
   /// The fix of the run, NULL if there is none.
   static FixEnergyBpm *find(class LAMMPS *lmp);
 
-  // for the contact models, per pair; what is added to ghosts is their owner's business
-  void add_damping(int i, const ForceAndTorque &a) { loads_[i].damping = loads_[i].damping + a; }
-  void add_damping(int i, const calendem::Vec3 &force) {
-    loads_[i].damping.force = loads_[i].damping.force + force;
-  }
-  void add_damping(int i, int j, const calendem::BondAction &a) {
-    add_damping(i, {a.force, a.torque_i});
-    add_damping(j, {-a.force, a.torque_j});
-  }
-  void add_friction(int i, const ForceAndTorque &a) { loads_[i].friction = loads_[i].friction + a; }
-
-  /// Of the latest force computation; summed where there is a fix elongation.
-  PairMoments &moments() { return moments_; }
-
-  /// What the law of a contact has taken.
-  void add_taken(double work, calendem::WorkTaken term) {
-    sums_[term == calendem::WorkTaken::PlasticFlow ? kPlastic : kViscous] += work;
-  }
-  /// Of a pair: each of its copies calls, one counts.
+  using WorkLedger::add_shrinking;
+  using WorkLedger::add_taken;
   void add_taken(int i, int j, double work, calendem::WorkTaken term);
+  void add_shrinking(int i, int j, double work);
+  void bond_breaks(int i, int j, const BondHistory &bond);
+
   /// Energy [fJ] in this rank's contacts, elastic and cohesive: before and after radii change.
   double stored_in_contacts() const;
   void add_collapse(double work) { sums_[kCollapse] += work; }
-  /// Of a bridge that shrinks [fJ]: its tension times its length at creation.
-  void add_shrinking(double work) { shrinking_ += work; }
-  void add_shrinking(int i, int j, double work);
-  /// For fix bond/bpm, once per copy of the pair, while the history still holds the bond's loads.
-  void bond_breaks(int i, int j, const BondHistory &bond);
-  /// A force on atom i acts in this step for the last time: a bridge on a wall has broken.
-  void force_ends(int i, const ForceAndTorque &action) { last_forces_.push_back({i, action}); }
-  void shrinking_ends(double work) { ended_ += work; }
 
 private:
-  struct AtomLoads {
-    ForceAndTorque damping, friction;
-  };
-  struct LastForce {
-    int atom;
-    ForceAndTorque action;
-  };
   struct Wall {
     class FixWallGranPlaten *fix;
     bool sticks;
     double damping;  ///< sum of the damping forces along z on this rank's atoms [nN]
     double friction; ///< and of the friction along x
   };
-  enum Sum { kDamped, kFriction, kBreaks, kPlastic, kCollapse, kViscous, kShrinking, kSums };
 
   StateInRestart restarted_state_;
   class FixBondBpm *bonds_;
-  class FixElongation *elongation_; // NULL: the cell keeps its sides
+  class CellGrowth *cell_; // NULL: it keeps its sides
   ContactEffects effects_;
   bool pairs_have_effects_;
   double **cohesion_energy_density_; // by type pair, from the host
   std::vector<Wall> walls_;
-  std::vector<AtomLoads> loads_; // of the latest force computation
-  PairMoments moments_;
-  std::vector<LastForce> last_forces_;   // of bonds that have just broken
-  double last_moment_;                   // of these
-  double sums_[kSums];                   // this rank's
-  double shrinking_ = 0.0, ended_ = 0.0; // of the latest forces; of the bridges that broke in them
+  double last_moment_; // of the bonds that have just broken
 
   void find_walls();
   void collect_walls();

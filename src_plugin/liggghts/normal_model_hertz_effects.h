@@ -19,9 +19,9 @@ NORMAL_MODEL(HERTZ_EFFECTS, hertz_effects, 30)
 #include "contact_effects.h"
 #include "contact_models.h"
 #include "error.h"
-#include "fix_energy_bpm.h"
 #include "normal_model_base.h"
 #include "update.h"
+#include "work_ledger.h"
 #include <cmath>
 #include <cstdio>
 
@@ -31,7 +31,7 @@ namespace ContactModels {
 template <> class NormalModel<HERTZ_EFFECTS> : public NormalModelBase {
 public:
   NormalModel(LAMMPS *lmp, IContactHistorySetup *hsetup, class ContactModelBase *cmb)
-      : NormalModelBase(lmp, hsetup, cmb), energy_(NULL), tangential_damping_(true),
+      : NormalModelBase(lmp, hsetup, cmb), ledger_(NULL), tangential_damping_(true),
         memory_(hsetup->add_history_value("contact_memory", "0")), bond_(-1) {
     for (int k = 1; k < LAMMPS_NS::ContactEffects::kMemory; ++k)
       hsetup->add_history_value("contact_memory", "0");
@@ -48,7 +48,7 @@ public:
 
   void connectToProperties(PropertyRegistry &registry) {
     effects_.connect(registry, "model hertz_effects");
-    energy_ = FixEnergyBpm::find(lmp);
+    ledger_ = WorkLedger::find(lmp);
   }
 
   double stressStrainExponent() { return 1.5; }
@@ -88,7 +88,7 @@ public:
 
 private:
   LAMMPS_NS::ContactEffects effects_;
-  FixEnergyBpm *energy_; // NULL when no ledger is kept
+  WorkLedger *ledger_; // NULL when no ledger is kept
   bool tangential_damping_;
   int memory_, bond_; // offsets in the history; bond_ is -1 without bonds
 
@@ -119,13 +119,13 @@ private:
                double *memory) {
     const double dt = update->dt;
     const double taken = effects_.advance(contact, s.deltan + s.vn * dt, dt, memory);
-    if (!energy_ || taken == 0.0)
+    if (!ledger_ || taken == 0.0)
       return;
     const calendem::WorkTaken term = effects_.law(s.itype, s.jtype).takes;
     if (s.is_wall)
-      energy_->add_taken(taken, term);
+      ledger_->add_taken(taken, term);
     else
-      energy_->add_taken(s.i, s.j, taken, term);
+      ledger_->add_taken(s.i, s.j, taken, term);
   }
 
   void set(SurfacesIntersectData &s, double radius, double force) const {

@@ -3,7 +3,6 @@
 #include "atom.h"
 #include "contact_effects.h"
 #include "contact_model_constants.h"
-#include "fix_bond_bpm.h"
 #include "neigh_list.h"
 #include "neighbor.h"
 #include "pair_gran.h"
@@ -24,8 +23,8 @@ constexpr int kInContact = kApart | CONTACT_TANGENTIAL_MODEL;
 
 } // namespace
 
-void PairTable::connect(FixBondBpm *fix, int bond_offset, int effects_offset, int spring_offset) {
-  fix_ = fix;
+void PairTable::connect(BondEvents *bonds, int bond_offset, int effects_offset, int spring_offset) {
+  bonds_ = bonds;
   bond_ = bond_offset;
   memory_ = effects_offset;
   spring_ = spring_offset;
@@ -47,9 +46,9 @@ void PairTable::make_bonds(int i, int j, BondHistory &history) const {
   const double r = std::sqrt(distance_squared(i, j));
   const double reach = neighbor->contactDistanceFactor * (atom->radius[i] + atom->radius[j]);
   if (is_near(i, j, 0.0))
-    fix_->create(i, j, r, history);
+    bonds_->create(i, j, r, history);
   if (r < reach)
-    fix_->bridge(i, j, r, history);
+    bonds_->bridge(i, j, r, history);
 }
 
 void PairTable::take(PairGran *pair) {
@@ -78,7 +77,7 @@ void PairTable::take(PairGran *pair) {
 
 void PairTable::take(const FarPair &pair) {
   BondHistory history = bond(pair.history);
-  if (fix_->creating())
+  if (bonds_->creating())
     make_bonds(pair.i, pair.j, history);
   const int state = history.state();
   if (state == kIntact)
@@ -113,7 +112,7 @@ void PairTable::add_bond(Bonds &list, const FarPair &pair) {
   t.shear.set(p, loads.shear);
   t.bending.set(p, loads.bending);
   t.twist[p] = loads.twist;
-  deciding_ += fix_->decides(pair.i, pair.j);
+  deciding_ += bonds_->pairs().decides(pair.i, pair.j);
 }
 
 void PairTable::add_contact(const FarPair &pair) {
@@ -226,13 +225,13 @@ void PairTable::drop(Bonds &list, int broken) {
     calendem::store(t.displacement[p], pair.history + spring_);
     add_contact(pair);
   }
-  deciding_ -= fix_->decides(pair.i, pair.j);
+  deciding_ -= bonds_->pairs().decides(pair.i, pair.j);
   list.remove(broken);
 }
 
 void PairTable::part(ContactTile &t, int p) {
   BondHistory history = bond(t.history[p]);
-  fix_->separate(t.i[p], t.j[p], history);
+  bonds_->separate(t.i[p], t.j[p], history);
   t.parts[p] = 0.0;
   refer(t, p);
 }

@@ -9,6 +9,7 @@
 #define CALENDEM_PAIR_TABLE_H
 
 #include "bond_bpm_history.h"
+#include "bond_events.h"
 #include "pair_tile.h"
 #include "pointers.h"
 #include <vector>
@@ -50,7 +51,7 @@ public:
   explicit PairTable(class LAMMPS *lmp) : Pointers(lmp) {}
 
   /// Offsets in a pair's history.
-  void connect(class FixBondBpm *fix, int bond_offset, int effects_offset, int spring_offset);
+  void connect(BondEvents *bonds, int bond_offset, int effects_offset, int spring_offset);
 
   /// False before take() and after release().
   bool holds() const { return holds_; }
@@ -86,7 +87,7 @@ private:
     int *flags;
   };
 
-  class FixBondBpm *fix_ = nullptr;
+  BondEvents *bonds_ = nullptr;
   int bond_ = 0, memory_ = -1, spring_ = -1;
   bool holds_ = false, stored_ = true;
   int deciding_ = 0;

@@ -9,11 +9,12 @@ SURFACE_MODEL(SURFACE_BPM, bpm, 30)
 
 #include "atom.h"
 #include "bond_bpm_history.h"
+#include "bond_events.h"
 #include "contact_models.h"
 #include "error.h"
-#include "fix_bond_bpm.h"
 #include "force.h"
 #include "granular_bpm.h"
+#include "history_layout.h"
 #include "surface_model_base.h"
 #include <cmath>
 
@@ -23,7 +24,7 @@ namespace ContactModels {
 template <> class SurfaceModel<SURFACE_BPM> : public SurfaceModelBase {
 public:
   SurfaceModel(LAMMPS *lmp, IContactHistorySetup *hsetup, class ContactModelBase *cmb)
-      : SurfaceModelBase(lmp, hsetup, cmb), fix_(NULL), offset_(-1), spring_(-1) {
+      : SurfaceModelBase(lmp, hsetup, cmb), bonds_(NULL), offset_(-1), spring_(-1) {
     if (cmb->is_wall())
       error->all(FLERR, "surface model bpm is for particle pairs; walls take 'surface default' "
                         "(leave the keyword out of fix wall/gran)");
@@ -44,25 +45,26 @@ public:
   void postSettings(IContactHistorySetup *, ContactModelBase *) {}
 
   void connectToProperties(PropertyRegistry &) {
-    fix_ = FixBondBpm::find(lmp, "surface model bpm");
+    bonds_ = BondEvents::find(lmp, "surface model bpm");
     if (!static_cast<PairGran *>(force->pair_match("gran", 1))->contact_match("cohesion", "bpm"))
       error->all(FLERR, "surface model bpm makes bonds whose forces 'cohesion bpm' computes: "
                         "write 'cohesion bpm surface bpm' in pair_style gran");
-    spring_ = fix_->friction_history_offset(offset_);
+    bonds_->pairs().connect(offset_);
+    spring_ = friction_history_offset(lmp, offset_);
   }
 
   // An intact bond that is not compressed has no contact: the host then passes it to surfacesClose
   // and spares the Hertz and friction models.
   bool checkSurfaceIntersect(SurfacesIntersectData &s) {
     const BondHistory bond(s.contact_history + offset_);
-    return fix_->creating() || bond.state() != kIntact || s.rsq < bond.length() * bond.length();
+    return bonds_->creating() || bond.state() != kIntact || s.rsq < bond.length() * bond.length();
   }
 
   void surfacesIntersect(SurfacesIntersectData &s, ForceData &, ForceData &) {
     BondHistory bond(s.contact_history + offset_);
-    if (fix_->creating()) {
-      fix_->create(s.i, s.j, s.r, bond);
-      fix_->bridge(s.i, s.j, s.r, bond);
+    if (bonds_->creating()) {
+      bonds_->create(s.i, s.j, s.r, bond);
+      bonds_->bridge(s.i, s.j, s.r, bond);
     }
     contact_kinematics(s, s.radsum - s.r);
     s.deltan = bond.contact(s.r, s.radsum).overlap;
@@ -74,10 +76,10 @@ public:
     if (!s.contact_history)
       return;
     BondHistory bond(s.contact_history + offset_);
-    if (fix_->creating())
-      fix_->bridge(s.i, s.j, std::sqrt(s.rsq), bond);
+    if (bonds_->creating())
+      bonds_->bridge(s.i, s.j, std::sqrt(s.rsq), bond);
     if (bond.state() == kBrokenTouching && s.computeflag && s.shearupdate)
-      fix_->separate(s.i, s.j, bond);
+      bonds_->separate(s.i, s.j, bond);
   }
 
   void endSurfacesIntersect(SurfacesIntersectData &, TriMesh *, double *const) {}
@@ -87,7 +89,7 @@ public:
   void tally_pw(double, int, int, int) {}
 
 private:
-  FixBondBpm *fix_;
+  BondEvents *bonds_;
   int offset_;
   int spring_; // first of the tangential model's three history values, -1 if it has none
 

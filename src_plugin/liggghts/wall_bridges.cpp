@@ -4,13 +4,13 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_bond_bpm.h"
-#include "fix_energy_bpm.h"
 #include "fix_property_atom.h"
 #include "fix_wall_gran_platen.h"
 #include "modify.h"
 #include "mpi_liggghts.h"
 #include "registry/phases.h"
 #include "update.h"
+#include "work_ledger.h"
 
 using namespace LAMMPS_NS;
 using calendem::BridgeKind;
@@ -70,6 +70,7 @@ void WallBridges::delete_storage() { modify->delete_fix(name_.c_str()); }
 void WallBridges::init(int wall) {
   bonds_ = FixBondBpm::find(lmp, "fix wall/gran/platen with bridges");
   find(lmp);
+  bonds_->bridges().set_on_collector(this);
   if (modify->find_fix(bonds_->id) > wall)
     error->all(FLERR, "a fix wall/gran/platen with 'bridges yes' must stand behind fix bond/bpm");
 }
@@ -94,13 +95,13 @@ calendem::PairMotion WallBridges::motion(int i) const {
 void WallBridges::note_creation() { creating_ = bonds_->creating(); }
 
 void WallBridges::create(int type) {
-  const double tensile = bonds_->bridges().tensile_of(BridgeKind::CbdCollector);
+  const double tensile = bonds_->bridges().law().tensile_of(BridgeKind::CbdCollector);
   if (!creating_ || tensile <= 0.0 || type != int(calendem::Phase::Collector))
     return;
   for (int i = 0; i < atom->nlocal; ++i) {
     const double height = atom->x[i][2] - z_;
     if (atom->type[i] != int(calendem::Phase::Cbd) ||
-        height > atom->radius[i] + bonds_->bridges().gap)
+        height > atom->radius[i] + bonds_->bridges().law().gap)
       continue;
     BondHistory(values(i)).create(height, tensile, kBridge);
     values(i)[kX] = atom->x[i][0];
@@ -110,11 +111,11 @@ void WallBridges::create(int type) {
   const bigint mine = intact();
   bigint all = 0;
   MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  bonds_->bridges_made_on_wall(all);
+  bonds_->bridges().set_made(BridgeKind::CbdCollector, all);
 }
 
 void WallBridges::act(bool update) {
-  FixEnergyBpm *ledger = FixEnergyBpm::find(lmp);
+  WorkLedger *ledger = WorkLedger::find(lmp);
   force_.assign(atom->nlocal, 0.0);
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!stands(i))
@@ -148,7 +149,7 @@ void WallBridges::break_if_it_fails(int i, Bridge &bridge) {
     return;
   const calendem::BondAction last =
       calendem::action(loads, bridge.tension, bridge.motion, calendem::BondDamping());
-  if (FixEnergyBpm *ledger = FixEnergyBpm::find(lmp)) {
+  if (WorkLedger *ledger = WorkLedger::find(lmp)) {
     ledger->force_ends(i, {last.force, last.torque_i});
     ledger->shrinking_ends(bridge.tension * bridge.bond.length());
   }

@@ -9,12 +9,13 @@
 #include "physics/binder_bridge.h"
 #include "physics/time_step_bound.h"
 #include "pointers.h"
+#include "sphere_bridges.h"
 #include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
 
-class WallBridges : protected Pointers {
+class WallBridges : protected Pointers, public CollectorBridges {
 public:
   /// Of the wall with this ID at height z [um].
   WallBridges(class LAMMPS *lmp, const std::string &wall, double z);

@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// fix bond/bpm: what must hold in every step, and the messages when it does not.
-#include "atom.h"
-#include "bpm_pair_loop.h"
+#include "bond_watch.h"
 #include "error.h"
-#include "fix_bond_bpm.h"
+#include "fix.h"
 #include "mpi_liggghts.h"
 #include "neighbor.h"
-#include "update.h"
 
 using namespace LAMMPS_NS;
 
-// Every intact bond must act in every step. A rank counts its own; where the lists are new, or the
-// run is, all see that together they have all.
-void FixBondBpm::check_acting(bool new_lists) {
+// A rank counts its own; where the lists are new, or the run is, all see that together they have
+// all.
+void BondWatch::end_step(const BondPairs &pairs, bool new_lists) {
   if (new_lists) {
     expected_ = 0;
-    for_each_neighbor([this](int i, int j, const BondHistory &bond) {
-      expected_ += bond.acts() && decides(i, j);
+    pairs.for_each_neighbor([&](int i, int j, const BondHistory &bond) {
+      expected_ += bond.acts() && pairs.decides(i, j);
     });
   }
   if (missing_ == 0)
@@ -24,17 +21,15 @@ void FixBondBpm::check_acting(bool new_lists) {
   acting_ = 0;
 }
 
-// What one rank has found wrong stops all of them, where they meet.
-void FixBondBpm::stop_if_wrong() {
+void BondWatch::stop_if_wrong(bigint intact, bigint waiting) {
   double stretch = 0.0;
   MPI_Allreduce(&overstretched_, &stretch, 1, MPI_DOUBLE, MPI_MAX, world);
   if (stretch > 0.0)
     stop_overstretched(stretch);
-  bigint mine[4] = {missing_, expected_, 0, atom->nlocal}, all[4];
-  for (const BreakEvent &e : mine_)
-    mine[2] += e.tag_low > 0.0;
+  const bigint mine[4] = {missing_, expected_, waiting, atom->nlocal};
+  bigint all[4];
   MPI_Allreduce(mine, all, 4, MPI_LMP_BIGINT, MPI_SUM, world);
-  const bigint intact = acting_pairs() - all[2];
+  intact -= all[2];
   if (all[0] != 0)
     stop_lost(intact - all[0], intact, all[3]);
   if (all[1] != intact)
@@ -42,34 +37,26 @@ void FixBondBpm::stop_if_wrong() {
   spheres_ = all[3];
 }
 
-// Seldom, so that a bond that is stretched too far, the usual cause, is found first.
-void FixBondBpm::stop_if_overflowed() {
-  int tag = 0;
-  MPI_Allreduce(&overflowed_, &tag, 1, MPI_INT, MPI_MAX, world);
-  if (tag > 0)
-    loop_->stop_overflow(tag);
-}
-
-void FixBondBpm::stop_overstretched(double stretch) {
+void BondWatch::stop_overstretched(double stretch) const {
   char message[300];
   snprintf(
       message, sizeof message,
       "an intact bond is stretched to %.4f times the sum of radii; beyond %.2f its history would "
       "be lost. The time step is too large or the bonds are unbreakable or too strong",
       stretch, kContactDistanceFactor);
-  error->fix_error(FLERR, this, message);
+  error->fix_error(FLERR, owner_, message);
 }
 
 // Beyond the range of histories the host calls no contact model: a bond stretched from within that
 // range to beyond it in one step, or one whose history is gone, just does not act any more.
-void FixBondBpm::stop_lost(bigint acting, bigint intact, bigint spheres) {
+void BondWatch::stop_lost(bigint acting, bigint intact, bigint spheres) const {
   char message[100];
   snprintf(message, sizeof message,
            BIGINT_FORMAT " of " BIGINT_FORMAT " intact bonds acted in a step. ", acting, intact);
-  error->fix_error(FLERR, this, (message + why_lost(spheres)).c_str());
+  error->fix_error(FLERR, owner_, (message + why_lost(spheres)).c_str());
 }
 
-std::string FixBondBpm::why_lost(bigint spheres) const {
+std::string BondWatch::why_lost(bigint spheres) const {
   char reason[400];
   if (spheres < spheres_)
     snprintf(reason, sizeof reason,
@@ -90,14 +77,4 @@ std::string FixBondBpm::why_lost(bigint spheres) const {
         "leave 'one' and 'page' of neigh_modify as they are",
         kContactDistanceFactor);
   return reason;
-}
-
-// A minimizer follows an energy, and the host's contacts have none; each of its iterations would
-// advance histories like a time step.
-void FixBondBpm::refuse_minimizer() {
-  if (update->whichflag == 2)
-    error->fix_error(
-        FLERR, this,
-        "'minimize' does not know the energy of contacts and bonds. To let spheres come "
-        "to rest, 'run' with fix viscous or nve/limit, or with 'damping' of the bonds");
 }
