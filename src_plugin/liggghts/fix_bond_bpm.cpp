@@ -214,6 +214,7 @@ void FixBondBpm::find_insets() {
 }
 
 void FixBondBpm::setup(int) {
+  stop_if_overflowed();
   if (!creating_)
     return;
   creating_ = false;
@@ -301,17 +302,13 @@ void FixBondBpm::post_force(int) {
   const bool due = new_lists || update->ntimestep % kGatherEvery == 0;
   if (due || (wrong && comm->nprocs == 1))
     stop_if_wrong();
+  stop_if_overflowed();
   apply_breaks();
-  if (update->ntimestep % kGatherEvery == 0) {
-    stop_if_overflowed();
+  if (update->ntimestep % kGatherEvery == 0)
     gather_breaks();
-  }
 }
 
-void FixBondBpm::post_run() {
-  stop_if_overflowed();
-  gather_breaks();
-}
+void FixBondBpm::post_run() { gather_breaks(); }
 
 bigint FixBondBpm::broken() const { return by_mode_[1] + by_mode_[2] + by_mode_[3] + by_mode_[4]; }
 

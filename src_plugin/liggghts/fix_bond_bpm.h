@@ -38,6 +38,7 @@ FixStyle(bond/bpm, FixBondBpm)
 #include "physics/binder_bridge.h"
 #include "physics/bond_failure.h"
 #include "physics/drying_shrinkage.h"
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -146,6 +147,8 @@ public:
   void count_acting(bigint bonds) { acting_ += bonds; }
   void force_overflows(int tag) { overflowed_ = tag; }
   int friction_history_offset(int bond_offset);
+  /// Of all spheres so far, with those of now.
+  double largest_radius(double now) { return largest_radius_ = std::max(largest_radius_, now); }
   /// Who keeps values of histories from step to step, NULL for nobody.
   void set_loop(class BpmPairLoop *loop) { loop_ = loop; }
 
@@ -213,6 +216,7 @@ private:
   std::vector<BreakEvent> breaks_; // gathered
   double overstretched_;           // the first stretch beyond the limit, 0 if none
   int overflowed_ = 0;             // tag of an atom whose forces are beyond the units of their sum
+  double largest_radius_ = 0.0;    // from which these units follow [um]
   // intact bonds and bridges that this rank decides: acted in this step; are there; did not act
   // when they had to
   bigint acting_, expected_, missing_;
@@ -244,7 +248,8 @@ private:
   void check_settings();
   void check_modulus(const char *what, double value);
   void pair_error(const char *what, double value, int i, int j, const char *why);
-  const double *property(const char *name, const char *kind, int pairs_of);
+  class FixPropertyGlobal *property(const char *name, const char *kind);
+  void check_not_negative(const char *name);
   void check_materials();
   void check_collapse(int i, int j, double ced, double effective_modulus);
   void read_bodies();

@@ -39,12 +39,10 @@ void FixBondBpm::stop_if_wrong() {
     stop_lost(all[1], intact);
 }
 
-// Seldom, so that a bond that is stretched too far, the usual cause, is found first.
+// By this rank at once: the forces of this step are wrong.
 void FixBondBpm::stop_if_overflowed() {
-  int tag = 0;
-  MPI_Allreduce(&overflowed_, &tag, 1, MPI_INT, MPI_MAX, world);
-  if (tag > 0)
-    loop_->stop_overflow(tag);
+  if (overflowed_ > 0)
+    loop_->stop_overflow(overflowed_);
 }
 
 void FixBondBpm::stop_overstretched(double stretch) {

@@ -7,6 +7,7 @@
 #include "modify.h"
 #include "physics/hertz_contact.h"
 #include "update.h"
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
@@ -181,35 +182,40 @@ void FixBondBpm::pair_error(const char *what, double value, int i, int j, const 
   error->fix_error(FLERR, this, message);
 }
 
-// Values of a global property, one per type or pair of types; NULL if the script sets none.
-const double *FixBondBpm::property(const char *name, const char *kind, int pairs_of) {
-  const int n = atom->ntypes;
-  FixPropertyGlobal *fix = static_cast<FixPropertyGlobal *>(
-      modify->find_fix_property(name, "property/global", kind, n, pairs_of * n, style, false));
-  return fix ? fix->get_values() : NULL;
+// A global property by types or by pairs of them, for as many as the script gives, which may be
+// fewer than the box has; NULL if it gives none.
+FixPropertyGlobal *FixBondBpm::property(const char *name, const char *kind) {
+  return static_cast<FixPropertyGlobal *>(
+      modify->find_fix_property(name, "property/global", kind, 0, 0, style, false));
+}
+
+void FixBondBpm::check_not_negative(const char *name) {
+  FixPropertyGlobal *of_pairs = property(name, "peratomtypepair");
+  for (int i = 0; of_pairs && i < of_pairs->size_array_rows; ++i)
+    for (int j = i; j < of_pairs->size_array_cols; ++j)
+      if (const double value = of_pairs->compute_array(i, j); !(value >= 0.0))
+        pair_error(name, value, i + 1, j + 1, "it must be >= 0");
 }
 
 void FixBondBpm::check_materials() {
-  const int n = atom->ntypes;
-  const double *E = property("youngsModulus", "peratomtype", 0);
-  const double *nu = property("poissonsRatio", "peratomtype", 0);
-  const double *ced = property("cohesionEnergyDensity", "peratomtypepair", 1);
+  FixPropertyGlobal *modulus = property("youngsModulus", "peratomtype");
+  FixPropertyGlobal *poisson = property("poissonsRatio", "peratomtype");
+  FixPropertyGlobal *ced = property("cohesionEnergyDensity", "peratomtypepair");
   char what[64];
-  for (int i = 0; E && i < n; ++i) {
+  for (int i = 0; modulus && i < modulus->size_vector; ++i) {
     snprintf(what, sizeof what, "youngsModulus of atom type %d", i + 1);
-    check_modulus(what, E[i]);
+    check_modulus(what, modulus->compute_vector(i));
   }
-  const double *friction = property("coefficientFriction", "peratomtypepair", 1);
+  check_not_negative("coefficientFriction");
+  check_not_negative("cohesionEnergyDensity");
+  if (!modulus || !poisson || !ced)
+    return;
+  const double *E = modulus->get_values(), *nu = poisson->get_values();
+  const int n = std::min({modulus->size_vector, poisson->size_vector, ced->size_array_rows});
   for (int i = 0; i < n; ++i)
-    for (int j = i; j < n; ++j) {
-      if (friction && !(friction[i * n + j] >= 0.0))
-        pair_error("coefficientFriction", friction[i * n + j], i + 1, j + 1, "it must be >= 0");
-      if (ced && !(ced[i * n + j] >= 0.0))
-        pair_error("cohesionEnergyDensity", ced[i * n + j], i + 1, j + 1, "it must be >= 0");
-      if (E && nu && ced)
-        check_collapse(i + 1, j + 1, ced[i * n + j],
-                       calendem::effective_modulus(E[i], nu[i], E[j], nu[j]));
-    }
+    for (int j = i; j < n; ++j)
+      check_collapse(i + 1, j + 1, ced->compute_array(i, j),
+                     calendem::effective_modulus(E[i], nu[i], E[j], nu[j]));
 }
 
 // Two spheres that nothing but SJKR and Hertz act on; the overlap scales as (CED/E)^2.

@@ -131,13 +131,13 @@ double FixCheckTimestepBpm::contact_bound(int i, int other, const Row &bonds,
 double FixCheckTimestepBpm::contact_bound(const Rows &bonds, const Rows &bridges) const {
   double least = HUGE_VAL;
   for (int i = 0; i < atom->nlocal; ++i)
-    for (int other = 1; other <= atom->ntypes; ++other)
+    for (int other = 1; other <= effects_.types(); ++other)
       least = std::min(least, contact_bound(i, other, bonds[i], bridges[i]));
   return least;
 }
 
 double FixCheckTimestepBpm::rayleigh_time() const {
-  const int types = atom->ntypes;
+  const int types = effects_.types();
   FixPropertyGlobal *E = static_cast<FixPropertyGlobal *>(modify->find_fix_property(
       "youngsModulus", "property/global", "peratomtype", types, 0, style));
   FixPropertyGlobal *nu = static_cast<FixPropertyGlobal *>(modify->find_fix_property(
