@@ -340,12 +340,13 @@ void BpmPairLoop::add_forces(PairGran *pair) {
 void BpmPairLoop::stop_overflow(int tag) const {
   const long long most = calendem::RoughSum::kMost;
   char message[400];
-  snprintf(
-      message, sizeof message,
-      "particle %d is under a force or torque of more than the units of its sum hold: %.3g nN, "
-      "%.3g nN um, more than pressing one sphere into another by its radius takes. The time "
-      "step is too large, or something moves too fast: lower the timestep or the speed",
-      tag, force_unit_.value(most), torque_unit_.value(most));
+  snprintf(message, sizeof message,
+           "particle %d is under a force or torque of more than the units of its sum hold: %.3g, "
+           "%.3g (in "
+           "the script's units), more than pressing one sphere into another by its radius takes. "
+           "The time "
+           "step is too large, or something moves too fast: lower the timestep or the speed",
+           tag, force_unit_.value(most), torque_unit_.value(most));
   stop_run(lmp, FLERR, message);
 }
 
