@@ -4,6 +4,7 @@
 #ifndef CALENDEM_BOND_BPM_HISTORY_H
 #define CALENDEM_BOND_BPM_HISTORY_H
 
+#include "physics/acting_contact.h"
 #include "physics/parallel_bond.h"
 
 namespace LAMMPS_NS {
@@ -58,7 +59,14 @@ public:
   /// effects leave alone.
   const double *effect_memory() const { return has_reference() ? nullptr : h_ + kSize; }
 
-  /// Overlap [um] at that distance, subtracted from the contact's overlap.
+  /// What the pair's contact acts on at the distance r [um].
+  calendem::ActingContact contact(double r, double radius_sum) const {
+    const double reference = reference_overlap(radius_sum);
+    return {calendem::acting_overlap(radius_sum, r, reference),
+            calendem::acting_distance(r, reference), state() != kIntact};
+  }
+
+  /// Overlap [um] at that distance, from which the contact counts.
   double reference_overlap(double radius_sum) const {
     if (state() == kBridge || length() == 0.0 || length() >= radius_sum)
       return 0.0;

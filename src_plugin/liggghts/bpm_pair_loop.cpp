@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "bpm_pair_loop.h"
 #include "atom.h"
+#include "contact_readers.h"
 #include "error.h"
 #include "fix_bond_bpm.h"
 #include "fix_elongation.h"
@@ -50,6 +51,7 @@ void BpmPairLoop::connect(int bond_offset, int effects_offset) {
   registry.connect("cohEnergyDens", cohesion_, "pair_style gran");
   if (memory_ >= 0)
     effects_.connect(registry, "pair_style gran");
+  contacts_are_read_ = contacts_are_read(*modify);
   table_.connect(fix_, bond_, memory_, spring_);
   fix_->set_loop(this);
   known_.find();
@@ -167,6 +169,8 @@ void BpmPairLoop::compute_force(PairGran *pair) {
     fix_->count_acting(acting);
   if (update->whichflag != 1) // nobody says when lists are built
     table_.release();
+  else if (contacts_are_read_)
+    table_.store();
 }
 
 // Returns how many of the bonds that this rank decides do not act, as they are stretched beyond the

@@ -47,7 +47,6 @@ public:
   void compute_force(class PairGran *pair);
 
   /// Histories that this holds, back to the host's lists; release() leaves them there.
-  bool holds_histories() const { return table_.holds(); }
   void store_histories() { table_.store(); }
   void release_histories() { table_.release(); }
 
@@ -65,6 +64,7 @@ private:
   std::vector<PairMaterial> materials_;           // of known types a, b at a * types_ + b
   int types_ = 0;                                 // of the box, and 1
   int bond_ = 0, memory_ = -1, spring_ = -1;      // offsets in the history
+  bool contacts_are_read_ = false;                // by a style of the host, in every step
   std::vector<Sphere> spheres_;                   // atoms and ghosts in this step
   std::vector<WholeForce> forces_;                // on them
   calendem::FixedPoint force_unit_, torque_unit_; // of these [nN], [nN um]

@@ -56,7 +56,7 @@ public:
       bond_force(s, bond, n, s.r, i_forces, j_forces);
     } else {
       const double pull = calendem::sjkr_force(
-          cohEnergyDens_[s.itype][s.jtype], s.r + bond.reference_overlap(s.radsum), s.radi, s.radj);
+          cohEnergyDens_[s.itype][s.jtype], bond.contact(s.r, s.radsum).distance, s.radi, s.radj);
       calendem::subtract_from(pull * n, i_forces.delta_F);
       calendem::add_to(pull * n, j_forces.delta_F);
       if (bond.state() == kBridge)

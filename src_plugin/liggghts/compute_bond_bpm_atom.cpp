@@ -72,13 +72,9 @@ ComputeBondBpmBody::~ComputeBondBpmBody() { memory->destroy(array); }
 
 void ComputeBondBpmBody::init() {
   fix_ = FixBondBpm::find(lmp, "compute bond/bpm/body");
-  int mine = 0, bodies = 0;
-  for (int i = 0; i < atom->nlocal; ++i)
-    mine = std::max(mine, fix_->body(i));
-  MPI_Allreduce(&mine, &bodies, 1, MPI_INT, MPI_MAX, world);
+  size_array_rows = fix_->bodies();
   memory->destroy(array);
-  memory->create(array, std::max(bodies, 1), 2, "bond/bpm/body:array");
-  size_array_rows = bodies;
+  memory->create(array, std::max(size_array_rows, 1), 2, "bond/bpm/body:array");
 }
 
 void ComputeBondBpmBody::compute_array() {

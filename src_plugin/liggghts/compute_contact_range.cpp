@@ -71,10 +71,9 @@ void ComputeContactRange::add_pairs() {
   const double *radius = atom->radius;
   const int *type = atom->type;
   bonds_->for_each_touching([&](int i, int j, double r, const BondHistory &bond) {
-    const double sum = radius[i] + radius[j];
     add(bond.has_reference() ? int(kInsideBodies) : row_of(type[i], type[j]),
         EffectContact::of_spheres(type[i], type[j], radius[i], radius[j],
-                                  sum - r - bond.reference_overlap(sum)),
+                                  bond.contact(r, radius[i] + radius[j]).overlap),
         pairs_have_effects_ ? bond.effect_memory() : NULL);
   });
 }

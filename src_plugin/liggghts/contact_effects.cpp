@@ -42,8 +42,8 @@ void check(LAMMPS *lmp, const calendem::ContactProperty &property, int i, int j,
   if (!enough || !(value < property.below) || !std::isfinite(value))
     refuse(lmp, property, i, j, value, why);
   snprintf(why, sizeof why, "give at most %g, %g of the effective modulus",
-           property.of_modulus * modulus, property.of_modulus);
-  if (value > property.of_modulus * modulus)
+           property.most_of_modulus * modulus, property.most_of_modulus);
+  if (value > property.most_of_modulus * modulus)
     refuse(lmp, property, i, j, value, why);
 }
 
@@ -81,20 +81,22 @@ void ContactEffects::choose(LAMMPS *lmp, int n, int i, int j) {
   TypePair &p = pairs_[i * (types_ + 1) + j];
   const ContactLaw &law = *kContactLaws[n];
   char why[400];
-  for (size_t k = 0; k < law.properties.size() && law.properties[k].name; ++k) {
-    p.values[k] = optional(lmp, law.properties[k].name, types_, i, j);
-    check(lmp, law.properties[k], i, j, p.values[k], p.modulus);
+  calendem::PropertyValues values = {};
+  for (size_t k = 0; k < law.size; ++k) {
+    values[k] = optional(lmp, law.properties[k].name, types_, i, j);
+    check(lmp, law.properties[k], i, j, values[k], p.modulus);
   }
   if (p.law >= 0) {
     snprintf(why, sizeof why, "a contact follows one law: set it or %s to 0",
              kContactLaws[p.law]->properties[0].name);
-    refuse(lmp, law.properties[0], i, j, p.values[0], why);
+    refuse(lmp, law.properties[0], i, j, values[0], why);
   }
   p.law = n;
-  const calendem::ContactLimits limits = law.limits({p.cohesion, p.modulus}, p.values.data());
-  const bool low = p.values[0] < limits.least;
+  calendem::AllLaws::set(p.params, n, values);
+  const calendem::ContactLimits limits = law.limits({p.cohesion, p.modulus}, values);
+  const bool low = values[0] < limits.least;
   snprintf(why, sizeof why, "%s. Give at %s %g, or 0 (off)", limits.why, low ? "least" : "most",
            low ? limits.least : limits.most);
-  if (low || p.values[0] > limits.most)
-    refuse(lmp, law.properties[0], i, j, p.values[0], why);
+  if (low || values[0] > limits.most)
+    refuse(lmp, law.properties[0], i, j, values[0], why);
 }

@@ -4,13 +4,12 @@
 // collapse of CBD and the check of the time step. The laws, and the properties that the script
 // gives them (peratomtypepair, units micro; one that is missing is 0 everywhere), are those of
 // registry/contact_law.h; a pair of types may have one of them. A contact's history holds its
-// law's values, at most kMemory.
+// law's State, at most kMemory numbers.
 #ifndef CALENDEM_CONTACT_EFFECTS_H
 #define CALENDEM_CONTACT_EFFECTS_H
 
 #include "pointers.h"
 #include "registry/contact_law.h"
-#include <utility>
 #include <vector>
 
 class PropertyRegistry;
@@ -34,8 +33,7 @@ class ContactEffects {
 public:
   static constexpr const char *kModel = "hertz_effects";
   /// History values of a contact.
-  static constexpr int kMemory =
-      calendem::most_memory(static_cast<calendem::ContactLaws *>(nullptr));
+  static constexpr int kMemory = static_cast<int>(calendem::AllLaws::kMostMemory);
 
   /// True if the pair style's normal model is `hertz_effects`.
   static bool in_use(class LAMMPS *lmp);
@@ -53,27 +51,29 @@ public:
   double force(const EffectContact &c, const double *memory) const {
     if (!memory || !act(c.itype, c.jtype))
       return calendem::hertz_force(modulus(c.itype, c.jtype), c.effective_radius, c.overlap);
-    return with_law(c, memory,
-                    [&](const auto &law, auto... m) { return law.force(c.overlap, m...); });
+    return with_law(
+        c, memory, [&](const auto &law, const auto &state) { return law.force(c.overlap, state); });
   }
   double elastic_energy(const EffectContact &c, const double *memory) const {
     if (!memory || !act(c.itype, c.jtype))
       return calendem::hertz_energy(modulus(c.itype, c.jtype), c.effective_radius, c.overlap);
-    return with_law(
-        c, memory, [&](const auto &law, auto... m) { return law.elastic_energy(c.overlap, m...); });
+    return with_law(c, memory, [&](const auto &law, const auto &state) {
+      return law.elastic_energy(c.overlap, state);
+    });
   }
 
   // Of contacts that an effect acts on, the two for the time step of others too; see
   // physics/law_interface.h.
   double contact_radius(const EffectContact &c, const double *memory) const {
-    return with_law(
-        c, memory, [&](const auto &law, auto... m) { return law.contact_radius(c.overlap, m...); });
+    return with_law(c, memory, [&](const auto &law, const auto &state) {
+      return law.contact_radius(c.overlap, state);
+    });
   }
   double stiffness_radius(const EffectContact &c, const double *memory) const {
     if (!memory || !act(c.itype, c.jtype))
       return std::sqrt(c.effective_radius * c.overlap);
-    return with_law(c, memory, [&](const auto &law, auto... m) {
-      return law.stiffness_radius(c.overlap, m...);
+    return with_law(c, memory, [&](const auto &law, const auto &state) {
+      return law.stiffness_radius(c.overlap, state);
     });
   }
   double radius_under(double force, const EffectContact &c) const {
@@ -81,13 +81,16 @@ public:
       return std::sqrt(c.effective_radius * calendem::hertz_overlap(modulus(c.itype, c.jtype),
                                                                     c.effective_radius, force));
     const double none[kMemory] = {};
-    return with_law(c, none, [&](const auto &law, auto...) { return law.radius_under(force); });
+    return with_law(c, none,
+                    [&](const auto &law, const auto &) { return law.radius_under(force); });
   }
   /// Brings the memory up to the contact's overlap, which `time` [us] ago was `before`; returns the
   /// work [fJ] that this has taken.
   double advance(const EffectContact &c, double before, double time, double *memory) const {
-    return with_law(c, memory, [&](const auto &law, auto &...m) {
-      return law.advance(before, c.overlap, time, m...);
+    return with_law(c, memory, [&](const auto &law, auto state) {
+      const double taken = law.advance(before, c.overlap, time, state);
+      calendem::store_state(state, memory);
+      return taken;
     });
   }
   const calendem::ContactLaw &law(int itype, int jtype) const {
@@ -102,7 +105,7 @@ private:
   struct TypePair {
     int law = -1; ///< in ContactLaws; -1: Hertz
     double modulus = 0.0, shear_modulus = 0.0, damping = 0.0, cohesion = 0.0;
-    std::array<double, std::tuple_size_v<decltype(calendem::ContactLaw::properties)>> values = {};
+    calendem::AllLaws::Params params;
   };
 
   int types_ = 0;
@@ -112,20 +115,16 @@ private:
   void read(PropertyRegistry &registry, int i, int j, const char *caller);
   void choose(class LAMMPS *lmp, int law, int i, int j);
 
-  /// f(law, memory values ...) with the law of the contact's types: a switch over ContactLaws.
-  template <int n = 0, class Value, class F>
-  double with_law(const EffectContact &c, Value *memory, F f) const {
+  /// f(law, state) with the law of the contact's types: a switch over ContactLaws.
+  template <int n = 0, class F>
+  double with_law(const EffectContact &c, const double *memory, F f) const {
     using Law = std::tuple_element_t<n, calendem::ContactLaws>;
     const TypePair &p = pair(c.itype, c.jtype);
     if constexpr (n + 1 < std::tuple_size_v<calendem::ContactLaws>)
       if (p.law != n)
         return with_law<n + 1>(c, memory, f);
-    return with_values(Law({p.modulus, c.effective_radius, c.radius, p.cohesion}, p.values.data()),
-                       memory, f, std::make_index_sequence<Law::kMemory>());
-  }
-  template <class Law, class Value, class F, std::size_t... k>
-  static double with_values(const Law &law, Value *memory, F f, std::index_sequence<k...>) {
-    return f(law, memory[k]...);
+    return f(Law({p.modulus, c.effective_radius, c.radius, p.cohesion}, std::get<n>(p.params)),
+             calendem::load_state<typename Law::State>(memory));
   }
 };
 

@@ -8,6 +8,7 @@
 #include "fix_contact_history.h"
 #include "fix_elongation.h"
 #include "fix_energy_bpm.h"
+#include "fix_time_bpm.h"
 #include "memory.h"
 #include "modify.h"
 #include "mpi_liggghts.h"
@@ -24,6 +25,7 @@ using namespace FixConst;
 namespace {
 const int kEventSize = sizeof(BreakEvent) / sizeof(double);
 const int kGatherEvery = 100; // steps
+const char *const kHistoriesId = "contacthistory_bpm";
 } // namespace
 
 FixBondBpm::FixBondBpm(LAMMPS *lmp, int narg, char **arg)
@@ -54,6 +56,17 @@ FixBondBpm::~FixBondBpm() {
   atom->delete_callback(id, 1);
   memory->destroy(body_);
   memory->destroy(broken_);
+}
+
+void FixBondBpm::post_create() {
+  const char *words[] = {kHistoriesId, "all", "contacthistory/bpm"};
+  modify->add_fix(3, const_cast<char **>(words));
+  time_ = FixTimeBpm::of(lmp);
+}
+
+void FixBondBpm::pre_delete(bool unfix) {
+  if (unfix)
+    modify->delete_fix(kHistoriesId);
 }
 
 int FixBondBpm::setmask() {
@@ -89,6 +102,8 @@ int FixBondBpm::friction_history_offset(int bond_offset) {
 }
 
 void FixBondBpm::init() {
+  check_pages();
+  refuse_minimizer();
   choose_grid();
   energy_ = FixEnergyBpm::find(lmp);
   check_materials();
@@ -139,17 +154,11 @@ void FixBondBpm::put_on_grid() {
   }
 }
 
-void FixBondBpm::setup_pre_exchange() {
-  put_on_grid();
-  pre_exchange();
-}
+void FixBondBpm::setup_pre_exchange() { put_on_grid(); }
 
-// New lists follow. The host has saved the old ones before it calls any other fix.
-void FixBondBpm::pre_exchange() {
-  if (!loop_ || !loop_->holds_histories())
-    return;
-  loop_->release_histories();
-  static_cast<PairGran *>(force->pair_match("gran", 1))->get_fix_history()->pre_exchange();
+void FixBondBpm::release_histories() {
+  if (loop_)
+    loop_->release_histories();
 }
 
 void FixBondBpm::store_histories() {
@@ -185,6 +194,17 @@ void FixBondBpm::pre_force(int) {
   });
 }
 
+// Pairs of a body that meet at a part of their radii do so at those of now.
+void FixBondBpm::radii_have_changed() {
+  if (settings_.contact_diameter == 1.0)
+    return;
+  for_each_neighbor([this](int i, int j, BondHistory &bond) {
+    const bool apart = bond.state() == kNeverBonded || bond.state() == kBrokenSeparated;
+    if (apart && body_[i] > 0 && body_[i] == body_[j])
+      bond.meet_at(meeting_distance(i, j));
+  });
+}
+
 // Surfaces that come out again do so up to each other: a contact never begins with a force.
 double FixBondBpm::not_into_contact(int i, int j, double before, double length) const {
   if (length > 0.0 || before >= length)
@@ -215,6 +235,8 @@ void FixBondBpm::find_insets() {
 
 void FixBondBpm::setup(int) {
   stop_if_overflowed();
+  if (spheres_ < 0)
+    spheres_ = static_cast<bigint>(atom->natoms);
   if (!creating_)
     return;
   creating_ = false;
@@ -254,7 +276,7 @@ void FixBondBpm::record_break(int i, int j, BondHistory bond, const calendem::Bo
   const bool i_is_low = atom->tag[i] < atom->tag[j], of_bridge = bond.state() == kBridge;
   const int low = i_is_low ? i : j, high = i_is_low ? j : i;
   const double *a = atom->x[low], *b = atom->x[high];
-  const BreakEvent e = {update->ntimestep * update->dt,
+  const BreakEvent e = {time_->now(),
                         static_cast<double>(atom->tag[low]),
                         static_cast<double>(atom->tag[high]),
                         of_bridge ? -1.0
@@ -308,7 +330,36 @@ void FixBondBpm::post_force(int) {
     gather_breaks();
 }
 
-void FixBondBpm::post_run() { gather_breaks(); }
+// What is looked for now and then is looked for at the end, if there was a step.
+void FixBondBpm::post_run() {
+  if (expected_ >= 0)
+    stop_if_wrong();
+  gather_breaks();
+  save_histories();
+}
+
+// Commands between runs may look at contacts, and atoms that they make take the places of ghosts: the host
+// saves its lists only when the next run begins.
+void FixBondBpm::save_histories() {
+  release_histories();
+  PairGran *pair = static_cast<PairGran *>(force->pair_match("gran", 1));
+  if (pair && pair->get_fix_history())
+    pair->get_fix_history()->setup_pre_exchange();
+  saved_pages_ = {neighbor->oneatom, neighbor->pgsize};
+}
+
+// The host keeps what it has saved in pages of this size, and frees them when another size is asked for.
+void FixBondBpm::check_pages() {
+  const std::array<int, 2> now = {neighbor->oneatom, neighbor->pgsize};
+  char message[300];
+  snprintf(message, sizeof message,
+           "'neigh_modify one %d page %d' after a run with 'one %d page %d': LIGGGHTS would lose "
+           "the histories of "
+           "all contacts and bonds. Give it before the first run",
+           now[0], now[1], saved_pages_[0], saved_pages_[1]);
+  if (saved_pages_[1] != 0 && now != saved_pages_)
+    error->fix_error(FLERR, this, message);
+}
 
 bigint FixBondBpm::broken() const { return by_mode_[1] + by_mode_[2] + by_mode_[3] + by_mode_[4]; }
 

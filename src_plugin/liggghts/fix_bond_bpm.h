@@ -2,7 +2,7 @@
 // fix ID all bond/bpm bodies FILE youngs_modulus E nu NU radius_ratio L tensile S shear T
 //     criterion signed|unsigned|as_printed damping D weibull M SEED breakable yes|no log FILE
 //     pressure PLATEN_FIX contact_diameter D surface_inset S inset_fading F LAW NUMBERS ...
-// fix_modify ID LAW NUMBERS ...       with a further law of strength, see bond_strengths.h
+// fix_modify ID LAW NUMBERS ...       with a further law of strength, see registry/bond_strengths.h
 // fix_modify ID bridges E NU L GAP S_AM S_CBD S_COLLECTOR RATIO
 // fix_modify ID shrinkage EPS T
 //
@@ -18,7 +18,7 @@
 // default, and by the part F times the part of its bonds that is broken less; not with bridges. All
 // stresses in kPa (units micro). Everything restarts, under the same fix ID. Bridges
 // (physics/binder_bridge.h) of modulus E, radius ratio L and tensile strengths S between CBD and
-// AM, CBD, collector (types as in registry/effect.h) are made with the bonds and damped as they
+// AM, CBD, collector (types as in registry/phases.h) are made with the bonds and damped as they
 // are; the script gives them again after a restart. No bond of a body and nothing of bodies counts
 // them. In the time T [us] from their creation they shrink by EPS (physics/drying_shrinkage.h); a
 // restart with another EPS, T, D, S or F is refused. Global vector: 1-9 as compute bond/bpm; bridges
@@ -33,11 +33,11 @@ FixStyle(bond/bpm, FixBondBpm)
 #define LMP_FIX_BOND_BPM_H
 
 #include "bond_bpm_history.h"
-#include "bond_strengths.h"
 #include "fix.h"
 #include "physics/binder_bridge.h"
 #include "physics/bond_failure.h"
 #include "physics/drying_shrinkage.h"
+#include "registry/bond_strengths.h"
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -52,7 +52,7 @@ struct BondSettings {
   calendem::BondMaterial material;
   calendem::BondStrength strength = {0.0, 0.0};
   calendem::FailureCriterion criterion = calendem::FailureCriterion::Signed;
-  BondStrengths strengths; ///< from bond to bond
+  calendem::BondStrengths strengths; ///< from bond to bond
   bool breakable = true;
   double contact_diameter = 1.0; ///< of a body's primaries that meet, over the sum of radii
   double surface_inset = 0.0;    ///< how far inside a primary its surface is for others [um]
@@ -82,10 +82,11 @@ public:
   FixBondBpm(class LAMMPS *, int, char **);
   ~FixBondBpm();
   int setmask();
+  void post_create();
+  void pre_delete(bool);
   int modify_param(int narg, char **arg);
   void init();
   void setup_pre_exchange();
-  void pre_exchange();
   void setup_pre_force(int);
   void setup(int);
   void pre_force(int);
@@ -131,6 +132,8 @@ public:
   void create(int i, int j, double r, BondHistory &bond) const;
   /// The spheres of a broken pair have separated, or were bridged.
   void separate(int i, int j, BondHistory &bond) const;
+  /// Those of this rank and of ghosts.
+  void radii_have_changed();
   void bridge(int i, int j, double r, BondHistory &bond) const;
   /// On the collector: all that were made; one of this rank has broken.
   void bridges_made_on_wall(bigint n) {
@@ -151,6 +154,8 @@ public:
   double largest_radius(double now) { return largest_radius_ = std::max(largest_radius_, now); }
   /// Who keeps values of histories from step to step, NULL for nobody.
   void set_loop(class BpmPairLoop *loop) { loop_ = loop; }
+  /// Leaves the histories to the host until the next step.
+  void release_histories();
 
   // Neighbours are listed, and histories kept, up to this multiple of the sum of radii. 1.1 is
   // ample for brittle bonds; 1.2 would list the lattice's diagonal neighbours.
@@ -159,6 +164,8 @@ public:
 
   // for computes and dumps
   int body(int i) const { return body_[i]; }
+  /// Highest number of a body, whether its spheres are still there or not.
+  int bodies() const { return bodies_; }
   int broken_of(int i) const { return broken_[i]; }
   /// All so far; all ranks must call.
   const std::vector<BreakEvent> &breaks() {
@@ -187,10 +194,12 @@ private:
   bool restarted_ = false;
   std::array<double, 5> earlier_ = {}; // what remembered() was in the run that goes on
   class FixEnergyBpm *energy_;         // NULL when no ledger is kept
+  class FixTimeBpm *time_ = nullptr;
   std::string bodies_file_, log_file_, platen_id_;
   std::vector<int> body_of_tag_;        // from the body map; empty after a restart
   std::map<int, double> body_diameter_; // of the sphere of the primaries' volume; likewise
   int *body_, *broken_;
+  int bodies_ = 0;
   int history_offset_;
   class BpmPairLoop *loop_ = nullptr;
   bool created_, creating_, log_ready_;
@@ -220,7 +229,9 @@ private:
   // intact bonds and bridges that this rank decides: acted in this step; are there; did not act
   // when they had to
   bigint acting_, expected_, missing_;
-  double spacing_[3]; // of the grid of positions, 0 along sides that are not periodic
+  bigint spheres_ = -1; // of all ranks, when all bonds acted last
+  double spacing_[3];   // of the grid of positions, 0 along sides that are not periodic
+  std::array<int, 2> saved_pages_ = {}; // neigh_modify one, page at the end of the last run
 
   void parse(int narg, char **arg);
   int parse_keyword(int iarg, int narg, char **arg);
@@ -231,7 +242,7 @@ private:
   void check_remembered();
   void check_shrinkage();
   void shrink(double dt);
-  void check_bridges(double poisson);
+  void check_bridges();
   void check_radii();
   calendem::BridgeKind kind_of_bridge(int i, int j) const;
   void count_bridges(bigint *of_kind);
@@ -240,11 +251,8 @@ private:
   bigint acting_pairs() const;
   double bridge_vector(int n);
   double strain_energy_of(BondState state);
-  double positive(const char *keyword, const char *text, bool zero_allowed);
-  double fraction(const char *keyword, const char *text);
   double not_into_contact(int i, int j, double before, double length) const;
   void find_insets();
-  std::uint64_t seed(const char *text);
   void check_settings();
   void check_modulus(const char *what, double value);
   void pair_error(const char *what, double value, int i, int j, const char *why);
@@ -261,6 +269,8 @@ private:
   bigint broken() const;
   template <class Visit> void for_each_neighbor(Visit visit);
   void store_histories();
+  void save_histories();
+  void check_pages();
   void choose_grid();
   void put_on_grid();
   void check_acting(bool new_lists);
@@ -272,7 +282,9 @@ private:
   double platen_pressure() const;
   void log_breaks(const std::vector<BreakEvent> &all);
   void stop_overstretched(double stretch);
-  void stop_lost(bigint acting, bigint intact);
+  void stop_lost(bigint acting, bigint intact, bigint spheres);
+  std::string why_lost(bigint spheres) const;
+  void refuse_minimizer();
 };
 
 } // namespace LAMMPS_NS

@@ -4,11 +4,13 @@
 #include "error.h"
 #include "fix_bond_bpm.h"
 #include "fix_energy_bpm.h"
+#include "fix_time_bpm.h"
 #include "modify.h"
 #include "mpi_liggghts.h"
-#include "registry/effect.h"
+#include "registry/phases.h"
 #include "update.h"
 #include "wall_bridges.h"
+#include "words.h"
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -23,35 +25,30 @@ int FixBondBpm::parse_bridges(int narg, char **arg) {
     error->fix_error(FLERR, this,
                      "'bridges' needs 8 numbers: modulus, Poisson's ratio, radius ratio, gap, "
                      "strengths to AM, CBD and the collector, shear over tensile strength");
+  const NumberReader number(error, this);
   calendem::BondMaterial &m = bridge_settings_.material;
-  m.youngs_modulus = positive("bridges: modulus", arg[1], false);
-  const double poisson = positive("bridges: Poisson's ratio", arg[2], true);
-  m.radius_ratio = positive("bridges: radius ratio", arg[3], false);
-  bridges_.gap = positive("bridges: gap", arg[4], true);
-  bridges_.tensile[int(BridgeKind::AmCbd)] = positive("bridges: strength to AM", arg[5], true);
-  bridges_.tensile[int(BridgeKind::CbdCbd)] = positive("bridges: strength to CBD", arg[6], true);
+  m.youngs_modulus = number("bridges: modulus", arg[1], kPositive);
+  const double poisson = number("bridges: Poisson's ratio", arg[2], between(0.0, 0.5));
+  m.radius_ratio = number("bridges: radius ratio", arg[3], kBondRadius);
+  bridges_.gap = number("bridges: gap", arg[4], between(0.0, BinderBridges::kMostGap));
+  bridges_.tensile[int(BridgeKind::AmCbd)] =
+      number("bridges: strength to AM", arg[5], kNotNegative);
+  bridges_.tensile[int(BridgeKind::CbdCbd)] =
+      number("bridges: strength to CBD", arg[6], kNotNegative);
   bridges_.tensile[int(BridgeKind::CbdCollector)] =
-      positive("bridges: strength to the collector", arg[7], true);
-  bridges_.shear_ratio = positive("bridges: shear over tensile strength", arg[8], false);
+      number("bridges: strength to the collector", arg[7], kNotNegative);
+  bridges_.shear_ratio = number("bridges: shear over tensile strength", arg[8], kPositive);
   m.shear_modulus = calendem::shear_modulus(m.youngs_modulus, poisson);
   m.damping = settings_.material.damping;
   bridge_settings_.strength = {1.0, bridges_.shear_ratio};
-  check_bridges(poisson);
+  check_bridges();
   return words;
 }
 
-void FixBondBpm::check_bridges(double poisson) {
+void FixBondBpm::check_bridges() {
   const double E = bridge_settings_.material.youngs_modulus;
   check_modulus("the modulus of 'bridges'", E);
-  if (poisson > 0.5)
-    error->fix_error(FLERR, this, "Poisson's ratio of 'bridges' must be between 0 and 0.5");
-  if (bridge_settings_.material.radius_ratio > 1.5)
-    error->fix_error(FLERR, this, "the radius ratio of 'bridges' must be between 0 and 1.5");
   char message[300];
-  snprintf(message, sizeof message, "the gap of 'bridges' is %g um; at most %g is allowed",
-           bridges_.gap, BinderBridges::kMostGap);
-  if (bridges_.gap > BinderBridges::kMostGap)
-    error->fix_error(FLERR, this, message);
   for (const double tensile : bridges_.tensile) {
     snprintf(message, sizeof message,
              "a tensile strength of 'bridges' is %g kPa, %.3g of their modulus; at most %g is "
@@ -66,8 +63,9 @@ int FixBondBpm::parse_shrinkage(int narg, char **arg) {
   const int words = 3;
   if (narg < words)
     error->fix_error(FLERR, this, "'shrinkage' needs 2 numbers: strain and time [us]");
-  shrinkage_.strain = positive("shrinkage", arg[1], true);
-  shrinkage_.time = positive("shrinkage: time", arg[2], true);
+  const NumberReader number(error, this);
+  shrinkage_.strain = number("shrinkage", arg[1], kNotNegative);
+  shrinkage_.time = number("shrinkage: time", arg[2], kNotNegative);
   char message[256];
   snprintf(message, sizeof message,
            "'shrinkage' is %g; at most %g is allowed, where the strongest of bridges break",
@@ -150,7 +148,7 @@ void FixBondBpm::count_bridges_made() {
 
 void FixBondBpm::bridge_breaks_on_wall(int i, double energy) {
   BreakEvent e = {};
-  e.time = update->ntimestep * update->dt;
+  e.time = time_->now();
   e.tag_high = static_cast<double>(atom->tag[i]);
   e.body = -1.0;
   e.mode = static_cast<double>(BridgeKind::CbdCollector);

@@ -7,6 +7,7 @@
 #include "modify.h"
 #include "physics/hertz_contact.h"
 #include "update.h"
+#include "words.h"
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -17,54 +18,21 @@ using namespace LAMMPS_NS;
 using calendem::BreakMode;
 using calendem::FailureCriterion;
 
-double FixBondBpm::positive(const char *keyword, const char *text, bool zero_allowed) {
-  char *end = NULL;
-  const double value = strtod(text, &end);
-  if (end == text || *end != '\0' || !std::isfinite(value) || value < 0.0 ||
-      (value == 0.0 && !zero_allowed)) {
-    char message[256];
-    snprintf(message, sizeof message, "'%s' is '%s'; it must be a finite number %s 0", keyword,
-             text, zero_allowed ? ">=" : ">");
-    error->fix_error(FLERR, this, message);
-  }
-  return value;
-}
-
-double FixBondBpm::fraction(const char *keyword, const char *text) {
-  const double value = positive(keyword, text, true);
-  if (value > 1.0) {
-    const std::string message =
-        std::string("'") + keyword + "' is '" + text + "'; it must be a number between 0 and 1";
-    error->fix_error(FLERR, this, message.c_str());
-  }
-  return value;
-}
-
-std::uint64_t FixBondBpm::seed(const char *text) {
-  const double value = positive("weibull seed", text, true);
-  if (value != std::floor(value) || value > 4294967295.0)
-    error->fix_error(FLERR, this, "the seed of 'weibull' must be a whole number below 2^32");
-  return static_cast<std::uint64_t>(value);
-}
-
 // How many words are a law of strength and its numbers; 0: the first is the name of none.
 int FixBondBpm::parse_strength(int narg, char **arg) {
-  for (const BondStrengths::Keyword &law : BondStrengths::keywords()) {
-    if (strcmp(arg[0], law.name) != 0)
+  for (const calendem::BondStrengthLaw &law : calendem::bond_strength_laws()) {
+    if (strcmp(arg[0], law.keyword) != 0)
       continue;
     const int numbers = static_cast<int>(law.numbers.size());
+    const NumberReader number(error, this);
     char message[256];
-    snprintf(message, sizeof message, "'%s' needs %d number(s)", law.name, numbers);
+    snprintf(message, sizeof message, "'%s' needs %d number(s)", law.keyword, numbers);
     if (narg <= numbers)
       error->fix_error(FLERR, this, message);
     for (int k = 0; k < numbers; ++k) {
-      const BondStrengths::Number &n = law.numbers[k];
-      const double value = positive(law.name, arg[k + 1], true);
-      snprintf(message, sizeof message, "number %d of '%s' is %g; it must be between %g and %g",
-               k + 1, law.name, value, n.least, n.most);
-      if (value < n.least || value > n.most)
-        error->fix_error(FLERR, this, message);
-      settings_.strengths.*n.value = value;
+      const calendem::BondStrengthLaw::Number &n = law.numbers[k];
+      const std::string name = std::string(law.keyword) + ", number " + std::to_string(k + 1);
+      settings_.strengths.*n.value = number(name, arg[k + 1], between(n.least, n.most));
     }
     return 1 + numbers;
   }
@@ -81,29 +49,32 @@ int FixBondBpm::parse_keyword(int iarg, int narg, char **arg) {
     error->fix_error(FLERR, this, message.c_str());
   }
   const char *value = arg[iarg + 1];
+  const NumberReader number(error, this);
   if (key == "bodies")
     bodies_file_ = value;
   else if (key == "youngs_modulus")
-    settings_.material.youngs_modulus = positive("youngs_modulus", value, false);
+    settings_.material.youngs_modulus = number(key, value, kPositive);
   else if (key == "nu")
-    settings_.material.shear_modulus = positive("nu", value, true); // turned into G once E is known
+    settings_.material.shear_modulus =
+        number(key, value, between(0.0, 0.5)); // turned into G once E is known
   else if (key == "radius_ratio")
-    settings_.material.radius_ratio = positive("radius_ratio", value, false);
+    settings_.material.radius_ratio = number(key, value, kBondRadius);
   else if (key == "damping")
-    settings_.material.damping = positive("damping", value, true);
+    settings_.material.damping = number(key, value, kFraction); // of critical
   else if (key == "tensile")
-    settings_.strength.tensile = positive("tensile", value, false);
+    settings_.strength.tensile = number(key, value, kPositive);
   else if (key == "shear")
-    settings_.strength.shear = positive("shear", value, false);
+    settings_.strength.shear = number(key, value, kPositive);
   else if (key == "weibull") {
-    settings_.strengths.weibull_modulus = positive("weibull", value, true);
-    settings_.strengths.seed = seed(arg[iarg + 2]);
+    settings_.strengths.weibull_modulus = number(key, value, kNotNegative);
+    settings_.strengths.seed = static_cast<std::uint64_t>(
+        number("weibull seed", arg[iarg + 2], whole_between(0.0, 4294967295.0)));
   } else if (key == "contact_diameter")
-    settings_.contact_diameter = positive("contact_diameter", value, false);
+    settings_.contact_diameter = number(key, value, kPositive);
   else if (key == "surface_inset")
-    settings_.surface_inset = positive("surface_inset", value, true);
+    settings_.surface_inset = number(key, value, kNotNegative);
   else if (key == "inset_fading")
-    settings_.inset_fading = fraction("inset_fading", value);
+    settings_.inset_fading = number(key, value, kFraction);
   else if (key == "log")
     log_file_ = value;
   else if (key == "pressure")
@@ -122,8 +93,8 @@ int FixBondBpm::parse_keyword(int iarg, int narg, char **arg) {
         "'; known: bodies FILE, youngs_modulus, nu, radius_ratio, tensile, shear, criterion "
         "signed|unsigned|as_printed, damping, weibull MODULUS SEED, breakable yes|no, log FILE, "
         "pressure FIX, contact_diameter, surface_inset, inset_fading";
-    for (const BondStrengths::Keyword &law : BondStrengths::keywords())
-      message += std::string(", ") + law.name;
+    for (const calendem::BondStrengthLaw &law : calendem::bond_strength_laws())
+      message += std::string(", ") + law.keyword;
     error->fix_error(FLERR, this, message.c_str());
   }
   return iarg + 1 + values;
@@ -147,13 +118,7 @@ void FixBondBpm::check_settings() {
   const double nu = m.shear_modulus;
   if (m.youngs_modulus <= 0.0 || nu < 0.0 || bodies_file_.empty())
     error->fix_error(FLERR, this, "needs at least 'bodies FILE youngs_modulus E nu NU'");
-  if (nu > 0.5)
-    error->fix_error(FLERR, this, "'nu' must be between 0 and 0.5");
   check_modulus("'youngs_modulus'", m.youngs_modulus);
-  if (m.radius_ratio > 1.5)
-    error->fix_error(FLERR, this, "'radius_ratio' must be between 0 and 1.5");
-  if (m.damping > 1.0)
-    error->fix_error(FLERR, this, "'damping' is a fraction of critical damping, between 0 and 1");
   if (settings_.contact_diameter > 1.0)
     error->fix_error(FLERR, this,
                      "'contact_diameter' is in sums of radii; it must be at most 1, which is the "
@@ -276,6 +241,7 @@ void FixBondBpm::read_bodies() {
   if (problem[0])
     error->fix_error(FLERR, this, problem);
   MPI_Bcast(body_of.data(), highest + 1, MPI_INT, 0, world);
+  bodies_ = *std::max_element(body_of.begin(), body_of.end());
   for (int i = 0; i < atom->nlocal; ++i)
     body_[i] = body_of[atom->tag[i]];
   measure_bodies();

@@ -16,7 +16,7 @@
 using namespace LAMMPS_NS;
 
 namespace {
-const int kHeader = 22; // values before the list of breaks in the restart record
+const int kHeader = 23; // values before the list of breaks in the restart record
 const int kEventSize = sizeof(BreakEvent) / sizeof(double);
 } // namespace
 
@@ -113,7 +113,8 @@ void FixBondBpm::write_restart(FILE *fp) {
   record[15] = shrunk_;
   for (size_t k = 0; k < earlier_.size(); ++k)
     record[16 + k] = remembered()[k].value;
-  record[21] = largest_radius_;
+  record[21] = bodies_;
+  record[22] = largest_radius_;
   const double *events = reinterpret_cast<const double *>(breaks_.data());
   record.insert(record.end(), events, events + kEventSize * breaks_.size());
   const int bytes = static_cast<int>(record.size() * sizeof(double));
@@ -136,7 +137,8 @@ void FixBondBpm::restart(char *buf) {
   bridge_energy_lost_ = record[14];
   shrunk_ = record[15];
   std::copy_n(record + 16, earlier_.size(), earlier_.begin());
-  largest_radius_ = record[21];
+  bodies_ = static_cast<int>(record[21]);
+  largest_radius_ = record[22];
   memcpy(breaks_.data(), record + kHeader, breaks_.size() * sizeof(BreakEvent));
 }
 

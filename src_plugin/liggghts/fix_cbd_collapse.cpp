@@ -13,8 +13,10 @@
 #include "physics/sjkr_cohesion.h"
 #include "stop_run.h"
 #include "update.h"
+#include "words.h"
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -31,7 +33,8 @@ FixCbdCollapse::FixCbdCollapse(LAMMPS *lmp, int narg, char **arg)
   law_.yield_pressure = law_.hardening = -1.0;
   nevery = 50;
   parse(narg, arg);
-  restart_peratom = create_attribute = 1;
+  since_.first = static_cast<double>(update->ntimestep);
+  restart_global = restart_peratom = create_attribute = 1;
   vector_flag = 1;
   size_vector = 4;
   global_freq = 1;
@@ -52,38 +55,27 @@ FixCbdCollapse::~FixCbdCollapse() {
 
 int FixCbdCollapse::setmask() { return END_OF_STEP; }
 
-double FixCbdCollapse::number(const std::string &key, const char *text, double low, double high) {
-  char *end = NULL;
-  const double value = strtod(text, &end);
-  if (end == text || *end != '\0' || !(value >= low && value <= high)) {
-    char message[256];
-    snprintf(message, sizeof message, "'%s' is '%.40s'; it must be a number between %g and %g",
-             key.c_str(), text, low, high);
-    error->fix_error(FLERR, this, message);
-  }
-  return value;
-}
-
 void FixCbdCollapse::parse(int narg, char **arg) {
+  const NumberReader number(error, this);
   for (int i = 3; i < narg; i += 2) {
     const std::string key = arg[i];
     const char *value = i + 1 < narg ? arg[i + 1] : "";
     if (key == "type")
-      type_ = static_cast<int>(number(key, value, 1, atom->ntypes));
+      type_ = static_cast<int>(number(key, value, whole_between(1, atom->ntypes)));
     else if (key == "initial")
-      law_.initial = number(key, value, 0.0, 0.95);
+      law_.initial = number(key, value, between(0.0, 0.95));
     else if (key == "floor")
-      law_.floor = number(key, value, 0.0, 0.95);
+      law_.floor = number(key, value, between(0.0, 0.95));
     else if (key == "yield")
-      law_.yield_pressure = number(key, value, 0.0, 1e9);
+      law_.yield_pressure = number(key, value, between(0.0, 1e9));
     else if (key == "hardening")
-      law_.hardening = number(key, value, 1e-3, 1e9);
+      law_.hardening = number(key, value, between(1e-3, 1e9));
     else if (key == "imposed")
-      imposed_until_ = number(key, value, 1e-3, 1e9);
+      imposed_until_ = number(key, value, between(1e-3, 1e9));
     else if (key == "relaxation")
-      law_.relaxation = number(key, value, 1e-6, 1e9);
+      law_.relaxation = number(key, value, between(1e-6, 1e9));
     else if (key == "every")
-      nevery = static_cast<int>(number(key, value, 1, 1e6));
+      nevery = static_cast<int>(number(key, value, whole_between(1, 1e6)));
     else {
       const std::string message = "unknown setting '" + key +
                                   "'; known: type, initial, floor, yield, hardening, imposed, "
@@ -106,6 +98,7 @@ void FixCbdCollapse::check() {
 }
 
 void FixCbdCollapse::init() {
+  reset_dt();
   bonds_ = FixBondBpm::find(lmp, "fix cbd/collapse");
   energy_ = FixEnergyBpm::find(lmp);
   effects_.connect(force->registry, "fix cbd/collapse");
@@ -126,7 +119,7 @@ void FixCbdCollapse::init() {
 
 bool FixCbdCollapse::is_mine(int i) const { return i < atom->nlocal && atom->type[i] == type_; }
 
-// What presses, less what cohesion pulls.
+// What presses, less what cohesion pulls: of the contacts, not of bonds and bridges beside them.
 void FixCbdCollapse::add_pair_forces(std::vector<calendem::WideSum> &sum) const {
   const double *R = atom->radius;
   bonds_->for_each_touching_copy([&](int i, int j, double r, const BondHistory &bond) {
@@ -134,9 +127,11 @@ void FixCbdCollapse::add_pair_forces(std::vector<calendem::WideSum> &sum) const 
       return;
     const int ti = atom->type[i], tj = atom->type[j];
     const double *memory = pairs_have_effects_ ? bond.effect_memory() : NULL;
-    const double net =
-        effects_.force(EffectContact::of_spheres(ti, tj, R[i], R[j], R[i] + R[j] - r), memory) -
-        calendem::sjkr_force(cohesion_energy_density_[ti][tj], r, R[i], R[j]);
+    const calendem::ActingContact acting = bond.contact(r, R[i] + R[j]);
+    double net =
+        effects_.force(EffectContact::of_spheres(ti, tj, R[i], R[j], acting.overlap), memory);
+    if (acting.coheres)
+      net -= calendem::sjkr_force(cohesion_energy_density_[ti][tj], acting.distance, R[i], R[j]);
     for (int a : {i, j})
       if (is_mine(a))
         sum[a].add(net);
@@ -180,6 +175,8 @@ void FixCbdCollapse::stop_no_number(int i) {
 
 // The nanoporosities after this update; returns whether one of this rank falls.
 bool FixCbdCollapse::decide(const std::vector<calendem::WideSum> &sum, std::vector<double> &next) {
+  const double step = static_cast<double>(update->ntimestep), time = since_.at(step);
+  since_ = {0.0, step, update->dt};
   bool falls = false;
   largest_pressure_ = 0.0;
   next.assign(atom->nlocal, 0.0);
@@ -189,7 +186,7 @@ bool FixCbdCollapse::decide(const std::vector<calendem::WideSum> &sum, std::vect
     if (!sum[i].holds_all())
       stop_no_number(i);
     const double p = calendem::mean_pressure(sum[i].value(), atom->radius[i]);
-    const double phi = nanoporosity_[i], time = nevery * update->dt;
+    const double phi = nanoporosity_[i];
     next[i] = imposed_until_ > 0.0
                   ? law_.follow(phi, law_.imposed(upper_->largest_pressure(), imposed_until_), time)
                   : law_.advance(phi, p, time);
@@ -210,6 +207,14 @@ void FixCbdCollapse::shrink(const std::vector<double> &next) {
   }
 }
 
+void FixCbdCollapse::reset_dt() {
+  since_.set_length(static_cast<double>(update->ntimestep), update->dt);
+}
+
+void FixCbdCollapse::reset_timestep(bigint newstep, bigint oldstep) {
+  since_.renumber(static_cast<double>(oldstep), static_cast<double>(newstep));
+}
+
 void FixCbdCollapse::end_of_step() {
   std::vector<calendem::WideSum> sum(atom->nlocal);
   std::vector<double> next;
@@ -222,6 +227,7 @@ void FixCbdCollapse::end_of_step() {
   const double before = energy_ ? energy_->stored_in_contacts() + rotational_energy() : 0.0;
   shrink(next);
   comm->forward_comm_fix(this);
+  bonds_->radii_have_changed();
   if (energy_)
     energy_->add_collapse(before - energy_->stored_in_contacts() - rotational_energy());
 }
@@ -280,6 +286,16 @@ void FixCbdCollapse::unpack_comm(int n, int first, double *buf) {
   for (int k = 0; k < n; ++k)
     atom->radius[first + k] = buf[k];
 }
+
+void FixCbdCollapse::write_restart(FILE *fp) {
+  if (comm->me != 0)
+    return;
+  const int bytes = sizeof since_;
+  fwrite(&bytes, sizeof(int), 1, fp);
+  fwrite(&since_, sizeof since_, 1, fp);
+}
+
+void FixCbdCollapse::restart(char *buf) { memcpy(&since_, buf, sizeof since_); }
 
 int FixCbdCollapse::pack_restart(int i, double *buf) {
   buf[0] = 3;

@@ -4,13 +4,14 @@
 //
 // Nanopores of the spheres of atom type T collapse under the mean pressure of their contacts by
 // physics/nanopore_collapse.h: every N steps (default 50), after the step, their radii shrink and
-// their densities grow at constant mass; ghosts follow at once. Units micro: pressures in kPa,
-// times in us. Contacts with walls are those with fixes wall/gran/platen. Defaults: initial 0.5,
-// floor 0.27, relaxation 0.1. Needs fix bond/bpm (for its lists); books in fix energy/bpm if there
-// is one. `imposed`: all fall alike, to the floor as the largest pressure of the upper fix
-// wall/gran/platen rises to P. Global vector: 1 mean nanoporosity, 2 lowest, 3 largest mean
-// pressure of a sphere at the last update [kPa], 4 volume that has gone [um3]. Per-atom state
-// restarts under the same fix ID.
+// their densities grow at constant mass; ghosts follow at once. The pressure is that of the forces
+// which contacts exert, cohesion included (physics/acting_contact.h); bonds and bridges beside them
+// are not counted. Units micro: pressures in kPa, times in us. Contacts with walls are those with
+// fixes wall/gran/platen. Defaults: initial 0.5, floor 0.27, relaxation 0.1. Needs fix bond/bpm
+// (for its lists); books in fix energy/bpm if there is one. `imposed`: all fall alike, to the floor
+// as the largest pressure of the upper fix wall/gran/platen rises to P. Global vector: 1 mean
+// nanoporosity, 2 lowest, 3 largest mean pressure of a sphere at the last update [kPa], 4 volume
+// that has gone [um3]. State restarts under the same fix ID.
 #ifdef FIX_CLASS
 
 FixStyle(cbd/collapse, FixCbdCollapse)
@@ -23,6 +24,7 @@ FixStyle(cbd/collapse, FixCbdCollapse)
 #include "fix.h"
 #include "physics/fixed_point.h"
 #include "physics/nanopore_collapse.h"
+#include "physics/time_count.h"
 #include <string>
 #include <vector>
 
@@ -34,6 +36,8 @@ public:
   ~FixCbdCollapse();
   int setmask();
   void init();
+  void reset_dt();
+  void reset_timestep(bigint newstep, bigint oldstep);
   void end_of_step();
   double compute_vector(int);
   double memory_usage();
@@ -49,9 +53,12 @@ public:
   void unpack_restart(int, int);
   int size_restart(int) { return 3; }
   int maxsize_restart() { return 3; }
+  void write_restart(FILE *);
+  void restart(char *);
 
 private:
   calendem::NanoporeCollapse law_;
+  calendem::TimeCount since_; // the last update
   int type_;
   double imposed_until_;                   // 0: the spheres' own law [kPa]
   double *nanoporosity_, *initial_radius_; // of atoms of other types: unused
@@ -66,7 +73,6 @@ private:
 
   void parse(int narg, char **arg);
   void check();
-  double number(const std::string &key, const char *text, double low, double high);
   bool is_mine(int i) const;
   void add_pair_forces(std::vector<calendem::WideSum> &sum) const;
   void add_wall_forces(std::vector<calendem::WideSum> &sum) const;

@@ -11,6 +11,7 @@
 #include "physics/time_step_bound.h"
 #include "update.h"
 #include "wall_bridges.h"
+#include "words.h"
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -28,16 +29,16 @@ FixCheckTimestepBpm::FixCheckTimestepBpm(LAMMPS *lmp, int narg, char **arg)
       warned_(HUGE_VAL), pairs_have_effects_(false), stop_(false) {
   if (narg < 5 || narg > 9)
     error->fix_error(FLERR, this, kUsage);
-  nevery = atoi(arg[3]);
-  fraction_ = atof(arg[4]);
-  if (nevery < 1 || !(fraction_ > 0.0) || fraction_ > 1.0)
-    error->fix_error(FLERR, this, "N must be >= 1 and FRACTION in (0, 1]");
+  const NumberReader number(error, this);
+  nevery = static_cast<int>(number("N", arg[3], whole_between(1, 1e9)));
+  fraction_ = number("FRACTION", arg[4], above_and_at_most(0.0, 1.0));
   for (int i = 5; i < narg; i += 2) {
     const std::string key = arg[i], value = i + 1 < narg ? arg[i + 1] : "";
-    pressure_ = key == "pressure" ? atof(value.c_str()) : pressure_;
-    stop_ = key == "error" ? value == "yes" : stop_;
-    if (!(key == "error" && (value == "yes" || value == "no")) &&
-        !(key == "pressure" && pressure_ > 0.0))
+    if (key == "pressure")
+      pressure_ = number(key, value, kPositive);
+    else if (key == "error" && (value == "yes" || value == "no"))
+      stop_ = value == "yes";
+    else
       error->fix_error(FLERR, this, kUsage);
   }
   vector_flag = 1;
@@ -91,9 +92,8 @@ void FixCheckTimestepBpm::add_contacts(Spheres &spheres) const {
   FixBondBpm *bonds = FixBondBpm::find(lmp, "fix check/timestep/bpm");
   bonds->for_each_touching_copy([&](int i, int j, double r, const BondHistory &bond) {
     const int ti = atom->type[i], tj = atom->type[j];
-    const double overlap = R[i] + R[j] - r - bond.reference_overlap(R[i] + R[j]);
     const double a = effects_.stiffness_radius(
-        EffectContact::of_spheres(ti, tj, R[i], R[j], std::max(overlap, 0.0)),
+        EffectContact::of_spheres(ti, tj, R[i], R[j], bond.contact(r, R[i] + R[j]).overlap),
         pairs_have_effects_ ? bond.effect_memory() : NULL);
     const calendem::BondCoefficients k = stiffness_of(ti, tj, a);
     const calendem::BondCoefficients c =

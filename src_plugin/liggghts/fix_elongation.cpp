@@ -10,6 +10,7 @@
 #include "modify.h"
 #include "physics/fixed_point.h"
 #include "update.h"
+#include "words.h"
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -26,15 +27,7 @@ FixElongation::FixElongation(LAMMPS *lmp, int narg, char **arg)
   if (narg != 5)
     error->fix_error(FLERR, this, "takes two arguments: 'fix ID all elongation PLATEN E'");
   platen_id_ = arg[3];
-  char *end = NULL;
-  at_end_ = strtod(arg[4], &end);
-  if (end == arg[4] || *end != '\0' || !(at_end_ > 0.0 && at_end_ <= kMost)) {
-    char message[160];
-    snprintf(message, sizeof message,
-             "the elongation is '%.40s'; it must be a fraction above 0 and at most %g", arg[4],
-             kMost);
-    error->fix_error(FLERR, this, message);
-  }
+  at_end_ = NumberReader(error, this)("elongation", arg[4], above_and_at_most(0.0, kMost));
   if (!domain->periodicity[0])
     error->fix_error(FLERR, this, "needs a cell that is periodic in x");
   vector_flag = 1;

@@ -190,7 +190,7 @@ void FixEnergyBpm::bond_breaks(int i, int j, const BondHistory &bond) {
   const calendem::PairMotion motion = {d, {}, {}, {}, n, r};
   const double tension = bond_tension(material, k, r, bond.length());
   const calendem::BondAction a = action(bond.loads(), tension, motion, calendem::BondDamping());
-  const double beyond = r + bond.reference_overlap(radius[i] + radius[j]);
+  const double beyond = bond.contact(r, radius[i] + radius[j]).distance;
   const bool begins = bond.state() != kBridge; // beside a bridge it acts all the time
   const double pull =
       begins ? calendem::sjkr_force(cohesion_energy_density_[atom->type[i]][atom->type[j]], beyond,
@@ -213,14 +213,14 @@ double FixEnergyBpm::pair_energy(bool of_cohesion) const {
   double sum = 0.0;
   bonds_->for_each_touching([&](int i, int j, double r, const BondHistory &bond) {
     const double *radius = atom->radius;
-    const double beyond = r + bond.reference_overlap(radius[i] + radius[j]);
+    const calendem::ActingContact acting = bond.contact(r, radius[i] + radius[j]);
     if (!of_cohesion)
-      sum += effects_.elastic_energy(EffectContact::of_spheres(atom->type[i], atom->type[j],
-                                                               radius[i], radius[j],
-                                                               radius[i] + radius[j] - beyond),
-                                     pairs_have_effects_ ? bond.effect_memory() : NULL);
-    else if (bond.state() != kIntact)
-      sum += cohesion(i, j, beyond);
+      sum +=
+          effects_.elastic_energy(EffectContact::of_spheres(atom->type[i], atom->type[j], radius[i],
+                                                            radius[j], acting.overlap),
+                                  pairs_have_effects_ ? bond.effect_memory() : NULL);
+    else if (acting.coheres)
+      sum += cohesion(i, j, acting.distance);
   });
   return sum;
 }

@@ -5,12 +5,14 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_property_atom.h"
+#include "fix_time_bpm.h"
 #include "granular_sliding_wall.h"
 #include "modify.h"
 #include "physics/fixed_point.h"
 #include "primitive_wall.h"
 #include "stop_run.h"
 #include "update.h"
+#include "words.h"
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -50,7 +52,7 @@ FixWallGranPlaten::FixWallGranPlaten(LAMMPS *lmp, int narg, char **arg)
     error->fix_error(FLERR, this, "needs 'primitive type T zplane Z'");
   if (!domain->periodicity[0] || !domain->periodicity[1] || domain->periodicity[2])
     error->fix_error(FLERR, this, "needs 'boundary p p f': periodic in x and y, walls in z");
-  programme_.start = record_.state.position = atof(z);
+  programme_.start = record_.state.position = NumberReader(error, this)("zplane", z, kAnyNumber);
   programme_.lowest = domain->boxlo[2];
   parse();
   set_window();
@@ -62,33 +64,21 @@ FixWallGranPlaten::FixWallGranPlaten(LAMMPS *lmp, int narg, char **arg)
   restart_global = 1;
 }
 
-double FixWallGranPlaten::number(const std::string &key, const std::string &value,
-                                 bool zero_allowed) {
-  char *end = NULL;
-  const double x = strtod(value.c_str(), &end);
-  if (value.empty() || *end != '\0' || !std::isfinite(x) || x < 0.0 ||
-      (x == 0.0 && !zero_allowed)) {
-    const std::string message = "'" + key + "' is '" + value + "'; it must be a finite number " +
-                                (zero_allowed ? ">= 0" : "> 0");
-    error->fix_error(FLERR, this, message.c_str());
-  }
-  return x;
-}
-
 bool FixWallGranPlaten::set_roll_keyword(const std::string &key, const std::string &value) {
+  const NumberReader number(error, this);
   if (key == "roll") {
     programme_.control = PlatenControl::Roll;
-    programme_.target = number(key, value, false);
+    programme_.target = number(key, value, kPositive);
   } else if (key == "roll_radius")
-    programme_.roll.radius = number(key, value, false);
+    programme_.roll.radius = number(key, value, kPositive);
   else if (key == "counter_radius")
-    programme_.roll.counter = number(key, value, true);
+    programme_.roll.counter = number(key, value, kNotNegative);
   else if (key == "slip")
-    programme_.roll.slip = number(key, value, true);
+    programme_.roll.slip = number(key, value, kNotNegative);
   else if (key == "passes")
-    programme_.passes = number(key, value, false);
+    programme_.passes = number(key, value, whole_between(1, 1e6));
   else if (key == "first_gap")
-    programme_.first_gap = number(key, value, true);
+    programme_.first_gap = number(key, value, kNotNegative);
   else
     return false;
   return true;
@@ -105,35 +95,36 @@ bool FixWallGranPlaten::set_bridges(const std::string &key, const std::string &v
 void FixWallGranPlaten::set_keyword(const std::string &key, const std::string &value) {
   if (set_roll_keyword(key, value) || set_bridges(key, value))
     return;
+  const NumberReader number(error, this);
   if (key == "side" && (value == "top" || value == "bottom"))
     sign_ = value == "top" ? -1.0 : 1.0;
   else if (key == "motion" && value == "hold")
     programme_.control = PlatenControl::Hold;
   else if (key == "pressure" || key == "position") {
     programme_.control = key == "pressure" ? PlatenControl::Pressure : PlatenControl::Position;
-    programme_.target = number(key, value, false);
+    programme_.target = number(key, value, kPositive);
   } else if (key == "touch_speed")
-    programme_.touch_speed = number(key, value, false);
+    programme_.touch_speed = number(key, value, kPositive);
   else if (key == "load_speed")
-    programme_.load_speed = number(key, value, false);
+    programme_.load_speed = number(key, value, kPositive);
   else if (key == "release_speed")
-    programme_.release_speed = number(key, value, false);
+    programme_.release_speed = number(key, value, kPositive);
   else if (key == "touch_pressure")
-    programme_.touch_pressure = number(key, value, true);
+    programme_.touch_pressure = number(key, value, kNotNegative);
   else if (key == "dwell")
-    programme_.dwell = number(key, value, true);
+    programme_.dwell = number(key, value, kNotNegative);
   else if (key == "wait")
-    programme_.wait = number(key, value, true);
+    programme_.wait = number(key, value, kNotNegative);
   else if (key == "ramp")
-    programme_.ramp_time = number(key, value, true);
+    programme_.ramp_time = number(key, value, kNotNegative);
   else if (key == "lost")
-    programme_.lost_fraction = number(key, value, true);
+    programme_.lost_fraction = number(key, value, kNotNegative);
   else if (key == "lowest")
-    programme_.lowest = number(key, value, true);
+    programme_.lowest = number(key, value, kNotNegative);
   else if (key == "compliance")
-    programme_.compliance = number(key, value, true);
+    programme_.compliance = number(key, value, kNotNegative);
   else if (key == "average")
-    window_ = number(key, value, false);
+    window_ = number(key, value, kPositive);
   else if (key == "release" && (value == "yes" || value == "no"))
     may_release_ = value == "yes";
   else {
@@ -168,8 +159,6 @@ void FixWallGranPlaten::parse() {
                      "a moving platen needs 'touch_speed', 'load_speed' and 'release_speed' > 0");
   if (programme_.lost_fraction >= 1.0)
     error->fix_error(FLERR, this, "'lost' is a fraction of the maximum pressure, below 1");
-  if (programme_.passes < 1.0 || programme_.passes != std::floor(programme_.passes))
-    error->fix_error(FLERR, this, "'passes' must be a whole number, at least 1");
   if (programme_.control == PlatenControl::Pressure && !strcmp(update->unit_style, "micro") &&
       programme_.target > 1e8)
     error->fix_error(
@@ -182,7 +171,7 @@ void FixWallGranPlaten::parse() {
     error->fix_error(FLERR, this,
                      "the target position must lie below the start ('zplane'); nothing would be "
                      "compressed");
-  enter(record_.state, PlatenStage::Compression, update->ntimestep * update->dt);
+  enter(record_.state, PlatenStage::Compression, 0.0);
 }
 
 void FixWallGranPlaten::check_roll() {
@@ -209,6 +198,7 @@ int FixWallGranPlaten::setmask() { return FixWallGran::setmask() | INITIAL_INTEG
 
 void FixWallGranPlaten::post_create() {
   FixWallGran::post_create();
+  time_ = FixTimeBpm::of(lmp);
   if (bridges_)
     bridges_->add_storage(style);
 }
@@ -254,7 +244,7 @@ void FixWallGranPlaten::initial_integrate(int) {
     return;
   const double dt = update->dt;
   const double z = record_.state.position;
-  advance(programme_, record_.state, record_.average.value(), window_, update->ntimestep * dt, dt,
+  advance(programme_, record_.state, record_.average.value(), window_, time_->now(), dt,
           may_release_);
   // half of the step's work with the load at its beginning, the other half in measure()
   record_.work += 0.5 * record_.load.value() * (z - record_.state.position);
@@ -349,9 +339,8 @@ void FixWallGranPlaten::measure_drag() {
 
 double FixWallGranPlaten::compute_vector(int n) {
   const calendem::PlatenState &s = record_.state;
-  const double time = update->ntimestep * update->dt;
   const bool waits = stage_of(s) == PlatenStage::Dwell && !may_release_ &&
-                     last_pass(programme_, s) && time - s.stage_start >= programme_.dwell;
+                     last_pass(programme_, s) && time_->now() - s.stage_start >= programme_.dwell;
   Record whole = record_;
   if (n == 3 || n == 5 || n == 6)
     add_up(whole);

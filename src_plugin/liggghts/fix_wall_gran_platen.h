@@ -104,6 +104,7 @@ private:
   bool may_release_;
   bool moved_;
   double sliding_;
+  class FixTimeBpm *time_ = nullptr;
   int memory_offset_; // -1: another model
   std::unique_ptr<WallBridges> bridges_;
 
@@ -112,7 +113,6 @@ private:
   bool set_bridges(const std::string &key, const std::string &value);
   bool set_roll_keyword(const std::string &key, const std::string &value);
   void check_roll();
-  double number(const std::string &key, const std::string &value, bool zero_allowed);
   void set_window();
   void place_wall();
   bool slides() const;

@@ -65,13 +65,13 @@ public:
 
   void compute_force(LAMMPS_NS::PairGran *pair, int eflag, int vflag, int addflag) {
     loop_.prepare();
-    if (!fused_ || eflag || addflag || !loop_.serves(pair)) {
+    if (!fused_ || addflag || !loop_.serves(pair)) {
       loop_.check_reference();
       loop_.release_histories();
       return Reference::compute_force(pair, eflag, vflag, addflag);
     }
-    if (vflag)
-      pair->ev_setup(0, vflag);
+    if (eflag || vflag)
+      pair->ev_setup(eflag, vflag);
     else
       pair->evflag = pair->vflag_fdotr = 0;
     loop_.compute_force(pair);

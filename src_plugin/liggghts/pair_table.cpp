@@ -68,8 +68,7 @@ void PairTable::take(PairGran *pair) {
     for (int k = 0; k < list->numneigh[i]; ++k) {
       const int j = list->firstneigh[i][k] & NEIGHMASK;
       int *flags = list->listgranhistory->firstneigh[i] + k;
-      take({i, j, list->listgranhistory->firstdouble[i] + dnum * k, flags, *flags});
-      *flags = 0;
+      take({i, j, list->listgranhistory->firstdouble[i] + dnum * k, flags});
     }
   }
   remember_positions();
@@ -142,7 +141,7 @@ void PairTable::sort_contacts() {
     const int p = contacts.at(n);
     if (is_near(t.i[p], t.j[p], gap_) || t.parts[p] != 0.0)
       continue;
-    leave({t.i[p], t.j[p], t.history[p], t.flags[p], kApart});
+    leave({t.i[p], t.j[p], t.history[p], t.flags[p]});
     contacts.remove(n);
   }
 }
@@ -222,7 +221,7 @@ void PairTable::drop_broken() {
 void PairTable::drop(Bonds &list, int broken) {
   const BondTile &t = list.of(broken);
   const int p = list.at(broken);
-  const FarPair pair = {t.i[p], t.j[p], t.history[p], t.flags[p], 0};
+  const FarPair pair = {t.i[p], t.j[p], t.history[p], t.flags[p]};
   if (&list == &bonds) {
     calendem::store(t.displacement[p], pair.history + spring_);
     add_contact(pair);
@@ -244,7 +243,15 @@ void PairTable::store_loads(const BondTile &t, int p) const {
 
 void PairTable::store_contact(const PairTile &t, int p) const {
   calendem::store(t.displacement[p], t.history[p] + spring_);
-  *t.flags[p] = kInContact;
+  *t.flags[p] = contact_flags(t.i[p], t.j[p]);
+}
+
+// As the host's contact objects leave them after a step.
+int PairTable::contact_flags(int i, int j) const {
+  const double reach = neighbor->contactDistanceFactor * (atom->radius[i] + atom->radius[j]);
+  if (distance_squared(i, j) >= reach * reach)
+    return 0;
+  return is_near(i, j, 0.0) ? kInContact : kApart;
 }
 
 void PairTable::store() {
@@ -252,7 +259,7 @@ void PairTable::store() {
     return;
   drop_broken();
   for (const FarPair &pair : far_)
-    *pair.flags = pair.flag;
+    *pair.flags = contact_flags(pair.i, pair.j);
   for (int n = 0; n < bonds.pairs(); ++n) {
     store_loads(bonds.of(n), bonds.at(n));
     store_contact(bonds.of(n), bonds.at(n));

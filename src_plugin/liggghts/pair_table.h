@@ -2,9 +2,9 @@
 // The pairs of a rank in tiles: intact bonds, other pairs that touch or may soon, and far ones.
 // They are sorted when the host has built its lists and, as far as spheres have come nearer, again
 // between two builds. Loads of bonds and displacements of contacts are kept in the tiles meanwhile;
-// store() writes them back to the host's histories, which alone hold all the rest. Until then the
-// contact flags of the lists are 0: the host, which saves histories before it asks anybody, saves
-// none.
+// store() writes them, and the contact flags, back to the host's lists, which alone hold all the
+// rest: at the end of a run, before the host saves its histories, whenever something of the plugin
+// reads them, and after each step in which a style of the host could (contact_readers.h).
 #ifndef CALENDEM_PAIR_TABLE_H
 #define CALENDEM_PAIR_TABLE_H
 
@@ -83,7 +83,7 @@ private:
   struct FarPair {
     int i, j;
     double *history;
-    int *flags, flag; // the latter while histories are held
+    int *flags;
   };
 
   class FixBondBpm *fix_ = nullptr;
@@ -105,6 +105,7 @@ private:
   void drop_broken();
   void drop(Bonds &list, int bond);
   void store_contact(const PairTile &tile, int p) const;
+  int contact_flags(int i, int j) const;
   double distance_squared(int i, int j) const;
   bool is_near(int i, int j, double gap) const;
   void take(const FarPair &pair);

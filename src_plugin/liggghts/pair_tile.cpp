@@ -107,7 +107,8 @@ __attribute__((flatten)) void run_contacts(Tile &t, PairStep &s, const PairMater
       s.torque_j.set(p, s.torque_j[p] + on_j);
     } else {
       const double pull =
-          calendem::sjkr_force(m.cohesion, pair.r + t.reference[p], s.radius_i[p], s.radius_j[p]);
+          calendem::sjkr_force(m.cohesion, calendem::acting_distance(pair.r, t.reference[p]),
+                               s.radius_i[p], s.radius_j[p]);
       s.force.set(p, push - select(acting, pull * pair.n) + friction);
       s.torque_i.set(p, on_i);
       s.torque_j.set(p, on_j);

@@ -4,6 +4,7 @@
 #ifndef CALENDEM_PAIR_TILE_H
 #define CALENDEM_PAIR_TILE_H
 
+#include "physics/acting_contact.h"
 #include "physics/bond_failure.h"
 #include "physics/fixed_point.h"
 #include "physics/parallel_bond.h"
@@ -88,8 +89,7 @@ struct PairStep {
 
 /// Overlap beyond the reference [um], 0 where the contact rests.
 inline double acting_overlap(const PairTile &t, const PairStep &s, int p) {
-  const double beyond = s.radius_sum(p) - std::sqrt(s.r_squared[p]) - t.reference[p];
-  return beyond > 0.0 ? beyond : 0.0;
+  return calendem::acting_overlap(s.radius_sum(p), std::sqrt(s.r_squared[p]), t.reference[p]);
 }
 
 /// True where the contact acts: spheres touch, and the bond is not longer than at creation.

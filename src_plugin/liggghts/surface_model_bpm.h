@@ -45,6 +45,9 @@ public:
 
   void connectToProperties(PropertyRegistry &) {
     fix_ = FixBondBpm::find(lmp, "surface model bpm");
+    if (!static_cast<PairGran *>(force->pair_match("gran", 1))->contact_match("cohesion", "bpm"))
+      error->all(FLERR, "surface model bpm makes bonds whose forces 'cohesion bpm' computes: "
+                        "write 'cohesion bpm surface bpm' in pair_style gran");
     spring_ = fix_->friction_history_offset(offset_);
   }
 
@@ -61,11 +64,9 @@ public:
       fix_->create(s.i, s.j, s.r, bond);
       fix_->bridge(s.i, s.j, s.r, bond);
     }
-    const double overlap = s.radsum - s.r;
-    const double beyond = overlap - bond.reference_overlap(s.radsum);
-    contact_kinematics(s, overlap);
-    s.deltan = beyond;
-    if (beyond <= 0.0)
+    contact_kinematics(s, s.radsum - s.r);
+    s.deltan = bond.contact(s.r, s.radsum).overlap;
+    if (s.deltan == 0.0)
       rest(s);
   }
 
@@ -107,7 +108,6 @@ private:
 
   // No contact beyond the reference: no force, and no friction spring may wind up meanwhile.
   void rest(SurfacesIntersectData &s) const {
-    s.deltan = 0.0;
     s.vn = s.vtr1 = s.vtr2 = s.vtr3 = 0.0;
     if (spring_ >= 0)
       for (int k = 0; k < 3; ++k)

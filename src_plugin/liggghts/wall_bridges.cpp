@@ -9,7 +9,7 @@
 #include "fix_wall_gran_platen.h"
 #include "modify.h"
 #include "mpi_liggghts.h"
-#include "registry/effect.h"
+#include "registry/phases.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;

@@ -25,8 +25,8 @@
 // Valid for 0.01 <= |d|/l <= 10 and turns below 1 rad per step; outside the host stops the run.
 // Deviations: F_n is the exact integral of eq. 4, E A (|d| - l)/l, not a running sum, so it cannot
 // drift; the paper's R_min in eqs 6-7 is R (they agree at lambda = 1).
-// Verified by tests/unit/physics/parallel_bond_test.cpp, parallel_bond_energy_test.cpp and
-// tests/verification/pair, rotation, cluster.
+// Verified by tests/unit/physics/parallel_bond_test.cpp,
+// tests/unit/physics/parallel_bond_energy_test.cpp and tests/verification/pair, rotation, cluster.
 #ifndef CALENDEM_PHYSICS_PARALLEL_BOND_H
 #define CALENDEM_PHYSICS_PARALLEL_BOND_H
 

@@ -36,7 +36,7 @@ includes_point_one_way() { # physics <- registry <- liggghts, tools/calendem; te
     report "src_plugin must not include tools or tests" || exit 1
   # A folder of tools/calendem knows itself, those before it in this list, and its CMake library links no other.
   local folder known=physics\|registry
-  for folder in base electrode/structure electrode/pack electrode/slurry electrode simulate measure report \
+  for folder in effects base electrode/structure electrode/pack electrode/slurry electrode simulate measure report \
     diagnose/inference diagnose/compare diagnose/bank diagnose predict withheld commands .; do
     known="$known|$folder"
     find "tools/calendem/$folder" -maxdepth 1 -name '*.h' -o -maxdepth 1 -name '*.cpp' | LC_ALL=C sort |
@@ -46,6 +46,21 @@ includes_point_one_way() { # physics <- registry <- liggghts, tools/calendem; te
   cxx_files | matching '^tools/calendem/' | cut -d/ -f3- | sed 's:/*[^/]*$::' | sort -u |
     without "^($known)?$" | report "folders of tools/calendem that have no place in the order of includes" || exit 1
   includes tools/calendem | matching '<(gtest|gmock|benchmark)/' | report "tools/calendem must not include tests"
+}
+named_files_exist() { # those that heads of laws name, and pages (.md) that any comment names; or a program writes them
+  local file name folder found
+  { grep -nE '^//' src_plugin/physics/*.h src_plugin/registry/*.h | grep -oE '^[^:]+:[0-9]+|[A-Za-z0-9_/.]+\.(h|cpp|md|sh)\b'
+    cxx_files | xargs grep -nE '//.*\.md\b' | grep -oE '^[^:]+:[0-9]+|[A-Za-z0-9_/.]+\.md\b'; } |
+    while read -r name; do
+      case $name in *:[0-9]*) file=$name; continue ;; esac
+      found=0
+      for folder in . src_plugin "$(dirname "${file%:*}")"; do [ ! -f "$folder/$name" ] || found=1; done
+      [ $found -eq 1 ] || grep -qrF "$name\"" tools/calendem --include='*.cpp' || echo "$file names $name"
+    done | sort -u | report "files that a comment names and that do not exist"
+}
+pi_has_one_place() { # physics/pi.h
+  cxx_files | without '/physics/pi\.h$' | { xargs grep -nE '3\.14159|6\.28318|M_PI|acos\(-1' /dev/null || true; } |
+    report "include physics/pi.h and say kPi"
 }
 header_options=(-std=c++17 -Wall -Wextra -I src_plugin -I tools/calendem -isystem /usr/include/eigen3 -x c++)
 all_headers() { # of physics, registry and tools/calendem as one translation unit

@@ -3,6 +3,7 @@
 #include "diagnose/inference/scores.h"
 #include "diagnose/inference/which.h"
 #include "linear_world.h"
+#include "physics/pi.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -43,7 +44,7 @@ struct Calibration {
         variance += p * (1.0 - p);
       }
       error += std::abs(stated - came) / double(all.probability.size());
-      by_chance += std::sqrt(2.0 / M_PI * variance) / double(all.probability.size());
+      by_chance += std::sqrt(2.0 / kPi * variance) / double(all.probability.size());
       if (count > 0)
         std::printf("%s: %d with %.2f, true %.2f\n", what, count, stated / count, came / count);
     }

@@ -2,12 +2,14 @@
 // The row of an effect: physics, or measurement, that the base model leaves out and that can be
 // switched on in the simulation. From it come its keys of the case with their checks, the variables
 // and fixes of the input scripts, `calendem effects`, and all that banks and the diagnosis know.
-#ifndef CALENDEM_REGISTRY_EFFECT_H
-#define CALENDEM_REGISTRY_EFFECT_H
+// A row names what it sets: see effects_of_bonds.h.
+#ifndef CALENDEM_EFFECTS_EFFECT_H
+#define CALENDEM_EFFECTS_EFFECT_H
 
+#include "effects/key.h"
 #include "physics/press_instruments.h"
 #include "registry/contact_law.h"
-#include "registry/key.h"
+#include "registry/phases.h"
 #include <cmath>
 #include <string>
 #include <utility>
@@ -25,24 +27,44 @@ enum class AmplitudeScale {
   Logarithm   ///< ln v, off: key 1
 };
 
-/// A setting of the case that an effect moves.
+/// A setting of the case that an effect moves, and what is known of it before any measurement.
 struct EffectParameter {
-  std::vector<std::string> keys; ///< of case.toml; all get the same value
-  std::string off;               ///< the value without the effect: the key's default
-  double low = 0.0, high = 0.0;  ///< in the key's unit
+  std::vector<std::string> keys = {}; ///< of case.toml; all get the same value
+  std::string off = "";               ///< the value without the effect: the key's default
+  double low = 0.0, high = 0.0;       ///< in the key's unit
   Spread spread = Spread::Uniform;
   AmplitudeScale scale = AmplitudeScale::Difference;
-  /// What the effect does grows about with this power of the amplitude; 0: with the logarithm of
-  /// its ratio to the weakest of `low` and `high`, where it ceases. Chosen by how well emulators
-  /// predict packings that are left out.
+  /// The response grows about as this power of the amplitude; 0: as the logarithm of its ratio to
+  /// the weakest of `low` and `high`, where it ends. Chosen by how well emulators predict packings
+  /// that are left out.
   double power = 1.0;
 
   double amplitude(double value) const;
   double value(double amplitude) const;
-};
 
-/// The phases, by their atom type in the input scripts.
-enum class Phase { Am = 1, Cbd, Collector, Platen };
+  EffectParameter &uniform(double from, double to) { return between(Spread::Uniform, from, to); }
+  EffectParameter &log_uniform(double from, double to) {
+    return between(Spread::LogUniform, from, to);
+  }
+  EffectParameter &in_reciprocal() { return on(AmplitudeScale::Reciprocal); }
+  EffectParameter &in_logarithm() { return on(AmplitudeScale::Logarithm); }
+  EffectParameter &with_power(double p) {
+    power = p;
+    return *this;
+  }
+
+private:
+  EffectParameter &between(Spread how, double from, double to) {
+    spread = how;
+    low = from;
+    high = to;
+    return *this;
+  }
+  EffectParameter &on(AmplitudeScale s) {
+    scale = s;
+    return *this;
+  }
+};
 
 /// A contact law between some phases, with the settings of the effect as its properties, in order.
 struct ContactAction {
@@ -95,12 +117,14 @@ struct Effect {
   }
 };
 
-/// The parameter of an effect that has a key of its own.
-inline EffectParameter strength(const Key &key, double low, double high, Spread spread,
-                                AmplitudeScale scale = AmplitudeScale::Difference,
-                                double power = 1.0) {
-  return {{key.name}, key.fallback, low, high, spread, scale, power};
+/// The parameter of an effect: keys that exist already, or its own.
+inline EffectParameter strength(std::vector<std::string> keys, std::string off) {
+  EffectParameter parameter;
+  parameter.keys = std::move(keys);
+  parameter.off = std::move(off);
+  return parameter;
 }
+inline EffectParameter strength(const Key &key) { return strength({key.name}, key.fallback); }
 
 inline double EffectParameter::amplitude(double value) const {
   switch (scale) {
