@@ -22,19 +22,14 @@ using calendem::Vec3;
 
 namespace {
 
-// Of the sum of forces on an atom: seven eighths of what a whole number holds. The rest is where a
-// sum that wraps is seen; a term beyond 2^63 becomes -2^63, which is there too.
-constexpr long long kMostUnits = 7LL << 60;
-
-bool overflows(unsigned long long sum) { return sum + kMostUnits > 2ULL * kMostUnits; }
-
 Vec3 difference(const double *a, const double *b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
 } // namespace
 
-BpmPairLoop::BpmPairLoop(LAMMPS *lmp) : Pointers(lmp), table_(lmp), step_(new PairStep()) {}
+BpmPairLoop::BpmPairLoop(LAMMPS *lmp)
+    : Pointers(lmp), known_(lmp), table_(lmp), step_(new PairStep()) {}
 
 void BpmPairLoop::connect(int bond_offset, int effects_offset) {
   bonds_ = BondEvents::find(lmp, "pair_style gran");
@@ -60,7 +55,7 @@ void BpmPairLoop::connect(int bond_offset, int effects_offset) {
   contacts_are_read_ = contacts_are_read(*modify);
   table_.connect(bonds_, bond_, memory_, spring_);
   bonds_->pairs().set_loop(this);
-  choose_units();
+  known_.find();
 }
 
 BpmPairLoop::~BpmPairLoop() {
@@ -84,21 +79,40 @@ void BpmPairLoop::check_reference() const {
                       "models, and fixes and computes that store single contacts");
 }
 
-// A force of E R^2 would press a sphere into another by its radius.
-void BpmPairLoop::choose_units() {
-  double radius = 0.0, largest = 0.0;
+void BpmPairLoop::prepare() {
+  known_.check();
+  if (neighbor->ago == 0)
+    choose_units();
+}
+
+// Of the spheres that there are, and of those that fixes will insert.
+double BpmPairLoop::largest_radius() const {
+  double mine = 0.0, largest = 0.0;
   for (int i = 0; i < atom->nlocal; ++i)
-    radius = std::max(radius, atom->radius[i]);
-  MPI_Allreduce(&radius, &largest, 1, MPI_DOUBLE, MPI_MAX, world);
-  double modulus = std::max(bonds_->settings().material.youngs_modulus,
-                            bonds_->bridge_settings().material.youngs_modulus);
-  for (int a = 1; a <= atom->ntypes; ++a)
-    for (int b = 1; b <= atom->ntypes; ++b)
+    mine = std::max(mine, atom->radius[i]);
+  for (int k = 0; k < modify->nfix; ++k)
+    for (int type = 1; type <= known_.highest(); ++type)
+      if (modify->fix[k]->use_rad_for_cut_neigh_and_ghost())
+        mine = std::max(mine, modify->fix[k]->max_rad(type));
+  MPI_Allreduce(&mine, &largest, 1, MPI_DOUBLE, MPI_MAX, world);
+  return largest;
+}
+
+// A force of E R^2 would press a sphere into another by its radius; a bond of larger radius bears
+// more. The largest radius that there ever was restarts: a run that goes on has the same units.
+void BpmPairLoop::choose_units() {
+  const double largest = bonds_->largest_radius(largest_radius());
+  const calendem::BondMaterial &bond = bonds_->settings().material,
+                               &bridge = bonds_->bridge_settings().material;
+  const double section = largest * std::max({1.0, bond.radius_ratio, bridge.radius_ratio});
+  double modulus = std::max(bond.youngs_modulus, bridge.youngs_modulus);
+  for (int a = 1; a <= known_.highest(); ++a)
+    for (int b = 1; b <= known_.highest(); ++b)
       modulus = std::max(modulus, modulus_[a][b]);
-  const double force = modulus * largest * largest;
+  const double force = modulus * section * section;
   if (force > 0.0) {
     force_unit_ = calendem::FixedPoint(force);
-    torque_unit_ = calendem::FixedPoint(force * largest);
+    torque_unit_ = calendem::FixedPoint(force * section);
   }
 }
 
@@ -106,8 +120,8 @@ void BpmPairLoop::choose_units() {
 void BpmPairLoop::copy_materials() {
   types_ = atom->ntypes + 1;
   materials_.resize(types_ * types_);
-  for (int a = 1; a < types_; ++a)
-    for (int b = 1; b < types_; ++b)
+  for (int a = 1; a <= known_.highest(); ++a)
+    for (int b = 1; b <= known_.highest(); ++b)
       materials_[a * types_ + b] = {modulus_[a][b], shear_modulus_[a][b], damping_[a][b],
                                     friction_[a][b], cohesion_[a][b]};
 }
@@ -319,10 +333,7 @@ void BpmPairLoop::add_forces(PairGran *pair) {
   for (int i = 0; i < atom->nlocal; ++i) {
     const double relax = pair->relax(i);
     const WholeForce &sum = forces_[i];
-    bool large = false;
-    for (int k = 0; k < 3; ++k)
-      large |= overflows(sum.force[k]) | overflows(sum.torque[k]);
-    if (large)
+    if (!calendem::RoughSum::in_range(sum.force[3]) || !calendem::RoughSum::in_range(sum.torque[3]))
       bonds_->force_overflows(atom->tag[i]);
     for (int k = 0; k < 3; ++k) {
       atom->f[i][k] += relax * force_unit_.value(static_cast<long long>(sum.force[k]));
@@ -332,15 +343,16 @@ void BpmPairLoop::add_forces(PairGran *pair) {
 }
 
 void BpmPairLoop::stop_overflow(int tag) const {
+  const long long most = calendem::RoughSum::kMost;
   char message[400];
-  snprintf(
-      message, sizeof message,
-      "particle %d is under a force or torque of more than the units of its sum hold: %.3g nN, "
-      "%.3g nN um, more than pressing one sphere into another by its radius takes. The time step "
-      "is "
-      "too large, or something moves too fast: lower the timestep or the speed",
-      tag, force_unit_.value(kMostUnits), torque_unit_.value(kMostUnits));
-  error->all(FLERR, message);
+  snprintf(message, sizeof message,
+           "particle %d is under a force or torque of more than the units of its sum hold: %.3g, "
+           "%.3g (in "
+           "the script's units), more than pressing one sphere into another by its radius takes. "
+           "The time "
+           "step is too large, or something moves too fast: lower the timestep or the speed",
+           tag, force_unit_.value(most), torque_unit_.value(most));
+  stop_run(lmp, FLERR, message);
 }
 
 // Of a pair with a ghost, each copy has a half.

@@ -9,6 +9,7 @@
 
 #include "bond_events.h"
 #include "contact_effects.h"
+#include "known_types.h"
 #include "pair_table.h"
 #include "pair_tile.h"
 #include "pointers.h"
@@ -23,9 +24,9 @@ struct alignas(64) Sphere {
 };
 
 /// Sums of forces and torques on an atom, in units of a FixedPoint; unsigned, as they may pass
-/// through numbers that are too large on their way.
+/// through numbers that are too large on their way. The last of each is a RoughSum.
 struct alignas(64) WholeForce {
-  unsigned long long force[4], torque[4]; // the last of each to fill the line
+  unsigned long long force[4], torque[4];
 };
 
 class BpmPairLoop : protected Pointers, public PairLoop {
@@ -41,6 +42,9 @@ public:
   bool serves(class PairGran *pair) const;
   /// Stops the run if what the host's loop is to compute is not in it.
   void check_reference() const;
+  /// Before either loop: stops the run if an atom has a type whose properties are not known; with
+  /// new lists, chooses units that hold the forces on all atoms.
+  void prepare();
   void compute_force(class PairGran *pair);
 
   /// Histories that this holds, back to the host's lists; release() leaves them there.
@@ -57,8 +61,9 @@ private:
   ContactEffects effects_;
   double **friction_ = nullptr, **cohesion_ = nullptr;
   double **modulus_ = nullptr, **shear_modulus_ = nullptr, **damping_ = nullptr;
-  std::vector<PairMaterial> materials_; // of atom types a, b at a * types_ + b
-  int types_ = 0;
+  KnownTypes known_;
+  std::vector<PairMaterial> materials_;           // of known types a, b at a * types_ + b
+  int types_ = 0;                                 // of the box, and 1
   int bond_ = 0, memory_ = -1, spring_ = -1;      // offsets in the history
   bool contacts_are_read_ = false;                // by a style of the host, in every step
   std::vector<Sphere> spheres_;                   // atoms and ghosts in this step
@@ -80,6 +85,7 @@ private:
   void add_gradient(int size);
   double moment(const PairTile &tile, const VectorRow &force) const;
   void book_moment(const PairTile &tile);
+  double largest_radius() const;
   void choose_units();
   void sum_forces(const PairTile &tile);
   void add_forces(class PairGran *pair);

@@ -41,6 +41,9 @@ public:
   /// Reads the properties; stops with a message if the script's values cannot be used.
   void connect(PropertyRegistry &registry, const char *caller);
 
+  /// The highest type whose properties are known.
+  int types() const { return types_; }
+
   /// True if contacts of these types follow another law than Hertz.
   bool act(int itype, int jtype) const { return pair(itype, jtype).law >= 0; }
 

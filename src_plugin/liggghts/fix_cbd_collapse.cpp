@@ -10,8 +10,8 @@
 #include "global_properties.h"
 #include "memory.h"
 #include "modify.h"
-#include "physics/fixed_point.h"
 #include "physics/sjkr_cohesion.h"
+#include "stop_run.h"
 #include "update.h"
 #include "words.h"
 #include <cmath>
@@ -23,7 +23,6 @@ using namespace FixConst;
 
 namespace {
 const double kFourThirdsPi = 4.18879020478639098462;
-const calendem::FixedPoint kForces(8e9); // nN; sums that depend on no order of the contacts
 } // namespace
 
 FixCbdCollapse::FixCbdCollapse(LAMMPS *lmp, int narg, char **arg)
@@ -124,7 +123,7 @@ void FixCbdCollapse::init() {
 bool FixCbdCollapse::is_mine(int i) const { return i < atom->nlocal && atom->type[i] == type_; }
 
 // What presses, less what cohesion pulls: of the contacts, not of bonds and bridges beside them.
-void FixCbdCollapse::add_pair_forces(std::vector<long long> &sum) const {
+void FixCbdCollapse::add_pair_forces(std::vector<calendem::WideSum> &sum) const {
   const double *R = atom->radius;
   bonds_->pairs().for_each_touching_copy([&](int i, int j, double r, const BondHistory &bond) {
     if (!is_mine(i) && !is_mine(j))
@@ -138,20 +137,21 @@ void FixCbdCollapse::add_pair_forces(std::vector<long long> &sum) const {
       net -= calendem::sjkr_force(cohesion_energy_density_[ti][tj], acting.distance, R[i], R[j]);
     for (int a : {i, j})
       if (is_mine(a))
-        sum[a] += kForces.of(net);
+        sum[a].add(net);
   });
 }
 
-void FixCbdCollapse::add_wall_forces(std::vector<long long> &sum) const {
+void FixCbdCollapse::add_wall_forces(std::vector<calendem::WideSum> &sum) const {
   for (FixWallGranPlaten *wall : walls_) {
     const int tw = wall->atom_type_wall();
-    const double ced = wall->sticks() ? cohesion_energy_density_[type_][tw] : 0.0;
     for (int i = 0; i < atom->nlocal; ++i) {
       const double R = atom->radius[i], r = std::fabs(atom->x[i][2] - wall->position());
-      if (is_mine(i))
-        sum[i] += kForces.of(
-            effects_.force(EffectContact::at_wall(type_, tw, R, R - r), wall->effect_memory(i)) -
-            calendem::sjkr_wall_force(ced, r, R));
+      if (!is_mine(i))
+        continue;
+      const double ced = wall->sticks() ? cohesion_energy_density_[type_][tw] : 0.0;
+      sum[i].add(
+          effects_.force(EffectContact::at_wall(type_, tw, R, R - r), wall->effect_memory(i)) -
+          calendem::sjkr_wall_force(ced, r, R));
     }
   }
 }
@@ -166,8 +166,18 @@ double FixCbdCollapse::rotational_energy() const {
   return sum;
 }
 
+void FixCbdCollapse::stop_no_number(int i) {
+  char message[200];
+  snprintf(message, sizeof message,
+           "fix cbd/collapse: a force on particle %d is not a number. The time step is too large, "
+           "or something "
+           "moves too fast: lower the timestep or the speed",
+           static_cast<int>(atom->tag[i]));
+  stop_run(lmp, FLERR, message);
+}
+
 // The nanoporosities after this update; returns whether one of this rank falls.
-bool FixCbdCollapse::decide(const std::vector<long long> &sum, std::vector<double> &next) {
+bool FixCbdCollapse::decide(const std::vector<calendem::WideSum> &sum, std::vector<double> &next) {
   const double step = static_cast<double>(update->ntimestep), time = since_.at(step);
   since_ = {0.0, step, update->dt};
   bool falls = false;
@@ -176,7 +186,9 @@ bool FixCbdCollapse::decide(const std::vector<long long> &sum, std::vector<doubl
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!is_mine(i))
       continue;
-    const double p = calendem::mean_pressure(kForces.value(sum[i]), atom->radius[i]);
+    if (!sum[i].holds_all())
+      stop_no_number(i);
+    const double p = calendem::mean_pressure(sum[i].value(), atom->radius[i]);
     const double phi = nanoporosity_[i];
     next[i] = imposed_until_ > 0.0
                   ? law_.follow(phi, law_.imposed(upper_->largest_pressure(), imposed_until_), time)
@@ -207,7 +219,7 @@ void FixCbdCollapse::reset_timestep(bigint newstep, bigint oldstep) {
 }
 
 void FixCbdCollapse::end_of_step() {
-  std::vector<long long> sum(atom->nlocal, 0);
+  std::vector<calendem::WideSum> sum(atom->nlocal);
   std::vector<double> next;
   add_pair_forces(sum);
   add_wall_forces(sum);

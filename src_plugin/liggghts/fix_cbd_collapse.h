@@ -22,6 +22,7 @@ FixStyle(cbd/collapse, FixCbdCollapse)
 
 #include "contact_effects.h"
 #include "fix.h"
+#include "physics/fixed_point.h"
 #include "physics/nanopore_collapse.h"
 #include "physics/time_count.h"
 #include "state_in_restart.h"
@@ -76,9 +77,10 @@ private:
   void parse(int narg, char **arg);
   void check();
   bool is_mine(int i) const;
-  void add_pair_forces(std::vector<long long> &sum) const;
-  void add_wall_forces(std::vector<long long> &sum) const;
-  bool decide(const std::vector<long long> &sum, std::vector<double> &next);
+  void add_pair_forces(std::vector<calendem::WideSum> &sum) const;
+  void add_wall_forces(std::vector<calendem::WideSum> &sum) const;
+  void stop_no_number(int i);
+  bool decide(const std::vector<calendem::WideSum> &sum, std::vector<double> &next);
   void shrink(const std::vector<double> &next);
   double rotational_energy() const;
 };

@@ -58,7 +58,7 @@ void FixCheckTimestepBpm::setup(int) { end_of_step(); }
 double FixCheckTimestepBpm::bond_bound() const {
   FixBondBpm *bonds = FixBondBpm::find(lmp, "fix check/timestep/bpm");
   const int nlocal = atom->nlocal;
-  Rows rows(nlocal), bridges(nlocal);
+  Spheres bonded(nlocal), bridges(nlocal);
   const double *m = atom->rmass, *R = atom->radius;
   bonds->pairs().for_each_acting_copy([&](int i, int j, const BondHistory &bond) {
     const calendem::BondMaterial &material = bonds->settings_of(bond).material;
@@ -68,24 +68,25 @@ double FixCheckTimestepBpm::bond_bound() const {
                                   std::min(R[i], R[j]));
     const calendem::Vec3 d = calendem::load(atom->x[i]) - calendem::load(atom->x[j]);
     const calendem::Vec3 n = (1.0 / norm(d)) * d;
-    for (int a : {i, j})
-      if (a < nlocal)
-        (bond.state() == kBridge ? bridges : rows)[a].add(k, c, n, bond.length());
+    Spheres &of = bond.state() == kBridge ? bridges : bonded;
+    of[i].add(k, c, n, norm(d));
+    if (j < nlocal)
+      of[j].add(k, c, -n, norm(d));
   });
   if (const WallBridges *wall = WallBridges::find(lmp))
     for (int i = 0; i < nlocal; ++i)
-      wall->add_to_rows(&bridges[i].stiffness, &bridges[i].damping, i);
-  double least = pressure_ > 0.0 ? contact_bound(rows, bridges) : HUGE_VAL;
+      wall->add_to_blocks(&bridges[i].stiffness, &bridges[i].damping, i);
+  double least = pressure_ > 0.0 ? contact_bound(bonded, bridges) : HUGE_VAL;
   for (int i = 0; i < nlocal; ++i)
-    rows[i].add(bridges[i]);
-  add_contacts(rows);
+    bonded[i].add(bridges[i]);
+  add_contacts(bonded);
   for (int i = 0; i < nlocal; ++i)
-    least = std::min(least, calendem::stable_step(rows[i].stiffness, rows[i].damping, m[i], R[i]));
+    least = calendem::stable_step(bonded[i].stiffness, bonded[i].damping, m[i], R[i], least);
   return least;
 }
 
 // The contacts that there are. That of a bonded pair begins beyond its reference.
-void FixCheckTimestepBpm::add_contacts(Rows &rows) const {
+void FixCheckTimestepBpm::add_contacts(Spheres &spheres) const {
   const int nlocal = atom->nlocal;
   const double *R = atom->radius, *m = atom->rmass;
   FixBondBpm *bonds = FixBondBpm::find(lmp, "fix check/timestep/bpm");
@@ -98,9 +99,10 @@ void FixCheckTimestepBpm::add_contacts(Rows &rows) const {
     const calendem::BondCoefficients c =
         calendem::contact_damping(k, effects_.damping(ti, tj), m[i] * m[j] / (m[i] + m[j]));
     const calendem::Vec3 n = (1.0 / r) * (calendem::load(atom->x[i]) - calendem::load(atom->x[j]));
-    for (int b : {i, j})
-      if (b < nlocal)
-        rows[b].add(k, c, n, 2.0 * R[b]);
+    const double lens = R[i] + R[j] - r; // the arms end in its middle
+    spheres[i].add(k, c, n, 2.0 * R[i] - lens);
+    if (j < nlocal)
+      spheres[j].add(k, c, -n, 2.0 * R[j] - lens);
   });
 }
 
@@ -109,8 +111,8 @@ calendem::BondCoefficients FixCheckTimestepBpm::stiffness_of(int ti, int tj, dou
 }
 
 // Of sphere i with the contacts that `pressure` will make with spheres or a wall of type `other`.
-double FixCheckTimestepBpm::contact_bound(int i, int other, const Row &bonds,
-                                          const Row &bridges) const {
+double FixCheckTimestepBpm::contact_bound(int i, int other, const Sphere &bonds,
+                                          const Sphere &bridges) const {
   const calendem::BondMaterial &material =
       FixBondBpm::find(lmp, "fix check/timestep/bpm")->settings().material;
   const int type = atom->type[i];
@@ -123,21 +125,21 @@ double FixCheckTimestepBpm::contact_bound(int i, int other, const Row &bonds,
   const calendem::BondSection section(material.radius_ratio * R);
   const bool bonds_are_softer =
       calendem::BondStiffness(material, section, 2.0 * R).normal < k.normal;
-  Row beside = bonds_are_softer ? bonds : Row();
+  Sphere beside = bonds_are_softer ? bonds : Sphere();
   beside.add(bridges);
   return calendem::stable_step_of_contacts(k, c, m, R, beside.stiffness, beside.damping);
 }
 
-double FixCheckTimestepBpm::contact_bound(const Rows &bonds, const Rows &bridges) const {
+double FixCheckTimestepBpm::contact_bound(const Spheres &bonds, const Spheres &bridges) const {
   double least = HUGE_VAL;
   for (int i = 0; i < atom->nlocal; ++i)
-    for (int other = 1; other <= atom->ntypes; ++other)
+    for (int other = 1; other <= effects_.types(); ++other)
       least = std::min(least, contact_bound(i, other, bonds[i], bridges[i]));
   return least;
 }
 
 double FixCheckTimestepBpm::rayleigh_time() const {
-  const int types = atom->ntypes;
+  const int types = effects_.types();
   FixPropertyGlobal *E = static_cast<FixPropertyGlobal *>(modify->find_fix_property(
       "youngsModulus", "property/global", "peratomtype", types, 0, style));
   FixPropertyGlobal *nu = static_cast<FixPropertyGlobal *>(modify->find_fix_property(

@@ -37,25 +37,25 @@ private:
   ContactEffects effects_;
   bool pairs_have_effects_, stop_;
 
-  /// Of one sphere.
-  struct Row {
-    calendem::BondRowSum stiffness, damping;
+  struct Sphere {
+    calendem::SphereBlock stiffness, damping;
+    /// `n` points to this sphere.
     void add(const calendem::BondCoefficients &k, const calendem::BondCoefficients &c,
              const calendem::Vec3 &n, double length) {
       stiffness.add(k, n, length);
       damping.add(c, n, length);
     }
-    void add(const Row &more) {
+    void add(const Sphere &more) {
       stiffness.add(more.stiffness);
       damping.add(more.damping);
     }
   };
-  typedef std::vector<Row> Rows;
+  typedef std::vector<Sphere> Spheres;
 
   double bond_bound() const;
-  double contact_bound(const Rows &bonds, const Rows &bridges) const;
-  double contact_bound(int i, int other, const Row &bonds, const Row &bridges) const;
-  void add_contacts(Rows &rows) const;
+  double contact_bound(const Spheres &bonds, const Spheres &bridges) const;
+  double contact_bound(int i, int other, const Sphere &bonds, const Sphere &bridges) const;
+  void add_contacts(Spheres &spheres) const;
   calendem::BondCoefficients stiffness_of(int ti, int tj, double a) const;
   double rayleigh_time() const;
 };

@@ -10,6 +10,7 @@
 #include "modify.h"
 #include "physics/fixed_point.h"
 #include "primitive_wall.h"
+#include "stop_run.h"
 #include "update.h"
 #include "words.h"
 #include <cmath>
@@ -22,7 +23,6 @@ using calendem::PlatenControl;
 using calendem::PlatenStage;
 
 namespace {
-const calendem::FixedPoint kLoads(8e9); // nN
 char store_force_word[] = "store_force";
 char yes_word[] = "yes";
 } // namespace
@@ -249,7 +249,7 @@ void FixWallGranPlaten::initial_integrate(int) {
   advance(programme_, record_.state, record_.average.value(), window_, time_->now(), dt,
           may_release_);
   // half of the step's work with the load at its beginning, the other half in measure()
-  record_.work += 0.5 * kLoads.value(record_.load) * (z - record_.state.position);
+  record_.work += 0.5 * record_.load.value() * (z - record_.state.position);
   place_wall();
   record_.work += 0.5 * record_.drag * sliding_ * dt;
 }
@@ -288,39 +288,45 @@ void FixWallGranPlaten::post_force(int vflag) {
     measure_drag();
 }
 
-calendem::LongSum FixWallGranPlaten::over_ranks(const calendem::LongSum &sum) const {
-  const long long mine[2] = {sum.high, sum.low};
-  long long all[2];
-  MPI_Allreduce(mine, all, 2, MPI_LONG_LONG, MPI_SUM, world);
-  return {all[0], all[1]};
+calendem::WideSum FixWallGranPlaten::over_ranks(const calendem::WideSum &sum) const {
+  calendem::WideSum all;
+  MPI_Allreduce(sum.whole, all.whole, calendem::WideSum::kWeights + 1, MPI_LONG_LONG, MPI_SUM,
+                world);
+  return all;
+}
+
+calendem::WideSum FixWallGranPlaten::load_of_rank() const {
+  calendem::WideSum load;
+  for (int i = 0; i < atom->nlocal; ++i)
+    load.add(sign_ * fix_wallforce_->array_atom[i][2]);
+  for (int i = 0; bridges_ && i < atom->nlocal; ++i)
+    load.add(sign_ * bridges_->force(i));
+  if (!load.holds_all())
+    stop_run(lmp, FLERR,
+             "a particle presses fix wall/gran/platen with a force that is not a number. The time "
+             "step is too large, or something moves too fast: lower the timestep or the speed");
+  return load;
 }
 
 // Ranks wait for each other only at the end of an average's block.
 void FixWallGranPlaten::measure() {
-  long long load = 0;
-  for (int i = 0; i < atom->nlocal; ++i)
-    load += kLoads.of(sign_ * fix_wallforce_->array_atom[i][2]);
-  for (int i = 0; bridges_ && i < atom->nlocal; ++i)
-    load += kLoads.of(sign_ * bridges_->force(i));
-  record_.load = load;
-  record_.block.add(load);
-  record_.work += 0.5 * kLoads.value(load) * record_.state.speed * update->dt;
+  record_.load = load_of_rank();
+  record_.block.add(record_.load);
+  record_.work += 0.5 * record_.load.value() * record_.state.speed * update->dt;
   if (!record_.height.add(record_.state.position))
     return;
-  const calendem::LongSum all = over_ranks(record_.block);
+  const double all = over_ranks(record_.block).value();
   record_.block = {};
   const double steps = record_.height.block_length;
-  record_.average.add_block(all.value() * kLoads.unit / (steps * area()));
+  record_.average.add_block(all / (steps * area()));
   update_slope(programme_, record_.state, record_.average.value(), steps * update->dt);
 }
 
 void FixWallGranPlaten::add_up(Record &record) const {
-  long long load = 0;
-  MPI_Allreduce(&record.load, &load, 1, MPI_LONG_LONG, MPI_SUM, world);
   const double my_work[2] = {record.work, record.drag};
   double work[2];
   MPI_Allreduce(my_work, work, 2, MPI_DOUBLE, MPI_SUM, world);
-  record.load = load;
+  record.load = over_ranks(record.load);
   record.block = over_ranks(record.block);
   record.work = work[0];
   record.drag = work[1];
@@ -340,7 +346,7 @@ double FixWallGranPlaten::compute_vector(int n) {
   Record whole = record_;
   if (n == 3 || n == 5 || n == 6)
     add_up(whole);
-  const double load = kLoads.value(whole.load);
+  const double load = whole.load.value();
   const double values[] = {s.stage,
                            s.position,
                            programme_.start - s.position,
@@ -380,8 +386,7 @@ void FixWallGranPlaten::restart(char *buf) {
 
 void FixWallGranPlaten::keep_share() {
   if (comm->me != 0) {
-    record_.load = 0;
-    record_.block = {};
+    record_.load = record_.block = {};
     record_.work = record_.drag = 0.0;
   }
 }

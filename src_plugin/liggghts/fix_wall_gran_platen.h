@@ -92,8 +92,8 @@ private:
     calendem::PlatenState state;
     calendem::MovingAverage average; ///< of the pressure
     calendem::MovingAverage height;  ///< of the position
-    long long load = 0;              ///< as FixedPoint: the same on any number of ranks
-    calendem::LongSum block;         ///< of the loads since the average's last block
+    calendem::WideSum load;          ///< the same on any number of ranks
+    calendem::WideSum block;         ///< of the loads since the average's last block
     double work = 0.0;
     double drag = 0.0; ///< force along x on this rank's particles
   };
@@ -121,7 +121,8 @@ private:
   void measure();
   void measure_drag();
   double area() const;
-  calendem::LongSum over_ranks(const calendem::LongSum &sum) const;
+  calendem::WideSum load_of_rank() const;
+  calendem::WideSum over_ranks(const calendem::WideSum &sum) const;
   void add_up(Record &record) const;
   void keep_share();
 };

@@ -64,6 +64,7 @@ public:
   }
 
   void compute_force(LAMMPS_NS::PairGran *pair, int eflag, int vflag, int addflag) {
+    loop_.prepare();
     if (!fused_ || addflag || !loop_.serves(pair)) {
       loop_.check_reference();
       loop_.release_histories();

@@ -10,6 +10,7 @@ using namespace LAMMPS_NS;
 using calendem::BondMaterial;
 using calendem::BondStrength;
 using calendem::FailureCriterion;
+using calendem::RoughSum;
 using calendem::Vec3;
 
 namespace {
@@ -198,6 +199,14 @@ void LAMMPS_NS::round_off(int size, PairStep &s, const calendem::FixedPoint &for
   ::round_off(size, s.force, force, s.whole[0]);
   ::round_off(size, s.torque_i, torque, s.whole[1]);
   ::round_off(size, s.torque_j, torque, s.whole[2]);
+#pragma GCC ivdep
+  for (int p = 0; p < size; ++p) {
+    const bool fits =
+        RoughSum::fits(s.force[p]) & RoughSum::fits(s.torque_i[p]) & RoughSum::fits(s.torque_j[p]);
+    s.whole[0][p][3] = fits ? RoughSum::of(s.force[p]) : 0;
+    s.whole[1][p][3] = fits ? RoughSum::of(s.torque_i[p]) : RoughSum::kNoFit;
+    s.whole[2][p][3] = fits ? RoughSum::of(s.torque_j[p]) : RoughSum::kNoFit;
+  }
 }
 
 void PairTile::copy(int to, const PairTile &t, int from) {

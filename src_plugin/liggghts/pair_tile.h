@@ -79,7 +79,8 @@ struct PairStep {
   VectorRow bond_damping, bond_damping_torque_i, bond_damping_torque_j;
   VectorRow contact_damping, friction_force, friction_torque_i, friction_torque_j;
   Row failed; // 1 of a bond that fails
-  /// Force, torque_i, torque_j as whole numbers, in units of a FixedPoint.
+  /// Force, torque_i, torque_j as whole numbers, in units of a FixedPoint, and behind the
+  /// components of each its part of a RoughSum.
   alignas(64) unsigned long long whole[3][kTilePairs][4];
 
   double radius_sum(int p) const { return radius_i[p] + radius_j[p]; }

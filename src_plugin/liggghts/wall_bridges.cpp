@@ -176,11 +176,11 @@ double WallBridges::strain_energy() const {
   return sum;
 }
 
-void WallBridges::add_to_rows(calendem::BondRowSum *stiffness, calendem::BondRowSum *damping,
-                              int i) const {
+void WallBridges::add_to_blocks(calendem::SphereBlock *stiffness, calendem::SphereBlock *damping,
+                                int i) const {
   if (!stands(i))
     return;
   const Bridge bridge(*this, i);
-  stiffness->add(bridge.stiffness, bridge.motion.n, bridge.bond.length());
-  damping->add(bridge.damping, bridge.motion.n, bridge.bond.length());
+  stiffness->add(bridge.stiffness, bridge.motion.n, bridge.motion.r);
+  damping->add(bridge.damping, bridge.motion.n, bridge.motion.r);
 }

@@ -40,7 +40,7 @@ public:
   bigint intact() const;
   double strain_energy() const; ///< [fJ]
   /// Adds the bridge of atom i, if there is one, to what the bound of the time step sums.
-  void add_to_rows(calendem::BondRowSum *stiffness, calendem::BondRowSum *damping, int i) const;
+  void add_to_blocks(calendem::SphereBlock *stiffness, calendem::SphereBlock *damping, int i) const;
 
 private:
   /// A bridge as its law sees it.
