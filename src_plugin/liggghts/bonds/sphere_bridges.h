@@ -55,6 +55,7 @@ public:
 
   /// NULL: no wall has any.
   void set_on_collector(const CollectorBridges *bridges) { on_collector_ = bridges; }
+  const CollectorBridges *on_collector() const { return on_collector_; }
   void count_made(const BondPairs &pairs);
   bigint made(calendem::BridgeKind kind) const { return made_[int(kind)]; }
   void set_made(calendem::BridgeKind kind, bigint n) { made_[int(kind)] = n; }

@@ -81,7 +81,6 @@ public:
   bool is_top() const { return sign_ < 0.0; }
   bool sticks() { return contact_match("cohesion", "sjkr"); }
   bool has_effects() const { return memory_offset_ >= 0; } ///< model hertz_effects
-  WallBridges *bridges() const { return bridges_.get(); }  ///< NULL: the wall has none
   /// Memory of atom i's contact under `model hertz_effects`, NULL under another model.
   const double *effect_memory(int i) const;
 

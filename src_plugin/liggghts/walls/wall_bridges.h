@@ -20,9 +20,6 @@ public:
   /// Of the wall with this ID at height z [um].
   WallBridges(class LAMMPS *lmp, const std::string &wall, double z);
 
-  /// Of the one wall that has bridges, NULL if none has.
-  static WallBridges *find(class LAMMPS *lmp);
-
   void add_storage(const char *caller);
   void delete_storage();
   /// `wall`: place of its fix among the fixes.

@@ -5,7 +5,6 @@
 #include "error.h"
 #include "fix_bond_bpm.h"
 #include "fix_property_atom.h"
-#include "fix_wall_gran_platen.h"
 #include "modify.h"
 #include "mpi_liggghts.h"
 #include "registry/phases.h"
@@ -40,19 +39,6 @@ WallBridges::WallBridges(LAMMPS *lmp, const std::string &wall, double z)
     : Pointers(lmp), name_("bridges_" + wall), z_(z), creating_(false), bonds_(NULL),
       storage_(NULL) {}
 
-WallBridges *WallBridges::find(LAMMPS *lmp) {
-  WallBridges *found = NULL;
-  for (int k = 0; k < lmp->modify->nfix; ++k) {
-    const auto *wall = dynamic_cast<FixWallGranPlaten *>(lmp->modify->fix[k]);
-    if (!wall || !wall->bridges())
-      continue;
-    if (found)
-      lmp->error->all(FLERR, "only one fix wall/gran/platen may have 'bridges yes'");
-    found = wall->bridges();
-  }
-  return found;
-}
-
 void WallBridges::add_storage(const char *caller) {
   std::vector<std::string> words = {name_, "all", "property/atom", name_, "vector", "yes",
                                     "no",  "no"};
@@ -65,11 +51,16 @@ void WallBridges::add_storage(const char *caller) {
       modify->find_fix_property(name_.c_str(), "property/atom", "vector", kValues, 0, caller));
 }
 
-void WallBridges::delete_storage() { modify->delete_fix(name_.c_str()); }
+void WallBridges::delete_storage() {
+  modify->delete_fix(name_.c_str());
+  if (bonds_)
+    bonds_->bridges().set_on_collector(NULL);
+}
 
 void WallBridges::init(int wall) {
   bonds_ = FixBondBpm::find(lmp, "fix wall/gran/platen with bridges");
-  find(lmp);
+  if (bonds_->bridges().on_collector() && bonds_->bridges().on_collector() != this)
+    error->all(FLERR, "only one fix wall/gran/platen may have 'bridges yes'");
   bonds_->bridges().set_on_collector(this);
   if (modify->find_fix(bonds_->id) > wall)
     error->all(FLERR, "a fix wall/gran/platen with 'bridges yes' must stand behind fix bond/bpm");

@@ -73,7 +73,7 @@ double FixCheckTimestepBpm::bond_bound() const {
     if (j < nlocal)
       of[j].add(k, c, -n, norm(d));
   });
-  if (const WallBridges *wall = WallBridges::find(lmp))
+  if (const auto *wall = dynamic_cast<const WallBridges *>(bonds->bridges().on_collector()))
     for (int i = 0; i < nlocal; ++i)
       wall->add_to_blocks(&bridges[i].stiffness, &bridges[i].damping, i);
   double least = pressure_ > 0.0 ? contact_bound(bonded, bridges) : HUGE_VAL;
