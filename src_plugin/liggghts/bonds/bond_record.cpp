@@ -1,8 +1,32 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "bond_record.h"
+#include "error.h"
+#include "fix.h"
+#include <cmath>
 #include <cstring>
+#include <type_traits>
 
 using namespace LAMMPS_NS;
+
+void RepeatedSettings::check(const RepeatedSettings &now, Error *error, Fix *owner) const {
+  const struct {
+    const char *name;
+    double now, before;
+  } all[] = {{"contact_diameter", now.contact_diameter, contact_diameter},
+             {"surface_inset", now.surface_inset, surface_inset},
+             {"inset_fading", now.inset_fading, inset_fading},
+             {"shrinkage", now.shrinkage, shrinkage},
+             {"shrinkage's time", now.shrinkage_time, shrinkage_time}};
+  for (const auto &setting : all) {
+    char message[300];
+    snprintf(message, sizeof message,
+             "%s is %g, and the run that goes on from this restart file began with %g: it must "
+             "stay as it was. Give %.10g, or begin the run anew",
+             setting.name, setting.now, setting.before, setting.before);
+    if (std::fabs(setting.now - setting.before) > 1e-9 * setting.before)
+      error->fix_error(FLERR, owner, message);
+  }
+}
 
 // In the order of the file, where all are doubles.
 template <class Visit> void BondRecord::for_each_value(BondRecord &r, Visit visit) {
@@ -17,8 +41,11 @@ template <class Visit> void BondRecord::for_each_value(BondRecord &r, Visit visi
   for (bigint &n : r.bridges_made)
     visit(n);
   visit(r.shrunk);
-  for (double &setting : r.repeated)
-    visit(setting);
+  visit(r.repeated.contact_diameter);
+  visit(r.repeated.surface_inset);
+  visit(r.repeated.inset_fading);
+  visit(r.repeated.shrinkage);
+  visit(r.repeated.shrinkage_time);
   visit(r.bodies);
   visit(r.largest_radius);
 }
