@@ -28,6 +28,10 @@ void RepeatedSettings::check(const RepeatedSettings &now, Error *error, Fix *own
   }
 }
 
+namespace {
+const double kFormat = 2.0; // the first value; up to 1 in files of version 1.0.0
+} // namespace
+
 // In the order of the file, where all are doubles.
 template <class Visit> void BondRecord::for_each_value(BondRecord &r, Visit visit) {
   visit(r.created);
@@ -51,7 +55,7 @@ template <class Visit> void BondRecord::for_each_value(BondRecord &r, Visit visi
 }
 
 void BondRecord::write(FILE *fp) const {
-  std::vector<double> values;
+  std::vector<double> values = {kFormat};
   BondRecord copy = *this;
   for_each_value(copy, [&values](auto &value) { values.push_back(static_cast<double>(value)); });
   values.push_back(static_cast<double>(events.size()));
@@ -62,13 +66,18 @@ void BondRecord::write(FILE *fp) const {
   fwrite(values.data(), sizeof(double), values.size(), fp);
 }
 
-void BondRecord::read(const char *buf) {
+void BondRecord::read(const char *buf, Error *error, Fix *owner) {
   const auto next = [&buf] {
     double value;
     memcpy(&value, buf, sizeof value);
     buf += sizeof value;
     return value;
   };
+  if (next() != kFormat)
+    error->fix_error(
+        FLERR, owner,
+        "the restart file was written by another version of the plugin, which keeps other "
+        "values of the bonds. Begin the run anew, or go on with that version");
   for_each_value(*this, [&next](auto &value) {
     value = static_cast<std::remove_reference_t<decltype(value)>>(next());
   });

@@ -30,7 +30,8 @@ struct BondRecord {
   std::vector<BreakEvent> events;
 
   void write(FILE *fp) const;
-  void read(const char *buf);
+  /// Stops the run, with a message that names the fix `owner`, if another version wrote it.
+  void read(const char *buf, class Error *error, class Fix *owner);
 
 private:
   template <class Visit> static void for_each_value(BondRecord &record, Visit visit);

@@ -396,7 +396,7 @@ void FixBondBpm::write_restart(FILE *fp) {
 
 void FixBondBpm::restart(char *buf) {
   BondRecord record;
-  record.read(buf);
+  record.read(buf, error, this);
   created_ = restarted_ = record.created != 0.0;
   initial_ = record.made;
   for (int k = 0; k < calendem::kBridgeKinds; ++k)
