@@ -145,6 +145,18 @@ TEST(BetweenRuns, ARestartUnderAnotherIdIsRefused) {
   }
 }
 
+// Of the record of fix bond/bpm the first value tells the version; the next one, 1, that bonds are made.
+TEST(BetweenRuns, ARestartOfAnotherVersionIsRefused) {
+  const CaseRun first = hold("write_restart half.restart\n");
+  std::string file = first.text("half.restart");
+  const double begins[] = {2.0, 1.0}, older = 1.0;
+  const size_t place =
+      file.find(std::string(reinterpret_cast<const char *>(begins), sizeof begins));
+  ASSERT_NE(place, std::string::npos);
+  file.replace(place, sizeof older, reinterpret_cast<const char *>(&older), sizeof older);
+  EXPECT_TRUE(says(hold("", {{"from", "1"}}, {{"half.restart", file}}), "another version"));
+}
+
 TEST(BetweenRuns, MinimizeIsRefused) {
   Files files = two_pairs();
   files["start.in"] += "run 10\ncompute thermo_pe all pe\nmin_style cg\nminimize 0 0 50 50\n";
