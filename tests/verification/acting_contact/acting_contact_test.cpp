@@ -7,7 +7,6 @@
 #include "physics/hertz_contact.h"
 #include "physics/nanopore_collapse.h"
 #include "physics/sjkr_cohesion.h"
-#include "physics/time_step_bound.h"
 #include "spheres.h"
 
 using namespace calendem;
@@ -94,27 +93,6 @@ void expect_by_hand(const Pair &pair, double overlap, double ced, const Row &fou
   EXPECT_EQ(found.at("met") + found.at("inside"), d > 0.0 ? 1.0 : 0.0) << pair.name;
 }
 
-// Bound of the step for such a pair, its contact's area of radius `a`, its centres `r` apart.
-double bound_of(double a, double r) {
-  const double mass = kDensity * 4.0 / 3.0 * kPi * R * R * R, log_e = std::log(0.15);
-  const double G = shear_modulus(E, nu), beta = log_e / std::sqrt(log_e * log_e + kPi * kPi);
-  const BondCoefficients k = contact_stiffness(E_eff, 0.5 * G / (2.0 - nu), a);
-  SphereBlock stiffness, damping;
-  stiffness.add(k, {1, 0, 0}, r);
-  damping.add(contact_damping(k, beta, 0.5 * mass), {1, 0, 0}, r);
-  return stable_step(stiffness, damping, mass, R);
-}
-
-// The radius whose bound that is, by bisection.
-double radius_of(double bound, double r) {
-  double low = 0.0, high = R;
-  for (int n = 0; n < 60; ++n) {
-    const double a = 0.5 * (low + high);
-    (bound_of(a, r) > bound ? low : high) = a;
-  }
-  return low;
-}
-
 // Nanoporosity in the end: the one that its own pressure leads to, by bisection.
 double collapsed(const Pair &pair, const NanoporeCollapse &law, double overlap) {
   double low = law.floor, high = law.initial;
@@ -125,13 +103,6 @@ double collapsed(const Pair &pair, const NanoporeCollapse &law, double overlap) 
     (phi < law.target(p) ? low : high) = phi;
   }
   return low;
-}
-
-// Its 24 binary digits, twice.
-void expect_bound(const Pair &pair, double overlap, double of_plain, double found) {
-  const double a = radius_of(of_plain, 2.0 * R - overlap);
-  const double expected = bound_of(a, 2.0 * R - pair.reference - overlap);
-  EXPECT_NEAR(found, expected, 2.4e-7 * expected) << pair.name;
 }
 
 } // namespace
@@ -154,8 +125,8 @@ TEST(VerificationActingContact, OnTwoRanks) {
     expect_by_hand(pair, 0.03, ced, at_rest(pair, 30, {{"ced", number(ced)}}, 2), worst);
 }
 
-// A pair with a reference is the plain pair that is as much further apart, whatever law it follows.
-// The bound of the time step takes the same contact, at the distance where the centres are.
+// A pair with a reference is the plain pair that is as much further apart, whatever law it follows,
+// for the bound of the time step too.
 TEST(VerificationActingContact, EveryLawTakesTheOverlapBeyondTheReference) {
   const Settings laws[] = {
       {},
@@ -172,16 +143,14 @@ TEST(VerificationActingContact, EveryLawTakesTheOverlapBeyondTheReference) {
         if (pair.inside)
           continue; // Hertz, whatever the surfaces' law
         const Row found = at_rest(pair, ways, settings);
-        if (ways > 0)
-          expect_bound(pair, kWay * ways, plain.at("bound"), found.at("bound"));
         for (const auto &[what, value] : plain)
           if (value == 0.0 || std::isinf(value)) // no contact, and no bound of the step
             EXPECT_EQ(found.at(what), value) << pair.name << " " << what;
-          else if (what != "bound")
+          else
             worst.near(pair.name, found.at(what), value, std::fabs(value));
       }
     }
-  std::printf("each law: %.1e off\n", worst.of);
+  std::printf("each law, with the bound of the step: %.1e off\n", worst.of);
 }
 
 TEST(VerificationActingContact, NanoporesFollowThePressureOfTheActingContact) {
