@@ -66,7 +66,7 @@ rooms_of_the_plugin() { # a room knows those before it; no unit (a header and it
   local rooms=(base bonds pairs walls ledger output) room later known="" name
   local -A room_of
   for room in "${rooms[@]}"; do
-    while read -r name; do room_of[$name]=$room; done < <(cd "src_plugin/liggghts/$room" && ls ./*.h | sed 's|^./||')
+    while read -r name; do room_of[$name]=$room; done < <(find "src_plugin/liggghts/$room" -name '*.h' -printf '%f\n')
   done
   find src_plugin/liggghts -mindepth 1 -maxdepth 1 -printf '%f\n' | without "^($(IFS='|'; echo "${rooms[*]}"))$" |
     report "src_plugin/liggghts has no other rooms than ${rooms[*]}" || exit 1
