@@ -245,28 +245,27 @@ bigint FixBondBpm::count_intact() {
   return all;
 }
 
-void FixBondBpm::record_break(int i, int j, BondHistory bond, const calendem::BondLoads &loads,
-                              double tension, const calendem::BondSection &section,
-                              const calendem::BondStiffness &k, double factor) {
+void FixBondBpm::record_break(int i, int j, BondHistory bond, const calendem::BondPair &pair,
+                              const calendem::BondLoads &loads) {
   const BondSettings &set = settings_of(bond);
-  const calendem::BondStress s = bond_stress(loads, tension, section, set.criterion);
+  const calendem::BondStress s = pair.stress(loads, set.criterion);
   const bool i_is_low = atom->tag[i] < atom->tag[j], of_bridge = bond.state() == kBridge;
   const int low = i_is_low ? i : j, high = i_is_low ? j : i;
   const double *a = atom->x[low], *b = atom->x[high];
-  const BreakEvent e = {update->ntimestep * update->dt,
-                        static_cast<double>(atom->tag[low]),
-                        static_cast<double>(atom->tag[high]),
-                        of_bridge ? -1.0
-                                  : static_cast<double>(body_[low < atom->nlocal ? low : high]),
-                        of_bridge ? static_cast<double>(kind_of_bridge(i, j))
-                                  : static_cast<double>(break_mode(s, set.strength_of(factor))),
-                        s.sigma(),
-                        s.tau(),
-                        0.5 * (a[0] + b[0]),
-                        0.5 * (a[1] + b[1]),
-                        0.5 * (a[2] + b[2]),
-                        0.0,
-                        strain_energy(loads, tension, k)};
+  const BreakEvent e = {
+      update->ntimestep * update->dt,
+      static_cast<double>(atom->tag[low]),
+      static_cast<double>(atom->tag[high]),
+      of_bridge ? -1.0 : static_cast<double>(body_[low < atom->nlocal ? low : high]),
+      of_bridge ? static_cast<double>(kind_of_bridge(i, j))
+                : static_cast<double>(break_mode(s, set.strength_of(bond.strength_factor()))),
+      s.sigma(),
+      s.tau(),
+      0.5 * (a[0] + b[0]),
+      0.5 * (a[1] + b[1]),
+      0.5 * (a[2] + b[2]),
+      0.0,
+      pair.strain_energy(loads)};
   failing_.push_back({i, j, bond, e});
 }
 
@@ -368,17 +367,18 @@ double FixBondBpm::compute_vector(int n) {
   return n == 8 ? energy_lost_ : strain_energy_of(kIntact);
 }
 
+calendem::BondPair FixBondBpm::pair_of(int i, int j, const BondHistory &bond) const {
+  const calendem::Vec3 d = calendem::load(atom->x[i]) - calendem::load(atom->x[j]);
+  return {settings_of(bond).material, atom->radius[i], atom->radius[j], bond.length(),
+          calendem::pair_at_rest(d)};
+}
+
 double FixBondBpm::strain_energy_of(BondState state) {
   double mine = 0.0, all = 0.0;
   for_each_acting_copy([&](int i, int j, const BondHistory &bond) {
     if (bond.state() != state || !decides(i, j))
       return;
-    double **x = atom->x;
-    const calendem::Vec3 d = calendem::load(x[i]) - calendem::load(x[j]);
-    const calendem::BondMaterial &material = settings_of(bond).material;
-    const double radius = material.radius_ratio * std::min(atom->radius[i], atom->radius[j]);
-    const calendem::BondStiffness k(material, calendem::BondSection(radius), bond.length());
-    mine += strain_energy(bond.loads(), bond_tension(material, k, norm(d), bond.length()), k);
+    mine += pair_of(i, j, bond).strain_energy(bond.loads());
   });
   MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;

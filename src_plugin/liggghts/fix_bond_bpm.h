@@ -35,7 +35,7 @@ FixStyle(bond/bpm, FixBondBpm)
 #include "bond_bpm_history.h"
 #include "fix.h"
 #include "physics/binder_bridge.h"
-#include "physics/bond_failure.h"
+#include "physics/bond_pair.h"
 #include "physics/drying_shrinkage.h"
 #include "registry/bond_strengths.h"
 #include <array>
@@ -121,6 +121,8 @@ public:
   const BondSettings &settings_of(const BondHistory &bond) const {
     return bond.state() == kBridge ? bridge_settings_ : settings_;
   }
+  /// The pair's bond or bridge where its spheres stand now.
+  calendem::BondPair pair_of(int i, int j, const BondHistory &bond) const;
   const calendem::BinderBridges &bridges() const { return bridges_; }
   /// By how much of their length at creation bridges have shrunk in this step, and whether they do
   /// in this or the next one.
@@ -136,8 +138,8 @@ public:
     bridges_made_[int(calendem::BridgeKind::CbdCollector)] = n;
   }
   void bridge_breaks_on_wall(int i, double energy);
-  void record_break(int i, int j, BondHistory bond, const calendem::BondLoads &, double tension,
-                    const calendem::BondSection &, const calendem::BondStiffness &, double factor);
+  void record_break(int i, int j, BondHistory bond, const calendem::BondPair &,
+                    const calendem::BondLoads &);
   void check_stretch(double stretch) {
     if (stretch > kStretchLimit && overstretched_ == 0.0)
       overstretched_ = stretch;
