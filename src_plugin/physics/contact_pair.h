@@ -49,10 +49,15 @@ inline ContactAction contact_action(const ContactPair &pair, const ContactMateri
                                     Vec3 &displacement) {
   const double damping = -r.normal_damping * pair.motion.normal_velocity;
   const double normal = damping + elastic;
-  const Vec3 friction =
-      select(acts, friction_force(displacement, pair.motion, r, m.friction, normal));
-  const Vec3 moment = cross(pair.n, friction);
-  return {normal, damping, friction, -pair.motion.arm_i * moment, -pair.motion.arm_j * moment};
+  ContactAction a = {normal,
+                     damping,
+                     select(acts, friction_force(displacement, pair.motion, r, m.friction, normal)),
+                     {},
+                     {}};
+  const Vec3 moment = cross(pair.n, a.friction);
+  a.torque_i = -pair.motion.arm_i * moment;
+  a.torque_j = -pair.motion.arm_j * moment;
+  return a;
 }
 
 /// A sphere at a flat wall at right angles to z.
