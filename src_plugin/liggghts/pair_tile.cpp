@@ -79,8 +79,8 @@ __attribute__((flatten)) void run_contacts(Tile &t, PairStep &s, const PairMater
       s.torque_i.set(p, s.torque_i[p] + a.torque_i);
       s.torque_j.set(p, s.torque_j[p] + a.torque_j);
     } else {
-      const double pull = calendem::sjkr_force(
-          m.cohesion, std::sqrt(s.r_squared[p]) + t.reference[p], s.radius_i[p], s.radius_j[p]);
+      const double pull =
+          calendem::sjkr_force(m.cohesion, pair.r + t.reference[p], s.radius_i[p], s.radius_j[p]);
       s.force.set(p, push - select(acting, pull * pair.n) + a.friction);
       s.torque_i.set(p, a.torque_i);
       s.torque_j.set(p, a.torque_j);

@@ -23,12 +23,13 @@ inline double hertz_contact_radius(double R_eff, double overlap) {
 
 /// Two spheres whose contact acts, rests (no overlap that acts), or has been opened by its law.
 struct ContactPair {
-  Vec3 n; ///< from j to i
+  Vec3 n;   ///< from j to i
+  double r; ///< distance of the centres [um]
   ContactMotion motion;
 
   /// At rest it does not move, open it does not slide: friction must not wind up meanwhile.
   ContactPair(const PairMotion &m, double radius_i, double radius_j, bool rests, bool slides)
-      : n(m.n), motion(contact_motion(m, radius_i, radius_j)) {
+      : n(m.n), r(m.r), motion(contact_motion(m, radius_i, radius_j)) {
     motion.normal_velocity = rests ? 0.0 : motion.normal_velocity;
     motion.sliding_velocity = select(slides, motion.sliding_velocity);
   }
