@@ -11,6 +11,7 @@
 #ifndef CALENDEM_PHYSICS_CONTACT_PAIR_H
 #define CALENDEM_PHYSICS_CONTACT_PAIR_H
 
+#include "acting_contact.h"
 #include "hertz_contact.h"
 #include "hertz_mindlin.h"
 

@@ -62,6 +62,24 @@ pi_has_one_place() { # physics/pi.h
   cxx_files | without '/physics/pi\.h$' | { xargs grep -nE '3\.14159|6\.28318|M_PI|acos\(-1' /dev/null || true; } |
     report "include physics/pi.h and say kPi"
 }
+rooms_of_the_plugin() { # a room knows those before it; no unit (a header and its source) reaches itself
+  local rooms=(base bonds pairs walls ledger output) room later known="" name
+  local -A room_of
+  for room in "${rooms[@]}"; do
+    while read -r name; do room_of[$name]=$room; done < <(cd "src_plugin/liggghts/$room" && ls ./*.h | sed 's|^./||')
+  done
+  find src_plugin/liggghts -mindepth 1 -maxdepth 1 -printf '%f\n' | without "^($(IFS='|'; echo "${rooms[*]}"))$" |
+    report "src_plugin/liggghts has no other rooms than ${rooms[*]}" || exit 1
+  for room in "${rooms[@]}"; do
+    known="$known $room"
+    includes "src_plugin/liggghts/$room" | sed -n 's/:.*"\([a-z_0-9]*\.h\)".*/ \1/p' | while read -r file name; do
+      later=${room_of[$name]:-}
+      [ -z "$later" ] || [[ " $known " = *" $later "* ]] || echo "$file includes $later/$name"
+    done | report "the room $room may include${known} and the host" || exit 1
+  done
+  includes src_plugin/liggghts | sed -n 's|.*/\([a-z_0-9]*\)\.[a-z]*:.*"\([a-z_0-9]*\)\.h".*|\1 \2|p' | awk '$1 != $2' |
+    LC_ALL=C sort -u | tsort 2>&1 >/dev/null | report "units of src_plugin/liggghts that include each other in a circle"
+}
 header_options=(-std=c++17 -Wall -Wextra -I src_plugin -I tools/calendem -isystem /usr/include/eigen3 -x c++)
 all_headers() { # of physics, registry and tools/calendem as one translation unit
   { find src_plugin/physics src_plugin/registry -name '*.h' -printf '%P %H\n' | sed 's|\(.*\) src_plugin/\(.*\)|\2/\1|'
@@ -100,7 +118,7 @@ tidy() { # BUILD: where compile_commands.json is
   if [ "${CALENDEM_HEAVY:-0}" = 1 ]; then sources=$(cxx_files | matching '\.cpp$')
   else sources=$(git diff --name-only --diff-filter=d HEAD~1 -- '*.cpp' 2>/dev/null | head -n 12 || true); fi
   without '^src_plugin/liggghts/' <<<"$sources" | "${each[@]}" "${run[@]}" -p "$1" || failed=1
-  sed -n "s|^src_plugin/liggghts/|$1/host/src/|p" <<<"$sources" |
+  sed -n "s|^src_plugin/liggghts/[a-z]*/|$1/host/src/|p" <<<"$sources" |
     "${each[@]}" "${run[@]}" -p "$1" '--checks=-modernize-*' || failed=1
   [ $failed -eq 0 ] || { echo "FAILED: the files named above; see .clang-tidy"; exit 1; }
 }

@@ -9,12 +9,19 @@
 using calendem::exact_spacing;
 using calendem::FixedPoint;
 using calendem::nearest_multiple;
+using calendem::RoughSum;
+using calendem::Vec3;
+using calendem::WideSum;
 
 namespace {
+long long whole(const FixedPoint &unit, double term) {
+  return static_cast<long long>(unit.rounded(term));
+}
+
 double sum_of(const std::vector<double> &terms, const FixedPoint &unit) {
   unsigned long long sum = 0;
   for (const double x : terms)
-    sum += unit.of(x);
+    sum += static_cast<unsigned long long>(whole(unit, x));
   return unit.value(static_cast<long long>(sum));
 }
 } // namespace
@@ -45,7 +52,7 @@ TEST(FixedPointSum, DoesNotDependOnTheOrder) {
 TEST(FixedPointSum, ForceAndCounterforceCancel) {
   const FixedPoint unit(1e9);
   for (const double x : {1.0 / 3.0, 1e-12, 123456.789, 8e8})
-    EXPECT_EQ(0, unit.of(x) + unit.of(-x)) << x;
+    EXPECT_EQ(0, whole(unit, x) + whole(unit, -x)) << x;
 }
 
 TEST(FixedPointSum, TooLargeOnTheWayIsNoHarm) {
@@ -63,17 +70,120 @@ TEST(FixedPointSum, UnitIsAPowerOfTwo) {
   }
 }
 
-// The load on the paper's cell at 150 MPa over a block of the averages at the paper's 0.01 m/s.
-TEST(LongSum, HoldsALoadOverManySteps) {
-  const FixedPoint unit(8e9);
-  calendem::LongSum sum, opposite;
-  const double load = 1.365e8;
-  for (int step = 0; step < 4000; ++step) {
-    sum.add(unit.of(load));
-    opposite.add(unit.of(-load));
+// Vectors whose sum leaves the range of 64 digits, by however much, are seen; all others are not.
+TEST(RoughSum, KnowsWhenTheSumHasLeftItsRange) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> number(-1.0, 1.0);
+  const double full = 0x1p63, most = static_cast<double>(RoughSum::kMost);
+  int beyond = 0, within = 0;
+  for (int n = 0; n < 20000; ++n) {
+    const int terms = 8 + static_cast<int>(random() % 60);
+    const Vec3 lean = {number(random), number(random), number(random)};
+    unsigned long long rough = 0;
+    double sum[3] = {};
+    for (int k = 0; k < terms; ++k) {
+      const Vec3 term = (0.5 * full) * (0.3 * Vec3{number(random), number(random), number(random)} +
+                                        (5.0 * number(random) / terms) * lean);
+      const int sign = k % 2 ? -1 : 1; // of j and of i
+      rough += sign > 0 ? RoughSum::of(term) : 0 - RoughSum::of(-term);
+      sum[0] += term.x;
+      sum[1] += term.y;
+      sum[2] += term.z;
+      ASSERT_TRUE(RoughSum::fits(term));
+    }
+    double largest = 0.0;
+    for (const double s : sum)
+      largest = std::fmax(largest, std::fabs(s));
+    if (largest > full) {
+      ++beyond;
+      EXPECT_FALSE(RoughSum::in_range(rough)) << largest / full;
+    }
+    if (largest < most - terms * 0x1p52) {
+      ++within;
+      EXPECT_TRUE(RoughSum::in_range(rough)) << largest / full;
+    }
   }
-  EXPECT_EQ(sum.value() * unit.unit, 4000 * load);
-  EXPECT_EQ(opposite.value() * unit.unit, -4000 * load);
+  EXPECT_GT(beyond, 2000);
+  EXPECT_GT(within, 2000);
+}
+
+TEST(RoughSum, SeesATermThatDoesNotFit) {
+  for (const double x : {std::nan(""), HUGE_VAL, -HUGE_VAL, 0x1p63, -1e30})
+    for (const Vec3 &term : {Vec3{x, 0, 0}, Vec3{0, x, 0}, Vec3{0, 0, x}})
+      EXPECT_FALSE(RoughSum::fits(term));
+  unsigned long long sum = RoughSum::of({0.0, 0.0, -0.8 * 0x1p63});
+  for (int n = 1; n < 200; ++n)
+    EXPECT_FALSE(RoughSum::in_range(sum += RoughSum::kNoFit)) << n;
+}
+
+// A number comes back as it was, whatever its size and sign.
+TEST(WideSum, OneTermIsItself) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> exponent(-43.0, 95.0);
+  for (int n = 0; n < 10000; ++n) {
+    const double x = std::exp2(exponent(random)) * (n % 2 ? -1.0 : 1.0);
+    WideSum sum;
+    sum.add(x);
+    EXPECT_EQ(sum.value(), x);
+    EXPECT_TRUE(sum.holds_all());
+  }
+}
+
+// Loads of particles from nm to cm, in N, nN or dyn, add up without rounding, in any order and in
+// parts: what is large goes, what is small stays.
+TEST(WideSum, DoesNotDependOnOrderPartsOrSize) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> exponent(-40.0, 40.0);
+  std::vector<double> terms;
+  for (int n = 0; n < 1000; ++n) {
+    const double x = normal(random) * std::exp2(exponent(random)), large = 1e28 * normal(random);
+    for (const double term : {x, large, -large})
+      terms.push_back(term);
+  }
+  const auto sum_in_parts = [&](size_t parts) {
+    std::shuffle(terms.begin(), terms.end(), random);
+    std::vector<WideSum> part(parts);
+    for (size_t n = 0; n < terms.size(); ++n)
+      part[n % parts].add(terms[n]);
+    WideSum all;
+    for (const WideSum &p : part)
+      all.add(p);
+    return all.value();
+  };
+  const double first = sum_in_parts(1);
+  for (const size_t parts : {1, 2, 3, 7})
+    EXPECT_EQ(sum_in_parts(parts), first);
+  WideSum small;
+  for (const double x : terms)
+    if (std::fabs(x) < 1e20)
+      small.add(x);
+  EXPECT_EQ(small.value(), first);
+}
+
+// The load on the paper's cell at 150 MPa, and on one of 1 cm2, over a block of the averages at the
+// paper's 0.01 m/s.
+TEST(WideSum, HoldsALoadOverManySteps) {
+  for (const double load : {1.365e8, -1.365e8, 1.5e13, 1.365e-1}) {
+    WideSum sum;
+    for (int step = 0; step < 4096; ++step) {
+      WideSum of_step;
+      of_step.add(load);
+      sum.add(of_step);
+    }
+    EXPECT_EQ(sum.value(), 4096 * load);
+  }
+}
+
+TEST(WideSum, CountsWhatItCannotHold) {
+  for (const double term : {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e30, -1e30}) {
+    WideSum sum, all;
+    sum.add(term);
+    sum.add(1.0);
+    all.add(sum);
+    EXPECT_FALSE(sum.holds_all()) << term;
+    EXPECT_FALSE(all.holds_all()) << term;
+  }
 }
 
 // On the grid a shift by a side and back is exact; off it, it is not.

@@ -182,6 +182,10 @@ TEST(VerificationElongation, LedgerRanksAndRestart) {
     const Row on_end = on.rows("curve.csv").back();
     for (const auto &[column, value] : end)
       EXPECT_EQ(on_end.at(column), value) << column;
+    from["web"] = "other";
+    const CaseRun other = press(from, 1, {{"half.restart", half}, {"rest.in", "\n"}});
+    EXPECT_FALSE(other.finished());
+    EXPECT_NE(other.why().find("under the ID 'elongation'"), std::string::npos) << other.why();
   }
 }
 

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "position_grid.h"
+#include "atom.h"
+#include "cell_growth.h"
+#include "domain.h"
+#include "physics/fixed_point.h"
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+void PositionGrid::choose() {
+  const CellGrowth *cell = CellGrowth::find(lmp);
+  for (int k = 0; k < 3; ++k) {
+    spacing_[k] = 0.0;
+    if (!domain->periodicity[k])
+      continue;
+    const double largest = std::max(std::fabs(domain->boxlo[k]), std::fabs(domain->boxhi[k]));
+    const double growth = cell && k == 0 ? cell->growth_to_come() : 0.0;
+    spacing_[k] = calendem::exact_spacing((1.0 + growth) * (largest + 0.5 * domain->prd[k]));
+    domain->boxlo[k] = calendem::nearest_multiple(domain->boxlo[k], spacing_[k]);
+    domain->boxhi[k] = calendem::nearest_multiple(domain->boxhi[k], spacing_[k]);
+  }
+  domain->set_global_box();
+  domain->set_local_box();
+}
+
+void PositionGrid::put_atoms_on() {
+  for (int k = 0; k < 3; ++k) {
+    const double spacing = spacing_[k], per_spacing = 1.0 / spacing; // powers of two
+    for (int i = 0; spacing > 0.0 && i < atom->nlocal; ++i)
+      atom->x[i][k] = std::rint(atom->x[i][k] * per_spacing) * spacing;
+  }
+}
