@@ -8,8 +8,7 @@
 #ifndef CALENDEM_PHYSICS_FIXED_POINT_H
 #define CALENDEM_PHYSICS_FIXED_POINT_H
 
-#include "vector3.h"
-#include <cstdlib>
+#include <cmath>
 
 namespace calendem {
 
@@ -26,29 +25,21 @@ struct FixedPoint {
   double value(long long sum) const { return static_cast<double>(sum) * unit; }
 };
 
-/// Beside a sum of vectors of whole numbers, of which 64 binary digits are kept: the same sum in
-/// units of 2^53, its three components of 21 digits in one number. It shows whether the sum has left
-/// the range of the 64 digits, to look like another number. Of up to 256 vectors it is right to an
-/// eighth of that range.
-struct RoughSum {
-  static constexpr long long kMost = 7LL << 60;            ///< that is in range
-  static constexpr unsigned long long kNoFit = 1ULL << 53; ///< in place of a term that does not fit
+/// Beside a sum of vectors of whole numbers, of which 64 binary digits are kept: what shows that a
+/// component has left their range, and looks like another number. It is the sum, in units of 2^24, of
+///   x + 2^7 y + 2^14 z,
+/// which a component off by 2^64 does not fit. For up to 2^10 terms that use their whole range.
+struct SumCheck {
+  static constexpr double kMost = 0x1p63; ///< that a term or a sum can be, in its units
 
-  /// False for what is not a number, too.
-  static bool fits(const Vec3 &term) { return norm_squared(term) < 0x1p126; }
-  static unsigned long long of(const Vec3 &term) {
-    const double x = std::rint(0x1p-53 * term.x), y = std::rint(0x1p-53 * term.y),
-                 z = std::rint(0x1p-53 * term.z);
-    return static_cast<unsigned long long>(static_cast<long long>(x + 0x1p21 * y + 0x1p42 * z));
-  }
-  static bool in_range(unsigned long long sum) {
-    for (int k = 0; k < 3; ++k) {
-      const long long digits = static_cast<long long>(sum << 43) >> 43; // the lower 21, with a sign
-      if (std::llabs(digits) > kMost >> 53)
-        return false;
-      sum = static_cast<unsigned long long>((static_cast<long long>(sum) - digits) >> 21);
-    }
-    return true;
+  /// Of a term, to be added as a whole number if it can be: not of what is no number, or far too
+  /// large. A component that is a little too large does not fit the sum.
+  static double of(double x, double y, double z) { return 0x1p-24 * (x + 0x1p7 * y + 0x1p14 * z); }
+  static bool can_be_added(double check) { return std::fabs(check) < 0x1p55; }
+  static bool fits(const unsigned long long (&sum)[4]) { ///< the check is the last
+    const auto number = [&](int k) { return static_cast<double>(static_cast<long long>(sum[k])); };
+    const double check = 0x1p-24 * (number(0) + 0x1p7 * number(1) + 0x1p14 * number(2));
+    return std::fabs(number(3) - check) < 0x1p16; // each term is cut to a whole number
   }
 };
 

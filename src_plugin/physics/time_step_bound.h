@@ -18,11 +18,11 @@
 // exact limit: a cubic body is really stable up to about 1.2 times it. Left out: a loaded bond also
 // turns its load, which adds stiffness in proportion to its strain.
 // Contacts enter as bonds along the line of centres with k_n = 2 E* a, k_t = 8 G* a (a: radius of
-// the area) and the host's damping c = 2 sqrt(5/6) |beta| sqrt(k m*). Where contacts are still to
-// grow, a sphere with six of them, two per axis, stands for all, each under the mean force of a
-// packing of solid fraction 0.6 at the pressure P: F = 4 pi R^2 P/(0.6 * 6). Of a bonded pair the
-// stiffer of bond and contact bears F: softer bonds count beside the six contacts, stiffer ones
-// without. Also here: Rayleigh time T_R = pi R sqrt(rho/G) / (0.1631 nu + 0.8766).
+// the area), arms R, the longest, and the host's damping c = 2 sqrt(5/6) |beta| sqrt(k m*). Where
+// contacts are still to grow, a sphere with six of them, two per axis, stands for all, each under
+// the mean force of a packing of solid fraction 0.6 at the pressure P: F = 4 pi R^2 P/(0.6 * 6). Of
+// a bonded pair the stiffer of bond and contact bears F: softer bonds count beside the six contacts,
+// stiffer ones without. Also here: Rayleigh time T_R = pi R sqrt(rho/G) / (0.1631 nu + 0.8766).
 // Deviations: none (the paper uses 1.5 % of the Rayleigh time). Verified by
 // tests/unit/physics/time_step_bound_test.cpp and tests/verification/timestep.
 #ifndef CALENDEM_PHYSICS_TIME_STEP_BOUND_H

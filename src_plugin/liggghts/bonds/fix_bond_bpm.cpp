@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_bond_bpm.h"
 #include "bond_command.h"
-#include "bond_record.h"
 #include "bond_sums.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "fix_time_bpm.h"
 #include "material_checks.h"
-#include "memory.h"
 #include "modify.h"
 #include "mpi_liggghts.h"
 #include "neighbor.h"
@@ -28,7 +26,7 @@ const char *const kHistoriesId = "contacthistory_bpm";
 } // namespace
 
 FixBondBpm::FixBondBpm(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), pairs_(lmp), grid_(lmp), map_(lmp, this), insets_(lmp),
+    : Fix(lmp, narg, arg), pairs_(lmp), grid_(lmp), map_(lmp, this), atoms_(lmp), insets_(lmp),
       bridges_(lmp, this), watch_(lmp, this), log_(lmp, this) {
   if (!atom->sphere_flag || !atom->tag_enable)
     error->fix_error(FLERR, this, "needs atom_style granular (or sphere) with atom tags");
@@ -49,15 +47,11 @@ FixBondBpm::FixBondBpm(LAMMPS *lmp, int narg, char **arg)
   grow_arrays(atom->nmax);
   atom->add_callback(0);
   atom->add_callback(1);
-  std::fill_n(body_, atom->nmax, 0);
-  std::fill_n(broken_, atom->nmax, 0);
 }
 
 FixBondBpm::~FixBondBpm() {
   atom->delete_callback(id, 0);
   atom->delete_callback(id, 1);
-  memory->destroy(body_);
-  memory->destroy(broken_);
 }
 
 void FixBondBpm::post_create() {
@@ -101,12 +95,13 @@ void FixBondBpm::init() {
   MaterialChecks(lmp, this).check_properties();
   check_bridges();
   check_radii();
-  check_remembered();
+  if (restarted_)
+    earlier_.check(settings_to_repeat(), error, this);
   if (!created_) {
     map_.read(bodies_file_);
     bodies_ = map_.highest();
     for (int i = 0; i < atom->nlocal; ++i)
-      body_[i] = map_.of_tag(atom->tag[i]);
+      atoms_.set_body(i, map_.of_tag(atom->tag[i]));
   }
   log_.open(log_file_);
 }
@@ -122,16 +117,7 @@ void FixBondBpm::refuse_minimizer() {
 }
 
 void FixBondBpm::check_bridges() {
-  bridges_.check_shrinkage();
-  if (bridges_.on() && modify->n_fixes_style("cbd/collapse") > 0)
-    error->fix_error(FLERR, this,
-                     "'bridges' and fix cbd/collapse exclude each other: a bridge keeps its length "
-                     "while its spheres would shrink");
-  if (bridges_.on() && settings_.surface_inset > 0.0)
-    error->fix_error(
-        FLERR, this,
-        "'bridges' and 'surface_inset' exclude each other: of a pair with a bridge the "
-        "spheres' own surfaces meet");
+  bridges_.check(settings_.surface_inset);
   if (bridges_.shrinkage().strain <= 0.0)
     return;
   const Fix *ledger = dynamic_cast<Fix *>(ledger_);
@@ -149,19 +135,6 @@ void FixBondBpm::check_radii() {
     error->fix_error(FLERR, this, "'surface_inset' is more than half of the smallest radius");
 }
 
-void FixBondBpm::check_box() {
-  const double cut = 2.0 * neighbor->cutneighmax;
-  for (int k = 0; k < 3; ++k)
-    if (domain->periodicity[k] && domain->prd[k] < cut) {
-      char message[256];
-      snprintf(message, sizeof message,
-               "periodic box side %c is %g, shorter than two neighbour cut-offs (%g): a particle "
-               "would touch two images of another. Make the cell larger or the skin smaller",
-               "xyz"[k], domain -> prd[k], cut);
-      error->fix_error(FLERR, this, message);
-    }
-}
-
 void FixBondBpm::setup_pre_exchange() { grid_.put_atoms_on(); }
 
 void FixBondBpm::post_integrate() {
@@ -172,7 +145,7 @@ void FixBondBpm::post_integrate() {
 
 void FixBondBpm::setup_pre_force(int) {
   watch_.begin_run();
-  check_box();
+  grid_.check_box(this);
   creating_ = !created_;
   if (creating_)
     comm->forward_comm_fix(this);
@@ -184,7 +157,7 @@ void FixBondBpm::pre_force(int) {
   const bool others = settings_.contact_diameter < 1.0 || settings_.surface_inset > 0.0;
   if (!others || neighbor->ago != 0)
     return;
-  insets_.find(settings_, pairs_, body_, broken_);
+  insets_.find(settings_, pairs_, atoms_.bodies(), atoms_.all_broken());
   comm->forward_comm_fix(this);
   pairs_.for_each_neighbor([this](int i, int j, BondHistory &bond) {
     if (bond.state() == kNeverBonded)
@@ -198,19 +171,19 @@ void FixBondBpm::radii_have_changed() {
     return;
   pairs_.for_each_neighbor([this](int i, int j, BondHistory &bond) {
     const bool apart = bond.state() == kNeverBonded || bond.state() == kBrokenSeparated;
-    if (apart && body_[i] > 0 && body_[i] == body_[j])
+    if (apart && atoms_.in_one(i, j))
       bond.meet_at(meeting_distance(i, j));
   });
 }
 
 double FixBondBpm::meeting_distance(int i, int j) const {
-  return insets_.meeting_distance(settings_, body_[i] > 0 && body_[i] == body_[j], i, j);
+  return insets_.meeting_distance(settings_, atoms_.in_one(i, j), i, j);
 }
 
 void FixBondBpm::create(int i, int j, double r, BondHistory &bond) const {
-  if (bond.state() != kNeverBonded || body_[i] <= 0 || body_[i] != body_[j])
+  if (bond.state() != kNeverBonded || !atoms_.in_one(i, j))
     return;
-  const int body = body_[i];
+  const int body = atoms_.body(i);
   bond.create(r,
               settings_.strengths.factor({atom->tag[i], atom->tag[j], body, map_.diameter(body)}));
 }
@@ -254,7 +227,7 @@ void FixBondBpm::record_break(int i, int j, BondHistory bond, const calendem::Bo
       time_->now(),
       static_cast<double>(atom->tag[low]),
       static_cast<double>(atom->tag[high]),
-      of_bridge ? -1.0 : static_cast<double>(body_[low < atom->nlocal ? low : high]),
+      of_bridge ? -1.0 : static_cast<double>(atoms_.body(low < atom->nlocal ? low : high)),
       of_bridge ? static_cast<double>(bridges_.kind_of(i, j))
                 : static_cast<double>(break_mode(s, set.strength_of(bond.strength_factor()))),
       s.sigma(),
@@ -319,9 +292,10 @@ void FixBondBpm::apply_breaks() {
     else
       separate(b.i, b.j, b.bond);
     b.bond.set_loads({});
-    broken_[b.i] += of_body;
-    if (b.j < atom->nlocal)
-      broken_[b.j] += of_body;
+    if (of_body)
+      atoms_.count_break(b.i);
+    if (of_body && b.j < atom->nlocal)
+      atoms_.count_break(b.j);
     if (!pairs_.decides(b.i, b.j))
       continue;
     b.event.pressure = pressure;
@@ -383,37 +357,12 @@ double FixBondBpm::bridge_vector(int n) {
   }
 }
 
-void FixBondBpm::grow_arrays(int nmax) {
-  memory->grow(body_, nmax, "bond/bpm:body");
-  memory->grow(broken_, nmax, "bond/bpm:broken");
-}
-
-void FixBondBpm::copy_arrays(int i, int j, int) {
-  body_[j] = body_[i];
-  broken_[j] = broken_[i];
-}
-
 // The host calls this for every atom at the first set-up too, after init().
-void FixBondBpm::set_arrays(int i) {
-  body_[i] = map_.of_tag(atom->tag[i]);
-  broken_[i] = 0;
-}
-
-int FixBondBpm::pack_exchange(int i, double *buf) {
-  buf[0] = body_[i];
-  buf[1] = broken_[i];
-  return 2;
-}
-
-int FixBondBpm::unpack_exchange(int nlocal, double *buf) {
-  body_[nlocal] = static_cast<int>(buf[0]);
-  broken_[nlocal] = static_cast<int>(buf[1]);
-  return 2;
-}
+void FixBondBpm::set_arrays(int i) { atoms_.set_arrays(i, map_.of_tag(atom->tag[i])); }
 
 int FixBondBpm::pack_comm(int n, int *list, double *buf, int, int *) {
   for (int k = 0; k < n; ++k) {
-    buf[2 * k] = body_[list[k]];
+    buf[2 * k] = atoms_.body(list[k]);
     buf[2 * k + 1] = insets_.of(list[k]);
   }
   return 2;
@@ -421,25 +370,9 @@ int FixBondBpm::pack_comm(int n, int *list, double *buf, int, int *) {
 
 void FixBondBpm::unpack_comm(int n, int first, double *buf) {
   for (int k = n - 1; k >= 0; --k) {
-    body_[first + k] = static_cast<int>(buf[2 * k]);
+    atoms_.set_body(first + k, static_cast<int>(buf[2 * k]));
     insets_.set(first + k, buf[2 * k + 1]);
   }
-}
-
-int FixBondBpm::pack_restart(int i, double *buf) {
-  buf[0] = 3;
-  buf[1] = body_[i];
-  buf[2] = broken_[i];
-  return 3;
-}
-
-void FixBondBpm::unpack_restart(int nlocal, int nth) {
-  double *values = atom->extra[nlocal];
-  int m = 0;
-  for (int i = 0; i < nth; ++i)
-    m += static_cast<int>(values[m]);
-  body_[nlocal] = static_cast<int>(values[m + 1]);
-  broken_[nlocal] = static_cast<int>(values[m + 2]);
 }
 
 void FixBondBpm::write_restart(FILE *fp) {
@@ -453,8 +386,7 @@ void FixBondBpm::write_restart(FILE *fp) {
   for (int k = 0; k < calendem::kBridgeKinds; ++k)
     record.bridges_made[k] = bridges_.made(static_cast<BridgeKind>(k));
   record.shrunk = bridges_.shrunk();
-  for (size_t k = 0; k < earlier_.size(); ++k)
-    record.repeated[k] = remembered()[k].value;
+  record.repeated = settings_to_repeat();
   record.bodies = bodies_;
   record.largest_radius = largest_radius_;
   record.events = log_.events();
@@ -463,7 +395,7 @@ void FixBondBpm::write_restart(FILE *fp) {
 
 void FixBondBpm::restart(char *buf) {
   BondRecord record;
-  record.read(buf);
+  record.read(buf, error, this);
   created_ = restarted_ = record.created != 0.0;
   initial_ = record.made;
   for (int k = 0; k < calendem::kBridgeKinds; ++k)
@@ -476,25 +408,9 @@ void FixBondBpm::restart(char *buf) {
 }
 
 // What pairs keep in their histories follows from these.
-std::array<FixBondBpm::Remembered, 5> FixBondBpm::remembered() const {
-  return {{{"contact_diameter", settings_.contact_diameter},
-           {"surface_inset", settings_.surface_inset},
-           {"inset_fading", settings_.inset_fading},
-           {"shrinkage", bridges_.shrinkage().strain},
-           {"shrinkage's time", bridges_.shrinkage().time}}};
-}
-
-void FixBondBpm::check_remembered() {
-  for (size_t k = 0; k < earlier_.size(); ++k) {
-    const Remembered now = remembered()[k];
-    char message[300];
-    snprintf(message, sizeof message,
-             "%s is %g, and the run that goes on from this restart file began with %g: it must "
-             "stay as it was. Give %.10g, or begin the run anew",
-             now.name, now.value, earlier_[k], earlier_[k]);
-    if (restarted_ && std::fabs(now.value - earlier_[k]) > 1e-9 * earlier_[k])
-      error->fix_error(FLERR, this, message);
-  }
+RepeatedSettings FixBondBpm::settings_to_repeat() const {
+  return {settings_.contact_diameter, settings_.surface_inset, settings_.inset_fading,
+          bridges_.shrinkage().strain, bridges_.shrinkage().time};
 }
 
 double FixBondBpm::memory_usage() { return 2.0 * atom->nmax * sizeof(int) + log_.memory_usage(); }

@@ -32,8 +32,10 @@ FixStyle(bond/bpm, FixBondBpm)
 #ifndef LMP_FIX_BOND_BPM_H
 #define LMP_FIX_BOND_BPM_H
 
+#include "body_atoms.h"
 #include "body_map.h"
 #include "bond_events.h"
+#include "bond_record.h"
 #include "bond_watch.h"
 #include "break_log.h"
 #include "fix.h"
@@ -42,7 +44,6 @@ FixStyle(bond/bpm, FixBondBpm)
 #include "state_in_restart.h"
 #include "surface_insets.h"
 #include <algorithm>
-#include <array>
 #include <string>
 #include <vector>
 
@@ -67,17 +68,17 @@ public:
   double compute_vector(int);
   double memory_usage();
 
-  void grow_arrays(int);
-  void copy_arrays(int, int, int);
+  void grow_arrays(int nmax) { atoms_.grow_arrays(nmax); }
+  void copy_arrays(int i, int j, int) { atoms_.copy_arrays(i, j); }
   void set_arrays(int);
-  int pack_exchange(int, double *);
-  int unpack_exchange(int, double *);
+  int pack_exchange(int i, double *buf) { return atoms_.pack_exchange(i, buf); }
+  int unpack_exchange(int nlocal, double *buf) { return atoms_.unpack_exchange(nlocal, buf); }
+  int pack_restart(int i, double *buf) { return atoms_.pack_restart(i, buf); }
+  void unpack_restart(int nlocal, int nth) { atoms_.unpack_restart(nlocal, nth); }
+  int size_restart(int) { return BodyAtoms::kRestartSize; }
+  int maxsize_restart() { return BodyAtoms::kRestartSize; }
   int pack_comm(int, int *, double *, int, int *);
   void unpack_comm(int, int, double *);
-  int pack_restart(int, double *);
-  void unpack_restart(int, int);
-  int size_restart(int) { return 3; }
-  int maxsize_restart() { return 3; }
   void write_restart(FILE *);
   void restart(char *);
 
@@ -108,10 +109,10 @@ public:
   void bridge_breaks_on_wall(int i, double energy);
 
   // for computes and dumps
-  int body(int i) const { return body_[i]; }
+  int body(int i) const { return atoms_.body(i); }
   /// Highest number of a body, whether its spheres are still there or not.
   int bodies() const { return bodies_; }
-  int broken_of(int i) const { return broken_[i]; }
+  int broken_of(int i) const { return atoms_.broken(i); }
   /// All so far; all ranks must call.
   const std::vector<BreakEvent> &breaks() {
     log_.gather();
@@ -119,11 +120,6 @@ public:
   }
 
 private:
-  /// A setting that a restart has to repeat.
-  struct Remembered {
-    const char *name;
-    double value;
-  };
   /// A copy of a bond that fails in this step.
   struct Break {
     int i, j;
@@ -135,6 +131,7 @@ private:
   BondPairs pairs_;
   PositionGrid grid_;
   BodyMap map_;
+  BodyAtoms atoms_;
   SurfaceInsets insets_;
   SphereBridges bridges_;
   BondWatch watch_;
@@ -143,21 +140,18 @@ private:
   std::string bodies_file_, log_file_, platen_id_;
   class WorkLedger *ledger_ = nullptr; // NULL when none is kept
   class FixTimeBpm *time_ = nullptr;
-  int *body_ = nullptr, *broken_ = nullptr; // of each atom
   int bodies_ = 0;
   bool created_ = false, creating_ = false, restarted_ = false;
   bigint initial_ = 0;
-  std::array<double, 5> earlier_ = {}; // what remembered() was in the run that goes on
-  std::vector<Break> failing_;         // of this step
+  RepeatedSettings earlier_;    // of the run that goes on
+  std::vector<Break> failing_;  // of this step
   int overflowed_ = 0;          // tag of an atom whose forces are beyond the units of their sum
   double largest_radius_ = 0.0; // from which these units follow [um]
 
   void refuse_minimizer();
-  void check_box();
   void check_bridges();
   void check_radii();
-  void check_remembered();
-  std::array<Remembered, 5> remembered() const;
+  RepeatedSettings settings_to_repeat() const;
   double meeting_distance(int i, int j) const;
   bigint acting_pairs() const;
   void stop_if_wrong();

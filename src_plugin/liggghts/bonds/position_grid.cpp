@@ -3,6 +3,9 @@
 #include "atom.h"
 #include "cell_growth.h"
 #include "domain.h"
+#include "error.h"
+#include "fix.h"
+#include "neighbor.h"
 #include "physics/fixed_point.h"
 #include <algorithm>
 #include <cmath>
@@ -23,6 +26,19 @@ void PositionGrid::choose() {
   }
   domain->set_global_box();
   domain->set_local_box();
+}
+
+void PositionGrid::check_box(Fix *owner) const {
+  const double cut = 2.0 * neighbor->cutneighmax;
+  for (int k = 0; k < 3; ++k)
+    if (domain->periodicity[k] && domain->prd[k] < cut) {
+      char message[256];
+      snprintf(message, sizeof message,
+               "periodic box side %c is %g, shorter than two neighbour cut-offs (%g): a particle "
+               "would touch two images of another. Make the cell larger or the skin smaller",
+               "xyz"[k], domain -> prd[k], cut);
+      error->fix_error(FLERR, owner, message);
+    }
 }
 
 void PositionGrid::put_atoms_on() {

@@ -12,9 +12,10 @@ class PositionGrid : protected Pointers {
 public:
   explicit PositionGrid(class LAMMPS *lmp) : Pointers(lmp), spacing_() {}
 
-  /// Chooses the grid and puts the faces of the box on it. Ghosts lie beyond the box by no more
-  /// than its half.
+  /// Chooses the grid and puts the faces of the box on it.
   void choose();
+  /// Stops the run if ghosts could lie beyond the box by more than its half; names the fix `owner`.
+  void check_box(class Fix *owner) const;
   void put_atoms_on();
   /// Along axis k [um], 0 along a side that is not periodic.
   double spacing(int k) const { return spacing_[k]; }

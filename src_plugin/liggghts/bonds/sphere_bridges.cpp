@@ -3,6 +3,7 @@
 #include "error.h"
 #include "fix.h"
 #include "material_checks.h"
+#include "modify.h"
 #include "mpi_liggghts.h"
 #include "registry/phases.h"
 #include "words.h"
@@ -32,11 +33,11 @@ int SphereBridges::read(int narg, char **arg, double damping) {
   m.shear_modulus = calendem::shear_modulus(m.youngs_modulus, poisson);
   m.damping = damping;
   settings_.strength = {1.0, law_.shear_ratio};
-  check();
+  check_strengths();
   return words;
 }
 
-void SphereBridges::check() const {
+void SphereBridges::check_strengths() const {
   const double E = settings_.material.youngs_modulus;
   MaterialChecks(lmp, owner_).check_modulus("the modulus of 'bridges'", E);
   char message[300];
@@ -66,7 +67,16 @@ int SphereBridges::read_shrinkage(int narg, char **arg) {
   return words;
 }
 
-void SphereBridges::check_shrinkage() {
+void SphereBridges::check(double surface_inset) const {
+  if (on() && modify->n_fixes_style("cbd/collapse") > 0)
+    error->fix_error(FLERR, owner_,
+                     "'bridges' and fix cbd/collapse exclude each other: a bridge keeps its length "
+                     "while its spheres would shrink");
+  if (on() && surface_inset > 0.0)
+    error->fix_error(
+        FLERR, owner_,
+        "'bridges' and 'surface_inset' exclude each other: of a pair with a bridge the "
+        "spheres' own surfaces meet");
   char message[256];
   snprintf(message, sizeof message,
            "'shrinkage' is %g, and there are no binder bridges that could shrink. Give 'bridges' "

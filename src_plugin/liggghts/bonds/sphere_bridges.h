@@ -31,7 +31,8 @@ public:
   /// bonds.
   int read(int narg, char **arg, double damping);
   int read_shrinkage(int narg, char **arg);
-  void check_shrinkage();
+  /// Before a run: what excludes bridges, and shrinkage without them. `surface_inset` of bonds [um].
+  void check(double surface_inset) const;
 
   bool on() const { return law_.on(); }
   const calendem::BinderBridges &law() const { return law_; }
@@ -74,7 +75,7 @@ private:
   const CollectorBridges *on_collector_ = nullptr;
   bigint made_[calendem::kBridgeKinds] = {};
 
-  void check() const;
+  void check_strengths() const;
   void count(const BondPairs &pairs, bigint *of_kind) const;
 };
 

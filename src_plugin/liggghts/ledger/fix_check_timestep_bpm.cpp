@@ -96,10 +96,9 @@ void FixCheckTimestepBpm::add_contacts(Spheres &spheres) const {
     const calendem::BondCoefficients c = calendem::contact_damping(
         k, effects_.damping(ti, tj), calendem::effective_mass(m[i], m[j]));
     const calendem::Vec3 n = (1.0 / r) * (calendem::load(atom->x[i]) - calendem::load(atom->x[j]));
-    const double lens = R[i] + R[j] - r; // the arms end in its middle
-    spheres[i].add(k, c, n, 2.0 * R[i] - lens);
+    spheres[i].add(k, c, n, 2.0 * R[i]);
     if (j < nlocal)
-      spheres[j].add(k, c, -n, 2.0 * R[j] - lens);
+      spheres[j].add(k, c, -n, 2.0 * R[j]);
   });
 }
 

@@ -314,7 +314,8 @@ void BpmPairLoop::sum_forces(const PairTile &t) {
   for (int p = 0; virial_ && p < t.size; ++p)
     virial_->ev_tally_xyz(t.i[p], t.j[p], atom->nlocal, 0, 0.0, 0.0, s.force.x[p], s.force.y[p],
                           s.force.z[p], s.d.x[p], s.d.y[p], s.d.z[p]);
-  round_off(t.size, *step_, force_unit_, torque_unit_);
+  if (!round_off(t.size, *step_, force_unit_, torque_unit_))
+    report_overflow(t);
   for (int p = 0; p < t.size; ++p) {
     WholeForce &on_i = forces_[t.i[p]], &on_j = forces_[t.j[p]];
     for (int k = 0; k < 4; ++k)
@@ -328,11 +329,18 @@ void BpmPairLoop::sum_forces(const PairTile &t) {
   }
 }
 
+void BpmPairLoop::report_overflow(const PairTile &t) {
+  for (int p = 0; p < t.size; ++p)
+    for (const auto &of : step_->whole)
+      if (!calendem::SumCheck::can_be_added(static_cast<double>(static_cast<long long>(of[p][3]))))
+        bonds_->force_overflows(atom->tag[t.i[p]]);
+}
+
 void BpmPairLoop::add_forces(PairGran *pair) {
   for (int i = 0; i < atom->nlocal; ++i) {
     const double relax = pair->relax(i);
     const WholeForce &sum = forces_[i];
-    if (!calendem::RoughSum::in_range(sum.force[3]) || !calendem::RoughSum::in_range(sum.torque[3]))
+    if (!calendem::SumCheck::fits(sum.force) || !calendem::SumCheck::fits(sum.torque))
       bonds_->force_overflows(atom->tag[i]);
     for (int k = 0; k < 3; ++k) {
       atom->f[i][k] += relax * force_unit_.value(static_cast<long long>(sum.force[k]));
@@ -342,7 +350,7 @@ void BpmPairLoop::add_forces(PairGran *pair) {
 }
 
 void BpmPairLoop::stop_overflow(int tag) const {
-  const long long most = calendem::RoughSum::kMost;
+  const double most = calendem::SumCheck::kMost;
   char message[400];
   snprintf(message, sizeof message,
            "particle %d is under a force or torque of more than the units of its sum hold: %.3g, "
@@ -350,7 +358,7 @@ void BpmPairLoop::stop_overflow(int tag) const {
            "the script's units), more than pressing one sphere into another by its radius takes. "
            "The time "
            "step is too large, or something moves too fast: lower the timestep or the speed",
-           tag, force_unit_.value(most), torque_unit_.value(most));
+           tag, most * force_unit_.unit, most * torque_unit_.unit);
   stop_run(lmp, FLERR, message);
 }
 

@@ -24,7 +24,7 @@ struct alignas(64) Sphere {
 };
 
 /// Sums of forces and torques on an atom, in units of a FixedPoint; unsigned, as they may pass
-/// through numbers that are too large on their way. The last of each is a RoughSum.
+/// through numbers that are too large on their way. The last of each is a SumCheck.
 struct alignas(64) WholeForce {
   unsigned long long force[4], torque[4];
 };
@@ -88,6 +88,7 @@ private:
   double largest_radius() const;
   void choose_units();
   void sum_forces(const PairTile &tile);
+  void report_overflow(const PairTile &tile);
   void add_forces(class PairGran *pair);
   void book_bonds(const BondTile &tile);
   void book_shrinking(const BondTile &tile, const calendem::BondMaterial &);

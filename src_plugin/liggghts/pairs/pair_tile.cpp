@@ -9,7 +9,7 @@ using namespace LAMMPS_NS;
 using calendem::BondMaterial;
 using calendem::BondStrength;
 using calendem::FailureCriterion;
-using calendem::RoughSum;
+using calendem::SumCheck;
 using calendem::Vec3;
 
 namespace {
@@ -154,34 +154,31 @@ void round_row(int size, Row &row, const calendem::FixedPoint &unit) {
     row[p] = unit.rounded(row[p]);
 }
 
-void round_off(int size, VectorRow &from, const calendem::FixedPoint &unit,
-               unsigned long long (*to)[4]) {
+long long round_off(int size, VectorRow &from, const calendem::FixedPoint &unit,
+                    unsigned long long (*to)[4]) {
   round_row(size, from.x, unit);
   round_row(size, from.y, unit);
   round_row(size, from.z, unit);
+  long long large = 0;
 #pragma GCC ivdep
   for (int p = 0; p < size; ++p) {
+    const double check = SumCheck::of(from.x[p], from.y[p], from.z[p]);
+    large += !SumCheck::can_be_added(check);
     to[p][0] = static_cast<unsigned long long>(static_cast<long long>(from.x[p]));
     to[p][1] = static_cast<unsigned long long>(static_cast<long long>(from.y[p]));
     to[p][2] = static_cast<unsigned long long>(static_cast<long long>(from.z[p]));
-    to[p][3] = 0;
+    to[p][3] = static_cast<unsigned long long>(static_cast<long long>(check));
   }
+  return large;
 }
 } // namespace
 
-void LAMMPS_NS::round_off(int size, PairStep &s, const calendem::FixedPoint &force,
+bool LAMMPS_NS::round_off(int size, PairStep &s, const calendem::FixedPoint &force,
                           const calendem::FixedPoint &torque) {
-  ::round_off(size, s.force, force, s.whole[0]);
-  ::round_off(size, s.torque_i, torque, s.whole[1]);
-  ::round_off(size, s.torque_j, torque, s.whole[2]);
-#pragma GCC ivdep
-  for (int p = 0; p < size; ++p) {
-    const bool fits =
-        RoughSum::fits(s.force[p]) & RoughSum::fits(s.torque_i[p]) & RoughSum::fits(s.torque_j[p]);
-    s.whole[0][p][3] = fits ? RoughSum::of(s.force[p]) : 0;
-    s.whole[1][p][3] = fits ? RoughSum::of(s.torque_i[p]) : RoughSum::kNoFit;
-    s.whole[2][p][3] = fits ? RoughSum::of(s.torque_j[p]) : RoughSum::kNoFit;
-  }
+  return ::round_off(size, s.force, force, s.whole[0]) +
+             ::round_off(size, s.torque_i, torque, s.whole[1]) +
+             ::round_off(size, s.torque_j, torque, s.whole[2]) ==
+         0;
 }
 
 void PairTile::copy(int to, const PairTile &t, int from) {

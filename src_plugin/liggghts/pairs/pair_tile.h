@@ -77,7 +77,7 @@ struct PairStep {
   VectorRow contact_damping, friction_force, friction_torque_i, friction_torque_j;
   Row failed; // 1 of a bond that fails
   /// Force, torque_i, torque_j as whole numbers, in units of a FixedPoint, and behind the
-  /// components of each its part of a RoughSum.
+  /// components of each its SumCheck.
   alignas(64) unsigned long long whole[3][kTilePairs][4];
 
   double radius_sum(int p) const { return radius_i[p] + radius_j[p]; }
@@ -114,8 +114,9 @@ void run_hertz(const PairTile &, PairStep &, const PairMaterial *);
 /// contacts' are added and cohesion does not act. A contact that does not act forgets.
 void run_contacts(BondTile &, PairStep &, const PairMaterial *, bool update, double dt);
 void run_contacts(ContactTile &, PairStep &, const PairMaterial *, bool update, double dt);
-/// Force and torques as whole numbers; as doubles they are gone then.
-void round_off(int size, PairStep &, const calendem::FixedPoint &force,
+/// Force and torques as whole numbers; as doubles they are gone then. False if one of them is no
+/// number, or far too large to be added.
+bool round_off(int size, PairStep &, const calendem::FixedPoint &force,
                const calendem::FixedPoint &torque);
 
 } // namespace LAMMPS_NS

@@ -111,6 +111,28 @@ TEST(BetweenRuns, ARestartWithAnotherStepTakesItsTime) {
   EXPECT_NEAR(d.clock, d.passed, 1e-9);
 }
 
+// Two spheres at rest whose pressure leads all the way to the floor. Updates every 50 steps, with a
+// change in the middle of an interval; `time`: at the last one.
+TEST(BetweenRuns, NanoporesFollowForTheTimeThatPasses) {
+  const std::pair<const char *, double> changes[] = {
+      {"", 150e-4}, {"timestep 2e-4\n", 75e-4 + 150e-4}, {"reset_timestep 10\n", (75 + 40) * 1e-4}};
+  for (const auto &[change, time] : changes) {
+    Files files = files_of({{{0, 0, 0}, R, 1}, {{1.5, 0, 0}, R, 2}}, {-4, -4, -4}, {6, 4, 4});
+    files["start.in"] +=
+        "unfix integrate\nfix collapse all cbd/collapse type 1 initial 0.5 floor 0.27 "
+        "yield 0 hardening 1e-3 relaxation 0.1\nrun 75\n" +
+        std::string(change) +
+        "variable phi equal f_collapse[1]\n"
+        "fix phi_out all print 1 \"${phi}\" file phi.csv screen no title phi\n";
+    const CaseRun run(
+        "in.body", {{"Ey", "2e6"}, {"ced", "0"}, {"bonded", "0"}, {"dt", "1e-4"}, {"steps", "75"}},
+        1, files);
+    ASSERT_TRUE(run.finished()) << run.why();
+    EXPECT_NEAR(run.rows("phi.csv").back().at("phi"), 0.27 + 0.23 * std::exp(-time / 0.1), 1e-12)
+        << change;
+  }
+}
+
 // The state of every style of the plugin that has one, found under no fix of the script.
 TEST(BetweenRuns, ARestartUnderAnotherIdIsRefused) {
   const CaseRun first = hold("write_restart half.restart\n");
@@ -121,6 +143,18 @@ TEST(BetweenRuns, ARestartUnderAnotherIdIsRefused) {
     EXPECT_TRUE(says(again, "Name the fix '" + std::string(fix) + "'"));
     EXPECT_TRUE(says(again, "'other' begin anew"));
   }
+}
+
+// Of the record of fix bond/bpm the first value tells the version; the next one, 1, that bonds are made.
+TEST(BetweenRuns, ARestartOfAnotherVersionIsRefused) {
+  const CaseRun first = hold("write_restart half.restart\n");
+  std::string file = first.text("half.restart");
+  const double begins[] = {2.0, 1.0}, older = 1.0;
+  const size_t place =
+      file.find(std::string(reinterpret_cast<const char *>(begins), sizeof begins));
+  ASSERT_NE(place, std::string::npos);
+  file.replace(place, sizeof older, reinterpret_cast<const char *>(&older), sizeof older);
+  EXPECT_TRUE(says(hold("", {{"from", "1"}}, {{"half.restart", file}}), "another version"));
 }
 
 TEST(BetweenRuns, MinimizeIsRefused) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "physics/fixed_point.h"
+#include "physics/vector3.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -9,7 +10,7 @@
 using calendem::exact_spacing;
 using calendem::FixedPoint;
 using calendem::nearest_multiple;
-using calendem::RoughSum;
+using calendem::SumCheck;
 using calendem::Vec3;
 using calendem::WideSum;
 
@@ -70,50 +71,69 @@ TEST(FixedPointSum, UnitIsAPowerOfTwo) {
   }
 }
 
+namespace {
+/// As the sum of the forces on an atom.
+struct CheckedSum {
+  unsigned long long whole[4] = {};
+  double sum[3] = {};
+  bool can_be = true;
+
+  void add(const Vec3 &term, int sign) { // as i or as j
+    const double c[4] = {term.x, term.y, term.z, SumCheck::of(term.x, term.y, term.z)};
+    can_be = can_be && SumCheck::can_be_added(c[3]);
+    for (int k = 0; k < 4; ++k) {
+      const bool held = std::fabs(c[k]) < 0x1p63; // else what the processor makes of it
+      const long long number = held ? static_cast<long long>(c[k]) : -0x7fffffffffffffffLL - 1;
+      whole[k] += static_cast<unsigned long long>(sign) * static_cast<unsigned long long>(number);
+    }
+    for (int k = 0; k < 3; ++k)
+      sum[k] += sign * c[k];
+  }
+  bool fits() const { return can_be && SumCheck::fits(whole); }
+  double largest() const {
+    return std::fmax(std::fmax(std::fabs(sum[0]), std::fabs(sum[1])), std::fabs(sum[2]));
+  }
+};
+} // namespace
+
 // Vectors whose sum leaves the range of 64 digits, by however much, are seen; all others are not.
-TEST(RoughSum, KnowsWhenTheSumHasLeftItsRange) {
+TEST(SumCheck, KnowsWhenTheSumHasLeftItsRange) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> number(-1.0, 1.0);
-  const double full = 0x1p63, most = static_cast<double>(RoughSum::kMost);
+  const auto vector = [&] { return Vec3{number(random), number(random), number(random)}; };
   int beyond = 0, within = 0;
   for (int n = 0; n < 20000; ++n) {
-    const int terms = 8 + static_cast<int>(random() % 60);
-    const Vec3 lean = {number(random), number(random), number(random)};
-    unsigned long long rough = 0;
-    double sum[3] = {};
+    const int terms = 1 + static_cast<int>(random() % 60);
+    const double scale = 0x1p63 * std::exp2(10.0 * number(random));
+    const Vec3 lean = vector();
+    CheckedSum sum;
     for (int k = 0; k < terms; ++k) {
-      const Vec3 term = (0.5 * full) * (0.3 * Vec3{number(random), number(random), number(random)} +
-                                        (5.0 * number(random) / terms) * lean);
-      const int sign = k % 2 ? -1 : 1; // of j and of i
-      rough += sign > 0 ? RoughSum::of(term) : 0 - RoughSum::of(-term);
-      sum[0] += term.x;
-      sum[1] += term.y;
-      sum[2] += term.z;
-      ASSERT_TRUE(RoughSum::fits(term));
+      const int sign = k % 2 ? -1 : 1;
+      Vec3 term = (0.2 * scale) * (sign * lean + 0.3 * vector());
+      const double over = norm(term) / 0x1.fffffp62; // every other cluster: none too large itself
+      sum.add(n % 2 && over > 1.0 ? (1.0 / over) * term : term, sign);
     }
-    double largest = 0.0;
-    for (const double s : sum)
-      largest = std::fmax(largest, std::fabs(s));
-    if (largest > full) {
-      ++beyond;
-      EXPECT_FALSE(RoughSum::in_range(rough)) << largest / full;
-    }
-    if (largest < most - terms * 0x1p52) {
-      ++within;
-      EXPECT_TRUE(RoughSum::in_range(rough)) << largest / full;
+    const double ratio = sum.largest() / 0x1p63;
+    beyond += ratio > 1.000001;
+    within += ratio < 0.999999;
+    if (ratio > 1.000001 || (n % 2 && ratio < 0.999999)) {
+      EXPECT_EQ(sum.fits(), ratio < 1.0) << ratio << " after " << terms;
     }
   }
-  EXPECT_GT(beyond, 2000);
-  EXPECT_GT(within, 2000);
+  EXPECT_GT(beyond, 4000);
+  EXPECT_GT(within, 4000);
 }
 
-TEST(RoughSum, SeesATermThatDoesNotFit) {
-  for (const double x : {std::nan(""), HUGE_VAL, -HUGE_VAL, 0x1p63, -1e30})
-    for (const Vec3 &term : {Vec3{x, 0, 0}, Vec3{0, x, 0}, Vec3{0, 0, x}})
-      EXPECT_FALSE(RoughSum::fits(term));
-  unsigned long long sum = RoughSum::of({0.0, 0.0, -0.8 * 0x1p63});
-  for (int n = 1; n < 200; ++n)
-    EXPECT_FALSE(RoughSum::in_range(sum += RoughSum::kNoFit)) << n;
+TEST(SumCheck, SeesWhatIsNoNumber) {
+  for (const double x : {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e30, -1e30})
+    for (const Vec3 &term : {Vec3{x, 0, 0}, Vec3{0, x, 0}, Vec3{0, 0, x}, Vec3{x, x, x}}) {
+      CheckedSum sum;
+      sum.add({1e3, -2e18, 3e18}, 1);
+      for (int n = 1; n < 200; ++n) {
+        sum.add(term, 1);
+        EXPECT_FALSE(sum.fits()) << x << " " << n;
+      }
+    }
 }
 
 // A number comes back as it was, whatever its size and sign.

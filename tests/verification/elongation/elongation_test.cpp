@@ -25,7 +25,7 @@ double way_down(double depth, double speed) {
 }
 
 CaseRun stretch(const std::vector<BodySphere> &spheres, double side, const Settings &settings,
-                const std::string &rest = "", int ranks = 1, Files more = {}) {
+                const std::string &rest = "", int ranks = 1, const Files &more = {}) {
   Files files = files_of(spheres, {0, 0, 0}, {side, 5, 12});
   files["rest.in"] = files["start.in"] + rest;
   for (const auto &[name, text] : more)
@@ -130,8 +130,8 @@ CaseRun press(Settings settings, int ranks = 1, const Files &more = {}) {
                    {"damping", "0.3"},
                    {"e", "0.02"},
                    {"dt", number(dt)},
-                   {"half", number(steps / 4)},
-                   {"rest", number(steps - steps / 4)}});
+                   {"half", std::to_string(steps / 4)},
+                   {"rest", std::to_string(steps - steps / 4)}});
   return stretch(all, 6 * kSpacing, settings, "", ranks, more);
 }
 

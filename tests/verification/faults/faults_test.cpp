@@ -245,10 +245,10 @@ TEST(VerificationFaults, MomentumOfADampedUnequalPair) {
 }
 
 namespace {
-// Forces are sums of whole units, 2^62 of which are E R^2 or up to twice that: 7/4 of it or more stops
+// Forces are sums of whole units, 2^62 of which are E R^2 or up to twice that: twice it or more stops
 // the run instead of wrapping.
 constexpr double kRadius = 0.795, kPressed = 0.1 * kRadius; // um
-double most_force() { return 1.75 * std::exp2(std::ceil(std::log2(2e8 * kRadius * kRadius))); }
+double most_force() { return 2.0 * std::exp2(std::ceil(std::log2(2e8 * kRadius * kRadius))); }
 
 // At which two spheres that overlap by kPressed must meet to be under that force, mostly by damping.
 double speed_for(double force) {
