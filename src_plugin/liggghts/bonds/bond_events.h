@@ -22,6 +22,10 @@ public:
   const BondSettings &settings_of(const BondHistory &bond) const {
     return bond.state() == kBridge ? bridge_settings() : settings();
   }
+  /// The pair's bond or bridge where its spheres stand now.
+  calendem::BondPair pair_of(int i, int j, const BondHistory &bond) {
+    return pairs().bond_of(settings_of(bond).material, i, j, bond);
+  }
   /// True while binder bridges shrink, in this step or the next one.
   virtual bool shrinks() const = 0;
 
@@ -34,9 +38,8 @@ public:
   virtual void separate(int i, int j, BondHistory &bond) const = 0;
 
   /// This copy of a bond fails in this step; it acts until the step's last force.
-  virtual void record_break(int i, int j, BondHistory bond, const calendem::BondLoads &,
-                            double tension, const calendem::BondSection &,
-                            const calendem::BondStiffness &, double factor) = 0;
+  virtual void record_break(int i, int j, BondHistory bond, const calendem::BondPair &,
+                            const calendem::BondLoads &) = 0;
   /// A bond is as long as that multiple of the sum of radii.
   virtual void check_stretch(double stretch) = 0;
   /// Bonds and bridges that this rank decides and that have acted in this step.

@@ -9,6 +9,7 @@
 #include "force.h"
 #include "neigh_list.h"
 #include "pair_gran.h"
+#include "physics/bond_pair.h"
 #include "pointers.h"
 
 namespace LAMMPS_NS {
@@ -48,6 +49,13 @@ public:
     if (i < nlocal && j < nlocal)
       return true;
     return i < nlocal ? atom->tag[i] < atom->tag[j] : atom->tag[j] < atom->tag[i];
+  }
+
+  /// The pair's bond where its spheres stand now.
+  calendem::BondPair bond_of(const calendem::BondMaterial &material, int i, int j,
+                             const BondHistory &bond) const {
+    const calendem::Vec3 d = calendem::load(atom->x[i]) - calendem::load(atom->x[j]);
+    return {material, atom->radius[i], atom->radius[j], bond.length(), calendem::pair_at_rest(d)};
   }
 
   /// Calls visit(i, j, history) for every pair of the lists, as the lists hold it.

@@ -29,13 +29,7 @@ double BondSums::strain_energy(BondState state) const {
   pairs.for_each_acting_copy([&](int i, int j, const BondHistory &bond) {
     if (bond.state() != state || !pairs.decides(i, j))
       return;
-    double **x = atom->x;
-    const calendem::Vec3 d = calendem::load(x[i]) - calendem::load(x[j]);
-    const calendem::BondMaterial &material = bonds_.settings_of(bond).material;
-    const double radius = material.radius_ratio * std::min(atom->radius[i], atom->radius[j]);
-    const calendem::BondStiffness k(material, calendem::BondSection(radius), bond.length());
-    mine += calendem::strain_energy(bond.loads(),
-                                    calendem::bond_tension(material, k, norm(d), bond.length()), k);
+    mine += bonds_.pair_of(i, j, bond).strain_energy(bond.loads());
   });
   MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;

@@ -216,11 +216,10 @@ bigint FixBondBpm::acting_pairs() const {
   return pairs;
 }
 
-void FixBondBpm::record_break(int i, int j, BondHistory bond, const calendem::BondLoads &loads,
-                              double tension, const calendem::BondSection &section,
-                              const calendem::BondStiffness &k, double factor) {
+void FixBondBpm::record_break(int i, int j, BondHistory bond, const calendem::BondPair &pair,
+                              const calendem::BondLoads &loads) {
   const BondSettings &set = settings_of(bond);
-  const calendem::BondStress s = bond_stress(loads, tension, section, set.criterion);
+  const calendem::BondStress s = pair.stress(loads, set.criterion);
   const bool i_is_low = atom->tag[i] < atom->tag[j], of_bridge = bond.state() == kBridge;
   const int low = i_is_low ? i : j, high = i_is_low ? j : i;
   const double *a = atom->x[low], *b = atom->x[high];
@@ -230,14 +229,14 @@ void FixBondBpm::record_break(int i, int j, BondHistory bond, const calendem::Bo
       static_cast<double>(atom->tag[high]),
       of_bridge ? -1.0 : static_cast<double>(atoms_.body(low < atom->nlocal ? low : high)),
       of_bridge ? static_cast<double>(bridges_.kind_of(i, j))
-                : static_cast<double>(break_mode(s, set.strength_of(factor))),
+                : static_cast<double>(break_mode(s, set.strength_of(bond.strength_factor()))),
       s.sigma(),
       s.tau(),
       0.5 * (a[0] + b[0]),
       0.5 * (a[1] + b[1]),
       0.5 * (a[2] + b[2]),
       0.0,
-      strain_energy(loads, tension, k)};
+      pair.strain_energy(loads)};
   failing_.push_back({i, j, bond, e});
 }
 

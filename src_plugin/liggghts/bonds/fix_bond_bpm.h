@@ -94,8 +94,8 @@ public:
   void create(int i, int j, double r, BondHistory &bond) const;
   void bridge(int i, int j, double r, BondHistory &bond) const { bridges_.make(i, j, r, bond); }
   void separate(int i, int j, BondHistory &bond) const;
-  void record_break(int i, int j, BondHistory bond, const calendem::BondLoads &, double tension,
-                    const calendem::BondSection &, const calendem::BondStiffness &, double factor);
+  void record_break(int i, int j, BondHistory bond, const calendem::BondPair &,
+                    const calendem::BondLoads &);
   void check_stretch(double stretch) { watch_.check_stretch(stretch); }
   void count_acting(bigint bonds) { watch_.count_acting(bonds); }
   void force_overflows(int tag) { overflowed_ = tag; }

@@ -61,17 +61,14 @@ double FixCheckTimestepBpm::bond_bound() const {
   Spheres bonded(nlocal), bridges(nlocal);
   const double *m = atom->rmass, *R = atom->radius;
   bonds->pairs().for_each_acting_copy([&](int i, int j, const BondHistory &bond) {
-    const calendem::BondMaterial &material = bonds->settings_of(bond).material;
-    const calendem::BondSection section(material.radius_ratio * std::min(R[i], R[j]));
-    const calendem::BondStiffness k(material, section, bond.length());
-    const calendem::BondDamping c(material, section, k, m[i] * m[j] / (m[i] + m[j]),
-                                  std::min(R[i], R[j]));
-    const calendem::Vec3 d = calendem::load(atom->x[i]) - calendem::load(atom->x[j]);
-    const calendem::Vec3 n = (1.0 / norm(d)) * d;
+    const calendem::BondPair pair = bonds->pair_of(i, j, bond);
+    const calendem::BondDamping c =
+        pair.damping(bonds->settings_of(bond).material, calendem::effective_mass(m[i], m[j]));
+    const calendem::Vec3 n = pair.motion.n;
     Spheres &of = bond.state() == kBridge ? bridges : bonded;
-    of[i].add(k, c, n, norm(d));
+    of[i].add(pair.stiffness, c, n, pair.motion.r);
     if (j < nlocal)
-      of[j].add(k, c, -n, norm(d));
+      of[j].add(pair.stiffness, c, -n, pair.motion.r);
   });
   if (const auto *wall = dynamic_cast<const WallBridges *>(bonds->bridges().on_collector()))
     for (int i = 0; i < nlocal; ++i)
@@ -96,8 +93,8 @@ void FixCheckTimestepBpm::add_contacts(Spheres &spheres) const {
         EffectContact::of_spheres(ti, tj, R[i], R[j], bond.contact(r, R[i] + R[j]).overlap),
         pairs_have_effects_ ? bond.effect_memory() : NULL);
     const calendem::BondCoefficients k = stiffness_of(ti, tj, a);
-    const calendem::BondCoefficients c =
-        calendem::contact_damping(k, effects_.damping(ti, tj), m[i] * m[j] / (m[i] + m[j]));
+    const calendem::BondCoefficients c = calendem::contact_damping(
+        k, effects_.damping(ti, tj), calendem::effective_mass(m[i], m[j]));
     const calendem::Vec3 n = (1.0 / r) * (calendem::load(atom->x[i]) - calendem::load(atom->x[j]));
     spheres[i].add(k, c, n, 2.0 * R[i]);
     if (j < nlocal)
@@ -121,9 +118,9 @@ double FixCheckTimestepBpm::contact_bound(int i, int other, const Sphere &bonds,
       type, other, effects_.radius_under(force, EffectContact::of_spheres(type, other, R, R, 0.0)));
   const calendem::BondCoefficients c =
       calendem::contact_damping(k, effects_.damping(type, other), 0.5 * m);
-  const calendem::BondSection section(material.radius_ratio * R);
-  const bool bonds_are_softer =
-      calendem::BondStiffness(material, section, 2.0 * R).normal < k.normal;
+  const calendem::BondPair touching(material, R, R, 2.0 * R,
+                                    calendem::pair_at_rest({2.0 * R, 0.0, 0.0}));
+  const bool bonds_are_softer = touching.stiffness.normal < k.normal;
   Sphere beside = bonds_are_softer ? bonds : Sphere();
   beside.add(bridges);
   return calendem::stable_step_of_contacts(k, c, m, R, beside.stiffness, beside.damping);

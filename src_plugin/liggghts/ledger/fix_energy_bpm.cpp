@@ -9,7 +9,7 @@
 #include "force.h"
 #include "global_properties.h"
 #include "modify.h"
-#include "physics/hertz_contact.h"
+#include "physics/contact_pair.h"
 #include "physics/sjkr_cohesion.h"
 #include "update.h"
 #include <algorithm>
@@ -160,21 +160,18 @@ void FixEnergyBpm::collect_walls() {
 // The force that a flat wall exerts on atom i: Hertz, cohesion and damping along z, friction
 // across, with the arm of the host's default surface model.
 void FixEnergyBpm::collect(Wall &wall, int i, const double *force) {
-  const double height = atom->x[i][2] - wall.fix->position();
-  const double overlap = atom->radius[i] - std::fabs(height);
-  const double side = height > 0.0 ? 1.0 : -1.0;
-  const EffectContact contact =
-      EffectContact::at_wall(atom->type[i], wall.fix->atom_type_wall(), atom->radius[i], overlap);
+  const calendem::WallContact at(atom->x[i][2] - wall.fix->position(), atom->radius[i]);
+  const EffectContact contact = EffectContact::at_wall(atom->type[i], wall.fix->atom_type_wall(),
+                                                       atom->radius[i], at.overlap);
   const double held =
       effects_.force(contact, wall.fix->effect_memory(i)) -
-      calendem::sjkr_wall_force(wall_cohesion(wall, i), std::fabs(height), atom->radius[i]);
-  const double damping = force[2] - side * held;
+      calendem::sjkr_wall_force(wall_cohesion(wall, i), at.distance, atom->radius[i]);
+  const double damping = force[2] - at.side * held;
   wall.damping += damping;
   add_damping(i, {{0.0, 0.0, damping}, {}});
   const Vec3 friction = {force[0], force[1], 0.0};
   wall.friction += friction.x;
-  const Vec3 arm = {0.0, 0.0, -side * (atom->radius[i] - 0.5 * overlap)};
-  add_friction(i, {friction, cross(arm, friction)});
+  add_friction(i, {friction, cross(at.arm, friction)});
 }
 
 double FixEnergyBpm::cohesion(int i, int j, double r) const {
@@ -184,32 +181,25 @@ double FixEnergyBpm::cohesion(int i, int j, double r) const {
 
 void FixEnergyBpm::bond_breaks(int i, int j, const BondHistory &bond) {
   const double *radius = atom->radius;
-  const Vec3 d = calendem::load(atom->x[i]) - calendem::load(atom->x[j]);
-  const double r = norm(d);
-  const Vec3 n = (1.0 / r) * d;
-  const calendem::BondMaterial &material = bonds_->settings_of(bond).material;
-  const calendem::BondSection section(material.radius_ratio * std::min(radius[i], radius[j]));
-  const calendem::BondStiffness k(material, section, bond.length());
-  const calendem::PairMotion motion = {d, {}, {}, {}, n, r};
-  const double tension = bond_tension(material, k, r, bond.length());
-  const calendem::BondAction a = action(bond.loads(), tension, motion, calendem::BondDamping());
-  const double beyond = bond.contact(r, radius[i] + radius[j]).distance;
+  const calendem::BondPair pair = bonds_->pair_of(i, j, bond);
+  const calendem::BondAction a = pair.action(bond.loads());
+  const double beyond = bond.contact(pair.motion.r, radius[i] + radius[j]).distance;
   const bool begins = bond.state() != kBridge; // beside a bridge it acts all the time
   const double pull =
       begins ? calendem::sjkr_force(cohesion_energy_density_[atom->type[i]][atom->type[j]], beyond,
                                     radius[i], radius[j])
              : 0.0;
-  const Vec3 force = a.force + pull * n; // the bond's, which ends, less the cohesion's
+  const Vec3 force = a.force + pull * pair.motion.n; // the bond's, which ends, less the cohesion's
   last_forces_.push_back({i, {force, a.torque_i}});
   if (j < atom->nlocal)
     last_forces_.push_back({j, {-force, a.torque_j}});
-  last_moment_ += (j < atom->nlocal ? 1.0 : 0.5) * force.x * d.x;
+  last_moment_ += (j < atom->nlocal ? 1.0 : 0.5) * force.x * pair.motion.d.x;
   if (!bonds_->pairs().decides(i, j))
     return;
   if (begins)
     sums_[kBreaks] -= cohesion(i, j, beyond);
   else
-    shrinking_ends(tension * bond.length());
+    shrinking_ends(pair.tension * bond.length());
 }
 
 double FixEnergyBpm::pair_energy(bool of_cohesion) const {
@@ -238,12 +228,13 @@ double FixEnergyBpm::wall_energy(bool of_cohesion) const {
   for (const Wall &wall : walls_)
     for (int i = 0; i < atom->nlocal; ++i) {
       const double radius = atom->radius[i];
-      const double r = std::fabs(atom->x[i][2] - wall.fix->position());
-      sum += of_cohesion ? calendem::sjkr_wall_potential(wall_cohesion(wall, i), r, radius)
-                         : effects_.elastic_energy(
-                               EffectContact::at_wall(atom->type[i], wall.fix->atom_type_wall(),
-                                                      radius, radius - r),
-                               wall.fix->effect_memory(i));
+      const calendem::WallContact at(atom->x[i][2] - wall.fix->position(), radius);
+      sum += of_cohesion
+                 ? calendem::sjkr_wall_potential(wall_cohesion(wall, i), at.distance, radius)
+                 : effects_.elastic_energy(EffectContact::at_wall(atom->type[i],
+                                                                  wall.fix->atom_type_wall(),
+                                                                  radius, at.overlap),
+                                           wall.fix->effect_memory(i));
     }
   return sum;
 }

@@ -86,15 +86,10 @@ DumpBondBpmVtk::DumpBondBpmVtk(LAMMPS *lmp, int narg, char **arg)
 void DumpBondBpmVtk::init_style() { fix_ = FixBondBpm::find(lmp, "dump bond/bpm/vtk"); }
 
 void DumpBondBpmVtk::write() {
-  const BondSettings &set = fix_->settings();
   std::vector<BondLine> lines;
   fix_->pairs().for_each_intact([&](int i, int j, const BondHistory &bond) {
-    const double *radius = atom->radius;
-    const calendem::Vec3 d = calendem::load(atom->x[i]) - calendem::load(atom->x[j]);
-    const calendem::BondSection s(set.material.radius_ratio * std::min(radius[i], radius[j]));
-    const calendem::BondStiffness k(set.material, s, bond.length());
-    const calendem::BondStress stress = bond_stress(
-        bond.loads(), bond_tension(set.material, k, norm(d), bond.length()), s, set.criterion);
+    const calendem::BondStress stress =
+        fix_->pair_of(i, j, bond).stress(bond.loads(), fix_->settings().criterion);
     lines.push_back({double(atom->tag[i]), double(atom->tag[j]),
                      double(fix_->body(i < atom->nlocal ? i : j)), 1.0, 0.0, 1e-3 * stress.sigma(),
                      1e-3 * stress.tau(), -1.0});

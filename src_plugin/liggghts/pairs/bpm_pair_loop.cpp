@@ -292,9 +292,8 @@ int BpmPairLoop::watch_bonds(PairTable::Bonds &list, int n, const BondSettings &
     if (!update_ || s.failed[p] == 0.0 || !b.breakable)
       continue;
     table_.store_loads(t, p);
-    const BondPair bond(b.material, t, s, p);
-    bonds_->record_break(t.i[p], t.j[p], BondHistory(t.history[p] + bond_), t.loads(p),
-                         bond.tension, bond.section, bond.stiffness, t.strength[p]);
+    bonds_->record_break(t.i[p], t.j[p], BondHistory(t.history[p] + bond_),
+                         bond_of(b.material, t, s, p), t.loads(p));
     list.failed.push_back(n * kTilePairs + p);
   }
   return lost;
@@ -388,7 +387,7 @@ void BpmPairLoop::book_bonds(const BondTile &t) {
 
 void BpmPairLoop::book_shrinking(const BondTile &t, const calendem::BondMaterial &material) {
   for (int p = 0; p < t.size; ++p)
-    ledger_->add_shrinking(t.i[p], t.j[p], BondPair(material, t, *step_, p).tension * t.length[p]);
+    ledger_->add_shrinking(t.i[p], t.j[p], bond_of(material, t, *step_, p).tension * t.length[p]);
 }
 
 void BpmPairLoop::book_contacts(const PairTile &t) {

@@ -13,7 +13,7 @@ COHESION_MODEL(COHESION_BPM, bpm, 30)
 #include "cohesion_model_base.h"
 #include "contact_models.h"
 #include "global_properties.h"
-#include "physics/bond_failure.h"
+#include "physics/bond_pair.h"
 #include "physics/sjkr_cohesion.h"
 #include "update.h"
 #include "work_ledger.h"
@@ -117,44 +117,33 @@ private:
     ledger_->add_friction(s.i, action_of(i_forces) - so_far_[0]);
     ledger_->add_friction(s.j, action_of(j_forces) - so_far_[1]);
   }
-  __attribute__((noinline)) void book_damping(int i, int j, const calendem::PairMotion &motion,
+  __attribute__((noinline)) void book_damping(int i, int j, const calendem::BondPair &pair,
                                               const calendem::BondDamping &damping) {
-    ledger_->add_damping(i, j, calendem::damping_action(motion, damping));
+    ledger_->add_damping(i, j, pair.damping_action(damping));
   }
 
   void bond_force(SurfacesCloseData &s, BondHistory &bond, const calendem::Vec3 &n, double r,
                   ForceData &i_forces, ForceData &j_forces) {
     const BondSettings &b = bonds_->settings_of(bond);
-    const double radius_min = s.radi < s.radj ? s.radi : s.radj;
-    const calendem::BondSection section(b.material.radius_ratio * radius_min);
-    const calendem::BondStiffness k(b.material, section, bond.length());
-    const calendem::PairMotion motion = {calendem::load(s.delta),
-                                         calendem::load(s.v_i) - calendem::load(s.v_j),
-                                         calendem::load(s.omega_i),
-                                         calendem::load(s.omega_j),
-                                         n,
-                                         r};
+    const calendem::BondPair pair(b.material, s.radi, s.radj, bond.length(),
+                                  {calendem::load(s.delta),
+                                   calendem::load(s.v_i) - calendem::load(s.v_j),
+                                   calendem::load(s.omega_i), calendem::load(s.omega_j), n, r});
     calendem::BondLoads loads = bond.loads();
-    const double tension = calendem::bond_tension(b.material, k, r, bond.length());
     if (s.computeflag && s.shearupdate) {
       bonds_->acts(s.i, s.j);
-      calendem::advance(loads, motion, k, update->dt);
+      pair.advance(loads, update->dt);
       bond.set_loads(loads);
-      if (b.breakable && calendem::fails(loads, tension, section,
-                                         b.strength_of(bond.strength_factor()), b.criterion))
-        bonds_->record_break(s.i, s.j, bond, loads, tension, section, k, bond.strength_factor());
+      if (b.breakable && pair.fails(loads, b.strength_of(bond.strength_factor()), b.criterion))
+        bonds_->record_break(s.i, s.j, bond, pair, loads);
     }
-    calendem::BondDamping damping;
-    if (b.material.damping > 0.0) {
-      const double mi = atom->rmass[s.i];
-      const double mj = atom->rmass[s.j];
-      damping = calendem::BondDamping(b.material, section, k, mi * mj / (mi + mj), radius_min);
-    }
-    const calendem::BondAction a = calendem::action(loads, tension, motion, damping);
+    const calendem::BondDamping damping =
+        pair.damping(b.material, calendem::effective_mass(atom->rmass[s.i], atom->rmass[s.j]));
+    const calendem::BondAction a = pair.action(loads, damping);
     if (ledger_ && s.computeflag) {
-      book_damping(s.i, s.j, motion, damping);
+      book_damping(s.i, s.j, pair, damping);
       if (bond.state() == kBridge && bonds_->shrinks())
-        ledger_->add_shrinking(s.i, s.j, tension * bond.length());
+        ledger_->add_shrinking(s.i, s.j, pair.tension * bond.length());
     }
     calendem::add_to(a.force, i_forces.delta_F);
     calendem::subtract_from(a.force, j_forces.delta_F);

@@ -68,10 +68,10 @@ void ContactEffects::connect(PropertyRegistry &registry, const char *caller) {
 void ContactEffects::read(PropertyRegistry &registry, int i, int j, const char *caller) {
   LAMMPS *lmp = registry.getLAMMPS();
   TypePair &p = pairs_[i * (types_ + 1) + j];
-  p.modulus = registry.getMatrixProperty("Yeff", caller)->data[i][j];
-  p.shear_modulus = registry.getMatrixProperty("Geff", caller)->data[i][j];
-  p.damping = registry.getMatrixProperty("betaeff", caller)->data[i][j];
-  p.cohesion = optional(lmp, "cohesionEnergyDensity", types_, i, j);
+  p.material.modulus = registry.getMatrixProperty("Yeff", caller)->data[i][j];
+  p.material.shear_modulus = registry.getMatrixProperty("Geff", caller)->data[i][j];
+  p.material.damping = registry.getMatrixProperty("betaeff", caller)->data[i][j];
+  p.material.cohesion = optional(lmp, "cohesionEnergyDensity", types_, i, j);
   for (int n = 0; n < static_cast<int>(kContactLaws.size()); ++n)
     if (optional(lmp, kContactLaws[n]->properties[0].name, types_, i, j) != 0.0)
       choose(lmp, n, i, j);
@@ -84,7 +84,7 @@ void ContactEffects::choose(LAMMPS *lmp, int n, int i, int j) {
   calendem::PropertyValues values = {};
   for (size_t k = 0; k < law.size; ++k) {
     values[k] = optional(lmp, law.properties[k].name, types_, i, j);
-    check(lmp, law.properties[k], i, j, values[k], p.modulus);
+    check(lmp, law.properties[k], i, j, values[k], p.material.modulus);
   }
   if (p.law >= 0) {
     snprintf(why, sizeof why, "a contact follows one law: set it or %s to 0",
@@ -93,7 +93,8 @@ void ContactEffects::choose(LAMMPS *lmp, int n, int i, int j) {
   }
   p.law = n;
   calendem::AllLaws::set(p.params, n, values);
-  const calendem::ContactLimits limits = law.limits({p.cohesion, p.modulus}, values);
+  const calendem::ContactLimits limits =
+      law.limits({p.material.cohesion, p.material.modulus}, values);
   const bool low = values[0] < limits.least;
   snprintf(why, sizeof why, "%s. Give at %s %g, or 0 (off)", limits.why, low ? "least" : "most",
            low ? limits.least : limits.most);

@@ -8,6 +8,7 @@
 #ifndef CALENDEM_CONTACT_EFFECTS_H
 #define CALENDEM_CONTACT_EFFECTS_H
 
+#include "physics/contact_pair.h"
 #include "pointers.h"
 #include "registry/contact_law.h"
 #include <vector>
@@ -71,15 +72,16 @@ public:
   }
   double stiffness_radius(const EffectContact &c, const double *memory) const {
     if (!memory || !act(c.itype, c.jtype))
-      return std::sqrt(c.effective_radius * c.overlap);
+      return calendem::hertz_contact_radius(c.effective_radius, c.overlap);
     return with_law(c, memory, [&](const auto &law, const auto &state) {
       return law.stiffness_radius(c.overlap, state);
     });
   }
   double radius_under(double force, const EffectContact &c) const {
     if (!act(c.itype, c.jtype))
-      return std::sqrt(c.effective_radius * calendem::hertz_overlap(modulus(c.itype, c.jtype),
-                                                                    c.effective_radius, force));
+      return calendem::hertz_contact_radius(
+          c.effective_radius,
+          calendem::hertz_overlap(modulus(c.itype, c.jtype), c.effective_radius, force));
     const double none[kMemory] = {};
     return with_law(c, none,
                     [&](const auto &law, const auto &) { return law.radius_under(force); });
@@ -97,14 +99,20 @@ public:
     return *calendem::kContactLaws[pair(itype, jtype).law];
   }
 
-  double modulus(int itype, int jtype) const { return pair(itype, jtype).modulus; }
-  double shear_modulus(int itype, int jtype) const { return pair(itype, jtype).shear_modulus; }
-  double damping(int itype, int jtype) const { return pair(itype, jtype).damping; } ///< host's beta
+  double modulus(int itype, int jtype) const { return pair(itype, jtype).material.modulus; }
+  double shear_modulus(int itype, int jtype) const {
+    return pair(itype, jtype).material.shear_modulus;
+  }
+  double damping(int itype, int jtype) const { return pair(itype, jtype).material.damping; }
+  /// Friction is the host's tangential model's business, and not in it.
+  const calendem::ContactMaterial &material(int itype, int jtype) const {
+    return pair(itype, jtype).material;
+  }
 
 private:
   struct TypePair {
     int law = -1; ///< in ContactLaws; -1: Hertz
-    double modulus = 0.0, shear_modulus = 0.0, damping = 0.0, cohesion = 0.0;
+    calendem::ContactMaterial material = {};
     calendem::AllLaws::Params params;
   };
 
@@ -123,7 +131,8 @@ private:
     if constexpr (n + 1 < std::tuple_size_v<calendem::ContactLaws>)
       if (p.law != n)
         return with_law<n + 1>(c, memory, f);
-    return f(Law({p.modulus, c.effective_radius, c.radius, p.cohesion}, std::get<n>(p.params)),
+    return f(Law({p.material.modulus, c.effective_radius, c.radius, p.material.cohesion},
+                 std::get<n>(p.params)),
              calendem::load_state<typename Law::State>(memory));
   }
 };

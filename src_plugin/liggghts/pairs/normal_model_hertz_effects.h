@@ -20,6 +20,7 @@ NORMAL_MODEL(HERTZ_EFFECTS, hertz_effects, 30)
 #include "contact_models.h"
 #include "error.h"
 #include "normal_model_base.h"
+#include "physics/contact_pair.h"
 #include "update.h"
 #include "work_ledger.h"
 #include <cmath>
@@ -60,8 +61,9 @@ public:
     const EffectContact contact =
         s.is_wall ? EffectContact::at_wall(s.itype, s.jtype, s.radi, s.deltan)
                   : EffectContact::of_spheres(s.itype, s.jtype, s.radi, s.radj, s.deltan);
-    double radius = std::sqrt(contact.effective_radius * s.deltan);
-    double force = 4.0 / 3.0 * effects_.modulus(s.itype, s.jtype) * radius * s.deltan;
+    double radius = calendem::hertz_contact_radius(contact.effective_radius, s.deltan);
+    double force =
+        calendem::hertz_mindlin_elastic(effects_.modulus(s.itype, s.jtype), radius, s.deltan);
     if (s.deltan <= 0.0)
       forget(s.contact_history);
     else if (effects_.act(s.itype, s.jtype) && meets(s)) {
@@ -129,13 +131,12 @@ private:
   }
 
   void set(SurfacesIntersectData &s, double radius, double force) const {
-    const double normal = 2.0 * effects_.modulus(s.itype, s.jtype) * radius;
-    const double tangential = 8.0 * effects_.shear_modulus(s.itype, s.jtype) * radius;
-    const double beta = -2.0 * std::sqrt(5.0 / 6.0) * effects_.damping(s.itype, s.jtype);
+    const calendem::ContactResistance resistance =
+        calendem::contact_resistance(effects_.material(s.itype, s.jtype), radius, s.meff);
     s.kn = s.deltan > 0.0 ? force / s.deltan : 0.0; // F = kn deltan, as the ledger reads it
-    s.kt = tangential;
-    s.gamman = beta * std::sqrt(normal * s.meff);
-    s.gammat = tangential_damping_ ? beta * std::sqrt(tangential * s.meff) : 0.0;
+    s.kt = resistance.tangential_stiffness;
+    s.gamman = resistance.normal_damping;
+    s.gammat = tangential_damping_ ? resistance.tangential_damping : 0.0;
     s.Fn = force - s.gamman * s.vn;
     if (radius == 0.0) // open: the friction spring must not wind up meanwhile
       s.vtr1 = s.vtr2 = s.vtr3 = 0.0;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pair_tile.h"
-#include "physics/hertz_mindlin.h"
 #include "physics/sjkr_cohesion.h"
 #include <algorithm>
 #include <cmath>
@@ -16,7 +15,7 @@ using calendem::Vec3;
 namespace {
 
 double effective_mass(const PairStep &s, int p) {
-  return s.mass_i[p] * s.mass_j[p] / (s.mass_i[p] + s.mass_j[p]);
+  return calendem::effective_mass(s.mass_i[p], s.mass_j[p]);
 }
 
 // `kUpdate`: histories advance. `kDamped`: bonds have viscous damping. `kCriterion` is a constant
@@ -27,57 +26,36 @@ __attribute__((flatten)) void run_bonds(BondTile &t, PairStep &s, const BondMate
                                         const BondStrength strength, double dt) {
 #pragma GCC ivdep
   for (int p = 0; p < t.size; ++p) {
-    const BondPair pair(material, t, s, p);
+    const calendem::BondPair pair = bond_of(material, t, s, p);
     calendem::BondLoads loads = t.loads(p);
     if (kUpdate) {
-      calendem::advance(loads, pair.motion, pair.stiffness, dt);
+      pair.advance(loads, dt);
       t.shear.set(p, loads.shear);
       t.bending.set(p, loads.bending);
       t.twist[p] = loads.twist;
       const double factor = t.strength[p];
       const BondStrength own = {factor * strength.tensile, factor * strength.shear};
-      s.failed[p] = calendem::fails(loads, pair.tension, pair.section, own, kCriterion) ? 1.0 : 0.0;
+      s.failed[p] = pair.fails(loads, own, kCriterion) ? 1.0 : 0.0;
     }
     calendem::BondDamping damping;
     if (kDamped)
-      damping = calendem::BondDamping(material, pair.section, pair.stiffness, effective_mass(s, p),
-                                      std::min(s.radius_i[p], s.radius_j[p]));
-    const calendem::BondAction a = calendem::action(loads, pair.tension, pair.motion, damping);
+      damping = pair.damping(material, effective_mass(s, p));
+    const calendem::BondAction a = pair.action(loads, damping);
     s.force.set(p, a.force);
     s.torque_i.set(p, a.torque_i);
     s.torque_j.set(p, a.torque_j);
     if (!kDamped)
       continue;
-    const calendem::BondAction d = calendem::damping_action(pair.motion, damping);
+    const calendem::BondAction d = pair.damping_action(damping);
     s.bond_damping.set(p, d.force);
     s.bond_damping_torque_i.set(p, d.torque_i);
     s.bond_damping_torque_j.set(p, d.torque_j);
   }
 }
 
-Vec3 select(bool condition, const Vec3 &v) {
-  return {condition ? v.x : 0.0, condition ? v.y : 0.0, condition ? v.z : 0.0};
+calendem::ContactPair contact_of(const PairStep &s, int p, bool rests) {
+  return {motion_of(s, p), s.radius_i[p], s.radius_j[p], rests, s.contact_radius[p] > 0.0};
 }
-
-// A contact at rest, or opened by its law, neither moves nor winds up its friction.
-struct ContactPair {
-  Vec3 n;
-  double r;
-  calendem::ContactMotion motion;
-  Vec3 displacement;
-
-  ContactPair(const PairTile &t, const PairStep &s, int p) : r(std::sqrt(s.r_squared[p])) {
-    const Vec3 d = s.d[p];
-    const double inverse_r = 1.0 / r;
-    n = inverse_r * d;
-    motion = calendem::contact_motion(d, s.v[p], s.spin_i[p], s.spin_j[p], n, inverse_r,
-                                      s.radius_sum(p) - r, s.radius_i[p], s.radius_j[p]);
-    const bool rests = acting_overlap(t, s, p) == 0.0, slides = s.contact_radius[p] > 0.0;
-    motion.normal_velocity = rests ? 0.0 : motion.normal_velocity;
-    motion.sliding_velocity = select(slides, motion.sliding_velocity);
-    displacement = select(!rests, t.displacement[p]);
-  }
-};
 
 template <bool kUpdate, class Tile>
 __attribute__((flatten)) void run_contacts(Tile &t, PairStep &s, const PairMaterial *materials,
@@ -85,38 +63,34 @@ __attribute__((flatten)) void run_contacts(Tile &t, PairStep &s, const PairMater
 #pragma GCC ivdep
   for (int p = 0; p < t.size; ++p) {
     const bool acting = acts(t, s, p);
-    const ContactPair pair(t, s, p);
+    const bool rests = acting_overlap(t, s, p) == 0.0;
+    const calendem::ContactPair pair = contact_of(s, p, rests);
     const PairMaterial &m = materials[t.material[p]];
-    const calendem::ContactMaterial material = {m.modulus, m.shear_modulus, m.damping, m.friction};
     const calendem::ContactResistance resistance =
-        calendem::contact_resistance(material, s.contact_radius[p], effective_mass(s, p));
-    const double damping = -resistance.normal_damping * pair.motion.normal_velocity;
-    const double normal = damping + s.elastic[p];
-    Vec3 displacement = pair.displacement;
+        calendem::contact_resistance(m, s.contact_radius[p], effective_mass(s, p));
+    Vec3 displacement = select(!rests, t.displacement[p]);
     if (kUpdate)
       displacement = calendem::slide(displacement, pair.motion, pair.n, dt);
-    const Vec3 friction = select(acting, calendem::friction_force(displacement, pair.motion,
-                                                                  resistance, m.friction, normal));
+    const calendem::ContactAction a =
+        calendem::contact_action(pair, m, resistance, s.elastic[p], acting, displacement);
     t.displacement.set(p, select(acting, kUpdate ? displacement : t.displacement[p]));
-    const Vec3 moment = cross(pair.n, friction);
-    const Vec3 on_i = -pair.motion.arm_i * moment, on_j = -pair.motion.arm_j * moment;
-    const Vec3 push = select(acting, normal * pair.n);
+    const Vec3 push = select(acting, a.normal * pair.n);
     if constexpr (std::is_same_v<Tile, BondTile>) {
-      s.force.set(p, push + s.force[p] + friction);
-      s.torque_i.set(p, s.torque_i[p] + on_i);
-      s.torque_j.set(p, s.torque_j[p] + on_j);
+      s.force.set(p, push + s.force[p] + a.friction);
+      s.torque_i.set(p, s.torque_i[p] + a.torque_i);
+      s.torque_j.set(p, s.torque_j[p] + a.torque_j);
     } else {
       const double pull =
           calendem::sjkr_force(m.cohesion, calendem::acting_distance(pair.r, t.reference[p]),
                                s.radius_i[p], s.radius_j[p]);
-      s.force.set(p, push - select(acting, pull * pair.n) + friction);
-      s.torque_i.set(p, on_i);
-      s.torque_j.set(p, on_j);
+      s.force.set(p, push - select(acting, pull * pair.n) + a.friction);
+      s.torque_i.set(p, a.torque_i);
+      s.torque_j.set(p, a.torque_j);
     }
-    s.contact_damping.set(p, select(acting, damping * pair.n));
-    s.friction_force.set(p, friction);
-    s.friction_torque_i.set(p, on_i);
-    s.friction_torque_j.set(p, on_j);
+    s.contact_damping.set(p, select(acting, a.damping * pair.n));
+    s.friction_force.set(p, a.friction);
+    s.friction_torque_i.set(p, a.torque_i);
+    s.friction_torque_j.set(p, a.torque_j);
   }
 }
 
@@ -155,7 +129,8 @@ void LAMMPS_NS::run_hertz(const PairTile &t, PairStep &s, const PairMaterial *ma
 #pragma GCC ivdep
   for (int p = 0; p < t.size; ++p) {
     const double overlap = acting_overlap(t, s, p);
-    const double a = std::sqrt(s.radius_i[p] * s.radius_j[p] / s.radius_sum(p) * overlap);
+    const double a = calendem::hertz_contact_radius(
+        calendem::effective_radius(s.radius_i[p], s.radius_j[p]), overlap);
     s.contact_radius[p] = a;
     s.elastic[p] = calendem::hertz_mindlin_elastic(materials[t.material[p]].modulus, a, overlap);
   }

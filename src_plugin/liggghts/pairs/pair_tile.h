@@ -4,10 +4,9 @@
 #ifndef CALENDEM_PAIR_TILE_H
 #define CALENDEM_PAIR_TILE_H
 
-#include "physics/acting_contact.h"
-#include "physics/bond_failure.h"
+#include "physics/bond_pair.h"
+#include "physics/contact_pair.h"
 #include "physics/fixed_point.h"
-#include "physics/parallel_bond.h"
 #include <algorithm>
 #include <cmath>
 
@@ -35,9 +34,7 @@ struct VectorRow {
 };
 
 /// Of a pair of atom types.
-struct PairMaterial {
-  double modulus, shear_modulus, damping, friction, cohesion;
-};
+using PairMaterial = calendem::ContactMaterial;
 
 /// Pairs that stay together for many steps, and what is remembered of them from step to step.
 struct PairTile {
@@ -98,22 +95,14 @@ inline bool acts(const BondTile &t, const PairStep &s, int p) {
   return s.touches(p) & (s.r_squared[p] < t.length[p] * t.length[p]);
 }
 
-/// A bond of a tile as its law sees it.
-struct BondPair {
-  calendem::BondSection section;
-  calendem::BondStiffness stiffness;
-  calendem::PairMotion motion;
-  double tension; ///< [nN]
-
-  BondPair(const calendem::BondMaterial &m, const BondTile &t, const PairStep &s, int p)
-      : section(m.radius_ratio * std::min(s.radius_i[p], s.radius_j[p])),
-        stiffness(m, section, t.length[p]) {
-    const double r = std::sqrt(s.r_squared[p]);
-    const calendem::Vec3 d = s.d[p];
-    motion = {d, s.v[p], s.spin_i[p], s.spin_j[p], (1.0 / r) * d, r};
-    tension = calendem::bond_tension(m, stiffness, r, t.length[p]);
-  }
-};
+/// A pair, and a bond, of a tile as their laws see them.
+inline calendem::PairMotion motion_of(const PairStep &s, int p) {
+  return calendem::pair_motion(s.d[p], std::sqrt(s.r_squared[p]), s.v[p], s.spin_i[p], s.spin_j[p]);
+}
+inline calendem::BondPair bond_of(const calendem::BondMaterial &m, const BondTile &t,
+                                  const PairStep &s, int p) {
+  return {m, s.radius_i[p], s.radius_j[p], t.length[p], motion_of(s, p)};
+}
 
 /// Loads after a step of length dt [us], which bonds fail, and what they exert; without `update`,
 /// as during set-up, loads stay and nothing fails.

@@ -15,6 +15,7 @@ SURFACE_MODEL(SURFACE_BPM, bpm, 30)
 #include "force.h"
 #include "granular_bpm.h"
 #include "history_layout.h"
+#include "physics/contact_pair.h"
 #include "surface_model_base.h"
 #include <cmath>
 
@@ -66,7 +67,7 @@ public:
       bonds_->create(s.i, s.j, s.r, bond);
       bonds_->bridge(s.i, s.j, s.r, bond);
     }
-    contact_kinematics(s, s.radsum - s.r);
+    contact_kinematics(s);
     s.deltan = bond.contact(s.r, s.radsum).overlap;
     if (s.deltan == 0.0)
       rest(s);
@@ -94,17 +95,20 @@ private:
   int spring_; // first of the tangential model's three history values, -1 if it has none
 
   // Relative velocity at the contact point, as the host's default surface model defines it.
-  static void contact_kinematics(SurfacesIntersectData &s, double overlap) {
-    s.vn = (s.v_i[0] - s.v_j[0]) * s.en[0] + (s.v_i[1] - s.v_j[1]) * s.en[1] +
-           (s.v_i[2] - s.v_j[2]) * s.en[2];
-    s.cri = s.radi - 0.5 * overlap;
-    s.crj = s.radj - 0.5 * overlap;
-    s.wr1 = (s.cri * s.omega_i[0] + s.crj * s.omega_j[0]) * s.rinv;
-    s.wr2 = (s.cri * s.omega_i[1] + s.crj * s.omega_j[1]) * s.rinv;
-    s.wr3 = (s.cri * s.omega_i[2] + s.crj * s.omega_j[2]) * s.rinv;
-    s.vtr1 = s.v_i[0] - s.v_j[0] - s.vn * s.en[0] - (s.delta[2] * s.wr2 - s.delta[1] * s.wr3);
-    s.vtr2 = s.v_i[1] - s.v_j[1] - s.vn * s.en[1] - (s.delta[0] * s.wr3 - s.delta[2] * s.wr1);
-    s.vtr3 = s.v_i[2] - s.v_j[2] - s.vn * s.en[2] - (s.delta[1] * s.wr1 - s.delta[0] * s.wr2);
+  static void contact_kinematics(SurfacesIntersectData &s) {
+    const calendem::ContactMotion motion = calendem::contact_motion(
+        {calendem::load(s.delta), calendem::load(s.v_i) - calendem::load(s.v_j),
+         calendem::load(s.omega_i), calendem::load(s.omega_j), calendem::load(s.en), s.r},
+        s.radi, s.radj);
+    s.vn = motion.normal_velocity;
+    s.cri = motion.arm_i;
+    s.crj = motion.arm_j;
+    s.wr1 = motion.spin.x;
+    s.wr2 = motion.spin.y;
+    s.wr3 = motion.spin.z;
+    s.vtr1 = motion.sliding_velocity.x;
+    s.vtr2 = motion.sliding_velocity.y;
+    s.vtr3 = motion.sliding_velocity.z;
     s.P_diss = 0.0;
   }
 

@@ -19,20 +19,14 @@ namespace {
 const int kX = BondHistory::kSize, kY = kX + 1, kValues = kY + 1;
 } // namespace
 
-struct WallBridges::Bridge {
+struct WallBridges::Bridge : calendem::BondPair {
   BondHistory bond;
-  calendem::PairMotion motion;
-  calendem::BondSection section;
-  calendem::BondStiffness stiffness;
   calendem::BondDamping damping;
-  double tension; ///< [nN]
 
   Bridge(const WallBridges &wall, int i)
-      : bond(wall.values(i)), motion(wall.motion(i)),
-        section(wall.material().radius_ratio * wall.atom->radius[i]),
-        stiffness(wall.material(), section, bond.length()),
-        damping(wall.material(), section, stiffness, wall.atom->rmass[i], wall.atom->radius[i]),
-        tension(calendem::bond_tension(wall.material(), stiffness, motion.r, bond.length())) {}
+      : BondPair(wall.material(), wall.atom->radius[i], wall.atom->radius[i],
+                 BondHistory(wall.values(i)).length(), wall.motion(i)),
+        bond(wall.values(i)), damping(BondPair::damping(wall.material(), wall.atom->rmass[i])) {}
 };
 
 WallBridges::WallBridges(LAMMPS *lmp, const std::string &wall, double z)
@@ -114,15 +108,14 @@ void WallBridges::act(bool update) {
     Bridge bridge(*this, i);
     calendem::BondLoads loads = bridge.bond.loads();
     if (update)
-      calendem::advance(loads, bridge.motion, bridge.stiffness, this->update->dt);
+      bridge.advance(loads, this->update->dt);
     bridge.bond.set_loads(loads);
-    const calendem::BondAction a =
-        calendem::action(loads, bridge.tension, bridge.motion, bridge.damping);
+    const calendem::BondAction a = bridge.action(loads, bridge.damping);
     calendem::add_to(a.force, atom->f[i]);
     calendem::add_to(a.torque_i, atom->torque[i]);
     force_[i] = a.force.z;
     if (ledger) {
-      const calendem::BondAction damping = damping_action(bridge.motion, bridge.damping);
+      const calendem::BondAction damping = bridge.damping_action(bridge.damping);
       ledger->add_damping(i, {damping.force, damping.torque_i});
       if (bonds_->shrinks())
         ledger->add_shrinking(bridge.tension * bridge.bond.length());
@@ -135,17 +128,14 @@ void WallBridges::act(bool update) {
 void WallBridges::break_if_it_fails(int i, Bridge &bridge) {
   const BondSettings &set = bonds_->bridge_settings();
   const calendem::BondLoads loads = bridge.bond.loads();
-  if (!fails(loads, bridge.tension, bridge.section, set.strength_of(bridge.bond.strength_factor()),
-             set.criterion))
+  if (!bridge.fails(loads, set.strength_of(bridge.bond.strength_factor()), set.criterion))
     return;
-  const calendem::BondAction last =
-      calendem::action(loads, bridge.tension, bridge.motion, calendem::BondDamping());
+  const calendem::BondAction last = bridge.action(loads);
   if (WorkLedger *ledger = WorkLedger::find(lmp)) {
     ledger->force_ends(i, {last.force, last.torque_i});
     ledger->shrinking_ends(bridge.tension * bridge.bond.length());
   }
-  bonds_->bridge_breaks_on_wall(i,
-                                calendem::strain_energy(loads, bridge.tension, bridge.stiffness));
+  bonds_->bridge_breaks_on_wall(i, bridge.strain_energy(loads));
   bridge.bond.set_state(kBrokenSeparated);
   bridge.bond.set_loads({});
 }
@@ -162,7 +152,7 @@ double WallBridges::strain_energy() const {
   for (int i = 0; i < atom->nlocal; ++i)
     if (stands(i)) {
       const Bridge bridge(*this, i);
-      sum += calendem::strain_energy(bridge.bond.loads(), bridge.tension, bridge.stiffness);
+      sum += bridge.strain_energy(bridge.bond.loads());
     }
   return sum;
 }

@@ -67,7 +67,7 @@ private:
 };
 
 /// A contact law between some phases, with the settings of the effect as its properties, in order.
-struct ContactAction {
+struct LawBetween {
   const ContactLaw *law = nullptr;
   std::vector<std::pair<Phase, Phase>> between; ///< either way round
 };
@@ -97,7 +97,7 @@ struct Effect {
   /// Keys of its own, the one that `parameter` moves first; none: it moves the base model's.
   std::vector<Key> settings;
   EffectParameter parameter;
-  ContactAction contact;                     ///< if it is a law of contacts
+  LawBetween contact;                        ///< if it is a law of contacts
   std::string bond_law;                      ///< of fix bond/bpm, which takes the settings in order
   double PressInstruments::*shown = nullptr; ///< what of the press's instruments it sets
   /// Only what the press shows changes: no run of its own is needed to know what it does.
