@@ -1,4 +1,4 @@
-# shellcheck shell=bash
+#!/usr/bin/env bash
 # Read by the tests with their arguments BIN CASES WORK: in WORK/model two measured films have calibrated the bank that
 # ships; film.toml is one to predict.
 set -euo pipefail

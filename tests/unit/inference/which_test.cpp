@@ -70,7 +70,7 @@ TEST(Which, TheUnknownIsCalibratedWhereMuchOfItIsTooSmallToBeSeen) {
   settings.priors.unknown = 0.5;
   double expected = 0.0, variance = 0.0;
   int unknown = 0;
-  const int worlds = calendem_test::with_all(300, 100);
+  const int worlds = calendem_test::with_all(300, 200);
   for (int w = 0; w < worlds; ++w) {
     const LinearWorld world(8, 2, 0, std::uint64_t(4100 + w));
     Random random(std::uint64_t(w), 28);
