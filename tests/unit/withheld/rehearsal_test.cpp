@@ -6,6 +6,7 @@
 #include "base/provenance.h"
 #include "diagnose/bank/bank_table.h"
 #include "support/test_folder.h"
+#include "support/with_all.h"
 #include "withheld/rehearsal.h"
 #include <algorithm>
 #include <cmath>
@@ -39,6 +40,7 @@ RehearsalOptions part_of_shipped(int packings, const std::filesystem::path &fold
 // in a bank. Strong enough to be distinguished from none it is the most probable, or something
 // unknown is that acts like it; at three times that strength it is the most probable.
 TEST(Rehearsal, EveryPackingIsLeftOutOnce) {
+  CALENDEM_RUNS_WITH_ALL();
   const auto folder = calendem_test::test_folder();
   RehearsalOptions o = part_of_shipped(7, folder);
   rehearse(o);
@@ -106,6 +108,8 @@ TEST(Rehearsal, DrawnSamplesAreWhatTheBankPredicts) {
   rehearse(o);
   EXPECT_EQ(text_of_file(o.folder + "/rehearsal.csv"),
             text_of_file((folder / "one/rehearsal.csv").string()));
+  if (!calendem_test::with_all(1, 0))
+    return;
   o.draws = 1;
   const auto drawn_of = [&](double cells) { // of its rows
     o.cells = cells;
