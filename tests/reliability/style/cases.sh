@@ -66,7 +66,7 @@ rooms_of_the_plugin() { # a room knows those before it; no unit (a header and it
   local rooms=(base bonds pairs walls ledger output) room later known="" name
   local -A room_of
   for room in "${rooms[@]}"; do
-    while read -r name; do room_of[$name]=$room; done < <(cd "src_plugin/liggghts/$room" && ls ./*.h | sed 's|^./||')
+    while read -r name; do room_of[$name]=$room; done < <(find "src_plugin/liggghts/$room" -name '*.h' -printf '%f\n')
   done
   find src_plugin/liggghts -mindepth 1 -maxdepth 1 -printf '%f\n' | without "^($(IFS='|'; echo "${rooms[*]}"))$" |
     report "src_plugin/liggghts has no other rooms than ${rooms[*]}" || exit 1
@@ -105,7 +105,27 @@ formatted() {
 bodies_are_short() { # at once, for all files; clang-tidy counts too, but reads few of them unless asked for all
   cxx_files | xargs awk -f tests/reliability/style/long_bodies.awk | report "bodies of more than 60 lines"
 }
-# clang-tidy on all headers and, as a source takes it some seconds, on twelve of the sources that the last commit
+# compile_commands.json of BUILD, with each source of a file that CMake made of several (UNITY_BUILD) by itself.
+write_commands_of_sources() { # BUILD FOLDER
+  mkdir -p "$2"
+  awk '
+    /^  "command"/ { command = $0 }
+    /^  "file": ".*\/unity_[0-9]+_cxx\.cxx"/ {
+      split($0, part, "\""); unity = part[4]; n = 0
+      while ((getline line < unity) > 0)
+        if (split(line, include, "\"") == 3) {
+          by_itself = command
+          sub(" -c .*", " -c " include[2] "\",", by_itself)
+          entries[++n] = by_itself "\n  \"file\": \"" include[2] "\""
+        }
+      for (k = 1; k < n; ++k) printf "%s\n},\n{\n%s", entries[k], directory
+      print entries[n]; next }
+    /^  "directory"/ { directory = $0 "\n"; printf "%s", directory; next }
+    /^  "command"/ { next }
+    /^  "file"/ { print command }
+    { print }' "$1/compile_commands.json" >"$2/compile_commands.json"
+}
+# clang-tidy on all headers and, as a source takes it some seconds, on six of the sources that the last commit
 # or the work since has changed; with CALENDEM_HEAVY=1 on every source: some ten minutes on two idle cores. The
 # adapters, which are built in the host's tree, keep the host's manner: NULL, no override.
 tidy() { # BUILD: where compile_commands.json is
@@ -114,12 +134,13 @@ tidy() { # BUILD: where compile_commands.json is
   local run=(clang-tidy --quiet --config-file=.clang-tidy) each=(xargs -r -n 1 -P "$(nproc)") headers=$1/all_headers.cpp
   local sources failed=0
   all_headers >"$headers"
+  write_commands_of_sources "$1" "$1/tidy"
   "${run[@]}" "$headers" -- "${header_options[@]}" || { echo "FAILED: clang-tidy on the headers"; exit 1; }
   if [ "${CALENDEM_HEAVY:-0}" = 1 ]; then sources=$(cxx_files | matching '\.cpp$')
-  else sources=$(git diff --name-only --diff-filter=d HEAD~1 -- '*.cpp' 2>/dev/null | head -n 12 || true); fi
-  without '^src_plugin/liggghts/' <<<"$sources" | "${each[@]}" "${run[@]}" -p "$1" || failed=1
+  else sources=$(git diff --name-only --diff-filter=d HEAD~1 -- '*.cpp' 2>/dev/null | head -n 6 || true); fi
+  without '^src_plugin/liggghts/' <<<"$sources" | "${each[@]}" "${run[@]}" -p "$1/tidy" || failed=1
   sed -n "s|^src_plugin/liggghts/[a-z]*/|$1/host/src/|p" <<<"$sources" |
-    "${each[@]}" "${run[@]}" -p "$1" '--checks=-modernize-*' || failed=1
+    "${each[@]}" "${run[@]}" -p "$1/tidy" '--checks=-modernize-*' || failed=1
   [ $failed -eq 0 ] || { echo "FAILED: the files named above; see .clang-tidy"; exit 1; }
 }
 shell_is_clean() {

@@ -15,12 +15,12 @@ namespace {
 
 using namespace calendem;
 
-const std::string kBank = CALENDEM_CASES "/bank/bank.toml";
+const std::string kShippedBank = CALENDEM_CASES "/bank/bank.toml";
 
 /// Of the shipped bank's first 48 base points, three to a packing, and its first 16 runs of
 /// friction, one to a packing, those of packings 1 to `packings`.
 RehearsalOptions part_of_shipped(int packings, const std::filesystem::path &folder) {
-  BankTable table = read_bank_table(read_bank_spec(kBank), CALENDEM_CASES "/bank/bank.csv");
+  BankTable table = read_bank_table(read_bank_spec(kShippedBank), CALENDEM_CASES "/bank/bank.csv");
   table.rows.erase(std::remove_if(table.rows.begin(), table.rows.end(),
                                   [&](const BankRow &row) {
                                     const bool on = !row.point.effect.empty();
@@ -29,7 +29,8 @@ RehearsalOptions part_of_shipped(int packings, const std::filesystem::path &fold
                                            (on && row.point.effect != "friction");
                                   }),
                    table.rows.end());
-  const RehearsalOptions o = {kBank, (folder / "part.csv").string(), (folder / "one").string()};
+  const RehearsalOptions o = {kShippedBank, (folder / "part.csv").string(),
+                              (folder / "one").string()};
   write_file(o.table, write_bank_table(table));
   return o;
 }

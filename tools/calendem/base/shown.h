@@ -9,6 +9,8 @@
 
 namespace calendem {
 
+inline constexpr double kPercent = 100.0; ///< shares are kept as fractions and shown in percent
+
 /// A JSON number in that format: with a minus, not a hyphen, and a power of ten instead of an
 /// exponent ("4.1·10⁻⁸"); a dash where it is none.
 std::string shown(const nlohmann::json &number, const char *format);

@@ -2,6 +2,7 @@
 // What measured films say of the material.
 #include "base/output_folder.h"
 #include "base/provenance.h"
+#include "base/shown.h"
 #include "commands/commands.h"
 #include "commands/films_asked.h"
 #include <CLI/CLI.hpp>
@@ -12,8 +13,6 @@
 
 namespace calendem {
 namespace {
-
-constexpr double kPercent = 100.0;
 
 struct CalibrateOptions {
   std::vector<std::string> experiments;
@@ -82,7 +81,7 @@ void say_effects(const FilmBank &bank, const Calibration &c) {
   }
 }
 
-std::string in_words(const LeftOut &r) {
+std::string film_in_words(const LeftOut &r) {
   return fmt::format(
       "  {:<36} {:4.0f} MPa  measured {:.1f}, predicted {:.1f} (90 %: {:.1f} to {:.1f})", r.film,
       r.pressure, kPercent * r.measured, kPercent * r.predicted.median,
@@ -95,11 +94,11 @@ void say(const FilmBank &bank, const Calibration &c, const std::vector<LeftOut> 
     fmt::print("each film left out in turn: porosity after release, %\n");
   for (const LeftOut &r : rows)
     if (r.number == FilmNumber::PorosityAfter)
-      fmt::print("{}, Heckel {:.1f}, Meyer {:.1f}\n", in_words(r), kPercent * r.rules.at("Heckel"),
-                 kPercent * r.rules.at("Meyer"));
+      fmt::print("{}, Heckel {:.1f}, Meyer {:.1f}\n", film_in_words(r),
+                 kPercent * r.rules.at("Heckel"), kPercent * r.rules.at("Meyer"));
   for (const LeftOut &r : rows)
     if (r.number != FilmNumber::PorosityAfter)
-      fmt::print("{}, {}, %\n", in_words(r), reading_in_words(name_of(r.number)));
+      fmt::print("{}, {}, %\n", film_in_words(r), reading_in_words(name_of(r.number)));
 }
 
 void run_calibrate(const CalibrateOptions &o) {

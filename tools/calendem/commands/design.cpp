@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/output_folder.h"
 #include "base/provenance.h"
+#include "base/shown.h"
 #include "commands/commands.h"
 #include "commands/films_asked.h"
 #include <fmt/format.h>
 
 namespace calendem {
 namespace {
-
-constexpr double kPercent = 100.0;
 
 struct DesignOptions : FilmOptions {
   double porosity = 0.0, within = 1.0, cracked_below = 100.0, tortuosity_below = kMostTortuosity;

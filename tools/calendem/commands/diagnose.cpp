@@ -13,7 +13,7 @@
 namespace calendem {
 namespace {
 
-struct Options {
+struct DiagnoseOptions {
   std::string experiment, before, folder, bank, table;
   std::vector<std::string> without;
   double cells = 0.0; // 0: from the sample's diameter
@@ -74,7 +74,7 @@ void print_images(const nlohmann::ordered_json &shrink) {
 }
 
 /// The third part: adds "shrink" to gap.json once the models have run again.
-void run_models_again(Options &o, const Experiment &experiment, const BankTable &table,
+void run_models_again(DiagnoseOptions &o, const Experiment &experiment, const BankTable &table,
                       Diagnosed &d) {
   if (o.no_rerun || !o.before.empty())
     return;
@@ -100,8 +100,8 @@ void run_models_again(Options &o, const Experiment &experiment, const BankTable 
 }
 
 /// What further measurements would give under each explanation that is left.
-void simulate_measurements(const Options &o, const Experiment &experiment, const BankTable &table,
-                           Diagnosed &d) {
+void simulate_measurements(const DiagnoseOptions &o, const Experiment &experiment,
+                           const BankTable &table, Diagnosed &d) {
   if (o.next_packings == 0)
     return;
   const std::vector<RerunModel> models = models_to_part(d);
@@ -147,7 +147,8 @@ std::vector<std::string> other_samples(const Experiment &e) {
 }
 
 /// A bank says nothing of another electrode.
-std::string of_another_electrode(const Options &o, const Experiment &e, const BankSpec &bank) {
+std::string of_another_electrode(const DiagnoseOptions &o, const Experiment &e,
+                                 const BankSpec &bank) {
   const std::string text = other_than_bank(e, bank);
   if (text.empty())
     return "";
@@ -159,7 +160,7 @@ std::string of_another_electrode(const Options &o, const Experiment &e, const Ba
   return text + ": what follows holds as far as that does not matter.";
 }
 
-void run(Options o) {
+void run(DiagnoseOptions o) {
   if (o.table.empty())
     o.table = std::filesystem::path(o.bank).replace_extension("csv").string();
   const Experiment experiment = read_experiment(o.experiment);
@@ -196,7 +197,7 @@ void run(Options o) {
 } // namespace
 
 void add_diagnose_verb(CLI::App &app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<DiagnoseOptions>();
   o->bank = input_scripts() + "/cases/bank/bank.toml";
   o->rerun.study.liggghts = liggghts_program();
   CLI::App *verb = app.add_subcommand(

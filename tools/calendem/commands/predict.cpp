@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/output_folder.h"
 #include "base/provenance.h"
+#include "base/shown.h"
 #include "commands/commands.h"
 #include "commands/films_asked.h"
 #include "predict/by_gap.h"
@@ -8,8 +9,6 @@
 
 namespace calendem {
 namespace {
-
-constexpr double kPercent = 100.0;
 
 std::vector<PredictedFilm> by_emulators(const AskedFilms &a, const FilmOptions &o) {
   std::vector<PredictedFilm> films;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kAnyWhole = 1e9; // no limit that a reader needs
 
-constexpr const char *kMade =
+constexpr const char *kMadePage =
     "<!-- Made from the rows of the program by `calendem registry`; not to be edited. -->\n\n";
 
 std::string table_of(const Key &key) {
@@ -27,7 +27,7 @@ std::string table_of(const Key &key) {
 
 std::string in_table(const Key &key) { return key.name.substr(key.name.rfind('.') + 1); }
 
-std::string default_of(const Key &key) {
+std::string default_on_page(const Key &key) {
   if (!key.same_as.empty())
     return fmt::format("that of `{}`", key.same_as);
   if (key.fallback == "-" || key.fallback == "none")
@@ -77,8 +77,8 @@ std::string in_cell(std::string text) {
 const char *const kHead = "| key | default | range | meaning |\n|---|---|---|---|\n";
 
 std::string row(const Key &key) {
-  return fmt::format("| `{}` | {} | {} | {} |\n", in_table(key), default_of(key), range_of(key),
-                     in_cell(typeset(key.meaning)));
+  return fmt::format("| `{}` | {} | {} | {} |\n", in_table(key), default_on_page(key),
+                     range_of(key), in_cell(typeset(key.meaning)));
 }
 
 /// A heading and a table for each TOML table of the keys.
@@ -96,7 +96,7 @@ std::string tables(const std::vector<Key> &keys) {
 }
 
 std::string page(const std::string &title, const std::string &text, const std::string &rest) {
-  return kMade + fmt::format("# {}\n\n{}\n{}", title, text, rest);
+  return kMadePage + fmt::format("# {}\n\n{}\n{}", title, text, rest);
 }
 
 std::string case_page() {

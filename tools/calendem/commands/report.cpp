@@ -18,7 +18,7 @@
 namespace calendem {
 namespace {
 
-struct Options {
+struct CompareOptions {
   std::string experiment, folder = "gap";
   std::vector<std::string> runs;
 };
@@ -37,7 +37,7 @@ void print_rows(const std::vector<Residual> &rows) {
                name(r), width, r.measured, r.simulated, r.residual, r.z, 100.0 * r.share);
 }
 
-void compare(const Options &o) {
+void compare(const CompareOptions &o) {
   const Experiment experiment = read_experiment(o.experiment);
   std::vector<SimulatedRun> runs;
   Mistakes mistakes;
@@ -66,7 +66,7 @@ void compare(const Options &o) {
 } // namespace
 
 void add_compare_verb(CLI::App &app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<CompareOptions>();
   CLI::App *verb = app.add_subcommand(
       "compare", "Compare runs with an experiment: every residual with its uncertainty");
   verb->add_option("EXPERIMENT", o->experiment, "experiment file (TOML)")->required();

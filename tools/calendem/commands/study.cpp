@@ -22,7 +22,7 @@ namespace calendem {
 
 namespace {
 
-struct Options {
+struct BankOptions {
   StudyOptions study;
   bool full_cell = false;
   std::vector<std::string> from; ///< tables whose runs are taken
@@ -39,7 +39,7 @@ struct Part {
 };
 
 /// The bank's runs but for those that `rows` have; for another electrode only those on its cell.
-std::vector<Part> parts_of(const BankSpec &spec, const Options &o,
+std::vector<Part> parts_of(const BankSpec &spec, const BankOptions &o,
                            const std::vector<BankRow> &rows) {
   StudyOptions options = o.study;
   for (const std::string &table : o.from)
@@ -89,7 +89,7 @@ void write_table(const BankSpec &spec, const std::vector<Part> &parts, const std
 
 /// Rows of the tables, each once; of a bank that stands for another electrode all but those of its
 /// own cell.
-std::vector<BankRow> rows_from(const Options &o, const BankSpec &spec) {
+std::vector<BankRow> rows_from(const BankOptions &o, const BankSpec &spec) {
   std::vector<BankRow> rows;
   std::set<std::tuple<std::string, int, std::string, double>> had;
   for (const std::string &table : o.from)
@@ -103,7 +103,7 @@ std::vector<BankRow> rows_from(const Options &o, const BankSpec &spec) {
   return rows;
 }
 
-void print(const RunChoice &choice, const Options &o, const std::string &table) {
+void print(const RunChoice &choice, const BankOptions &o, const std::string &table) {
   fmt::print("{} of {} points chosen for {} (a sample of {:.3g} cells); learnt from {}\n"
              "  {:<22} {:>6} {:>7} {:>12} {:>20}\n",
              choice.chosen.size(), o.choose, o.experiment, choice.cells, table, "effect", "points",
@@ -122,7 +122,7 @@ void print(const RunChoice &choice, const Options &o, const std::string &table) 
 }
 
 /// Chosen for what they tell about an experiment: nothing is run.
-void choose_points_of(const Options &o, const BankSpec &spec) {
+void choose_points_of(const BankOptions &o, const BankSpec &spec) {
   const std::string file = o.study.folder + "/chosen.csv", own = o.study.folder + "/bank.csv",
                     table = std::filesystem::is_regular_file(own) ? own : table_of(spec);
   must_be_ours(file, "effect,base_point,value");
@@ -146,7 +146,7 @@ void choose_points_of(const Options &o, const BankSpec &spec) {
              table);
 }
 
-void make_bank(const Options &o) {
+void make_bank(const BankOptions &o) {
   const BankSpec spec = read_bank_spec(o.study.file);
   if (o.choose > 0)
     return choose_points_of(o, spec);
@@ -187,7 +187,7 @@ void make_bank(const Options &o) {
 } // namespace
 
 void add_bank_verb(CLI::App &app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<BankOptions>();
   CLI::App *verb =
       app.add_subcommand("bank", "Make the simulations that diagnose or calibrate learns from");
   verb->add_option("BANK", o->study.file, "bank (TOML)")->required();

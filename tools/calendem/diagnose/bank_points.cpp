@@ -41,9 +41,9 @@ std::vector<double> pressures_of(const std::string &effect, const BankTable &tab
   return out;
 }
 
-namespace {
-
 SimulatedRun as_it_is(const SimulatedRun &run) { return run; }
+
+namespace {
 
 /// By effect and number of the base point.
 using Points = std::map<std::pair<std::string, int>, PointRuns>;

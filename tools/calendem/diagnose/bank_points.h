@@ -70,6 +70,9 @@ using PointRuns = std::vector<const BankRow *>;
 /// How a press shows a run.
 using Shows = std::function<SimulatedRun(const SimulatedRun &)>;
 
+/// A press that shows a run as it is.
+SimulatedRun as_it_is(const SimulatedRun &run);
+
 /// What a condition needs a run to: a pressure [MPa], in that way of pressing.
 struct PressedTo {
   double pressure = 0.0;

@@ -47,7 +47,6 @@ void add_instrument(const Effect &effect, std::uint64_t seed, double film, const
       const double value = effect.parameter.value(amplitude);
       const double on_film = value * film; // micrometres do not grow with a film
       const auto see = [&](const SimulatedRun &r) { return shown_with(effect, on_film, other(r)); };
-      const auto as_it_is = [](const SimulatedRun &r) { return r; };
       inference::BankRun run =
           bank_run(points[k], values_of(all, points[k], as_it_is) + values_of(all, points[k], see) -
                                   values_of(all, points[k], other));
@@ -261,7 +260,6 @@ void fill_bank(double film, const OtherFilm &other, const BankTable &table,
                inference::Bank &bank) {
   for (const BankParameter &p : table.spec.parameters)
     bank.base.push_back({p.name, prior_of(p.spread, p.low, p.high), false});
-  const auto as_it_is = [](const SimulatedRun &r) { return r; };
   for (const PointRuns &runs : points)
     bank.runs.push_back(bank_run(runs, values_of(all, runs, as_it_is)));
   thin_out(film, points, bank);

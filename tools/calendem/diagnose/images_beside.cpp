@@ -12,18 +12,18 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct Packings {
+struct PackingMoments {
   double mean = 0.0, squares = 0.0; ///< squares: sum of squared deviations
   int count = 0;
 };
 
-Packings packings_of(const std::vector<SimulatedRun> &runs, const Condition &c,
-                     const std::function<double(const SimulatedRun &)> &value) {
+PackingMoments packings_of(const std::vector<SimulatedRun> &runs, const Condition &c,
+                           const std::function<double(const SimulatedRun &)> &value) {
   std::vector<double> values;
   for (const SimulatedRun &r : runs)
     if (pressed_as(r, c))
       values.push_back(value(r));
-  Packings out;
+  PackingMoments out;
   out.count = int(values.size());
   for (const double v : values)
     out.mean += v / out.count;
@@ -46,7 +46,7 @@ std::string why_none(const Observable &o, const Condition &c,
 }
 
 ordered_json row_of(const Observable &o, const Condition &c, const std::vector<ModelRuns> &models) {
-  std::vector<Packings> of;
+  std::vector<PackingMoments> of;
   double squares = 0.0;
   int degrees = 0;
   for (const ModelRuns &m : models) {

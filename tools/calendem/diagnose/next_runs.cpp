@@ -46,7 +46,7 @@ double hours_of(const BankSpec &bank, const std::string &name) {
   return std::nan("");
 }
 
-std::string text_of(double value) { return fmt::format("{:.6g}", value); }
+std::string in_six_digits(double value) { return fmt::format("{:.6g}", value); }
 
 SimulatedReading reading_of(const std::vector<double> &values) {
   SimulatedReading out;
@@ -148,10 +148,10 @@ Study next_study(const BankSpec &spec, const std::vector<RerunModel> &models,
           continue;
         std::vector<std::string> row = model_values(spec, m, k, film);
         for (const auto &[key, value] : further)
-          row.push_back(text_of(n.changed.count(key) > 0 ? n.changed.at(key) : value));
+          row.push_back(in_six_digits(n.changed.count(key) > 0 ? n.changed.at(key) : value));
         if (const auto loading = n.changed.find(kLoading); varied && loading != n.changed.end())
           row[std::size_t(std::find(study.columns.begin(), study.columns.end(), kLoading) -
-                          study.columns.begin())] = text_of(loading->second);
+                          study.columns.begin())] = in_six_digits(loading->second);
         rows.push_back(row);
       }
   Mistakes mistakes(spec.file, 20);

@@ -13,7 +13,7 @@ namespace calendem {
 using inference::Matrix;
 namespace {
 
-std::string text_of(double value) { return fmt::format("{:.4g}", value); }
+std::string in_four_digits(double value) { return fmt::format("{:.4g}", value); }
 
 /// The models as runs: for each, the packings; for each packing, the held-out pressings.
 Study study_of(const BankTable &table, const std::vector<RerunModel> &models,
@@ -187,13 +187,13 @@ std::vector<std::string> model_values(const BankSpec &spec, const RerunModel &m,
                                       double film) {
   std::vector<std::string> out = {fmt::format("{}", 100000 + packing)};
   for (std::size_t p = 0; p < spec.parameters.size(); ++p)
-    out.insert(out.end(), spec.parameters[p].keys.size(), text_of(m.base[p]));
+    out.insert(out.end(), spec.parameters[p].keys.size(), in_four_digits(m.base[p]));
   for (const std::string &name : spec.effects) {
     const EffectParameter &p = find_effect(name).parameter;
     const double on_film = find_effect(name).instrument ? film : 1.0;
     const auto on = m.effect.find(name);
     out.insert(out.end(), p.keys.size(),
-               on == m.effect.end() ? p.off : text_of(on_film * on->second));
+               on == m.effect.end() ? p.off : in_four_digits(on_film * on->second));
   }
   return out;
 }

@@ -12,8 +12,6 @@ using inference::Vector;
 
 namespace {
 
-SimulatedRun as_it_is(const SimulatedRun &run) { return run; }
-
 /// Of the base model and of the full cell, by base point and then effect.
 std::map<int, std::map<std::string, PointRuns>> runs_of_both(const BankTable &bank) {
   std::map<int, std::map<std::string, PointRuns>> out;

@@ -3,14 +3,13 @@
 #ifndef CALENDEM_PREDICT_FILM_CHARTS_H
 #define CALENDEM_PREDICT_FILM_CHARTS_H
 
+#include "base/shown.h"
 #include "predict/prediction.h"
 #include "report/page.h"
 #include <string>
 #include <vector>
 
 namespace calendem {
-
-inline constexpr double kPercent = 100.0;
 
 /// One part of the bands, times a scale.
 std::vector<double> part_of(const std::vector<Band> &bands, double Band::*part, double scale);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/shown.h"
 #include "report/plots.h"
 
 #include <algorithm>
@@ -9,8 +10,6 @@ namespace calendem::report {
 namespace {
 
 using Columns = std::map<std::string, Column>;
-
-constexpr double kPercent = 100;
 
 Chart axes(const char *id, const std::string &title, const char *x_label, const char *y_label) {
   Chart chart;

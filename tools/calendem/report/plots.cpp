@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "report/plots.h"
+#include "base/shown.h"
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -8,11 +9,15 @@
 #include "report/tables.h"
 
 namespace calendem::report {
+
+std::string prefix(const std::vector<Run> &runs, const Run &run) {
+  return runs.size() == 1 ? "" : run.name + ": ";
+}
+
 namespace {
 
 const char *const kBlue = "#0064b0", *const kRed = "#c8321e", *const kGreen = "#00845a";
 const char *const kBlack = "#222222";
-constexpr double kPercent = 100;
 constexpr double kThreshold = 5;      // MPa: above it a run must be quasi-static ...
 constexpr double kImbalanceLimit = 5; // ... to this many percent
 
@@ -28,10 +33,6 @@ Look look_of(const std::vector<Run> &runs, std::size_t i) {
   if (runs.size() == 1)
     return {nullptr, Symbol::none};
   return {kSeriesColours[i % kSeriesColours.size()], kSeriesSymbols[i % kSeriesSymbols.size()]};
-}
-
-std::string prefix(const std::vector<Run> &runs, const Run &run) {
-  return runs.size() == 1 ? "" : run.name + ": ";
 }
 
 Series line(const std::string &name, Column x, Column y, const char *colour,

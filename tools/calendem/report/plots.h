@@ -10,6 +10,9 @@
 
 namespace calendem::report {
 
+/// Before the name of a line: the run, where there are several.
+std::string prefix(const std::vector<Run> &runs, const Run &run);
+
 std::vector<Chart> plots_of(const std::vector<Run> &runs);
 
 /// Histogram of the bodies' sphericity, from electrode.json; no series when that has none.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/shown.h"
 #include "report/plots.h"
 #include "report/tables.h"
 #include <cmath>
@@ -8,8 +9,6 @@ namespace calendem::report {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kPercent = 100;
 
 struct MomentLook {
   const char *moment, *shown, *colour, *dash;
@@ -45,12 +44,12 @@ double at(const json &object, const std::string &pointer) {
   return object.contains(place) && object[place].is_number() ? object[place].get<double>() : NAN;
 }
 
-struct Quantity {
+struct StructureQuantity {
   const char *name, *place;
   double factor;
   int decimals;
 };
-const Quantity kQuantities[] = {
+const StructureQuantity kStructureQuantities[] = {
     {"Pressure, MPa", "/pressure_MPa", 1, 1},
     {"Thickness, µm", "/thickness_um", 1, 2},
     {"Porosity total, %", "/porosity_total", kPercent, 2},
@@ -121,7 +120,7 @@ json structure_table(const Run &run) {
     for (const auto &look : kMoments)
       if (moment.value("moment", "") == look.moment)
         table["moments"].push_back(look.shown);
-  for (const Quantity &q : kQuantities) {
+  for (const StructureQuantity &q : kStructureQuantities) {
     json cells = json::array();
     bool any = false;
     for (const json &moment : moments) {

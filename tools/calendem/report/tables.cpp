@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/tables.h"
 #include "base/csv_table.h"
+#include "base/shown.h"
 #include "report/page.h"
 #include <algorithm>
 #include <cmath>
@@ -16,7 +17,6 @@ namespace {
 using nlohmann::json;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kPercent = 100;
 constexpr double kImbalanceThreshold = 5; // MPa
 /// A run compares with a row of Table 1 when its maximum pressure is this close to the row's.
 constexpr double kSamePressure = 0.02;

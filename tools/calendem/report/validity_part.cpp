@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/shown.h"
 #include "report/plots.h"
 
 #include <cmath>
@@ -11,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kPercent = 100, kPerMille = 1000;
+constexpr double kPerMille = 1000;
 constexpr double kUnderLoad = 5; // MPa
 
 struct RangeLimit {
@@ -31,12 +32,12 @@ const Kind kKinds[] = {{"all", "all"},
                        {"wall", "platen and collector"},
                        {"inside_bodies", "inside bodies, not in all"}};
 
-struct Quantity {
+struct ContactQuantity {
   const char *key;
   double factor;
   int decimals;
 };
-const Quantity kQuantities[] = {
+const ContactQuantity kContactQuantities[] = {
     {"contacts", 1, 0},
     {"force_nN", 1e-6, 2},
     {"overlap_mean", 1, 3},
@@ -64,10 +65,6 @@ Series before_release(const Run &run, const char *column, double factor, double 
 void set_look(Series &series, const std::vector<Run> &runs, std::size_t run, const char *colour) {
   series.colour = runs.size() == 1 ? colour : kSeriesColours[run % kSeriesColours.size()];
   series.symbol = runs.size() == 1 ? Symbol::none : kSeriesSymbols[run % kSeriesSymbols.size()];
-}
-
-std::string prefix(const std::vector<Run> &runs, const Run &run) {
-  return runs.size() == 1 ? "" : run.name + ": ";
 }
 
 } // namespace
@@ -129,7 +126,7 @@ json validity_table(const Run &run) {
   for (const Kind &kind : kKinds) {
     const json of_kind = at_max.value(kind.key, json::object());
     json cells = json::array();
-    for (const Quantity &q : kQuantities) {
+    for (const ContactQuantity &q : kContactQuantities) {
       const auto found = of_kind.find(q.key);
       const bool known = found != of_kind.end() && found->is_number();
       cells.push_back({{"value", known ? *found : json(nullptr)},

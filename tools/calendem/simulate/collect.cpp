@@ -195,7 +195,7 @@ std::map<long, std::vector<double>> rows_by_step(const std::string &file, std::s
 std::vector<RawRow> read_raw(const std::string &file) {
   std::vector<RawRow> out;
   for (const auto &[step, row] : rows_by_step(file, kRawColumns))
-    std::memcpy(&out.emplace_back(), row.data(), kRawColumns * sizeof(double));
+    std::memcpy(static_cast<void *>(&out.emplace_back()), row.data(), kRawColumns * sizeof(double));
   return out;
 }
 

@@ -20,7 +20,8 @@ HiddenChange set(const char *name, const char *what, std::vector<ChangedKey> key
   return h;
 }
 
-HiddenChange shown(const char *name, const char *what, double HiddenChange::*by, double size) {
+HiddenChange shown_otherwise(const char *name, const char *what, double HiddenChange::*by,
+                             double size) {
   HiddenChange h{name, what};
   h.*by = size;
   return h;
@@ -127,25 +128,26 @@ Changes of_the_press() {
   return {
       scaled("soft_foil", "a collector as soft as a polymer",
              {"case.material.collector.youngs_modulus_GPa"}, 0.05),
-      shown("displacement_scale", "displacements shown are 8 % too large",
-            &HiddenChange::displacement_factor, 1.08),
-      shown("pressure_offset", "the press shows 4 MPa too much", &HiddenChange::pressure_offset_MPa,
-            4.0),
-      shown("frame_hysteresis", "the frame springs back late", &HiddenChange::release_shift_um,
-            0.3),
-      shown("drift", "the displacement drifts while it is recorded", &HiddenChange::drift_um, 0.4),
+      shown_otherwise("displacement_scale", "displacements shown are 8 % too large",
+                      &HiddenChange::displacement_factor, 1.08),
+      shown_otherwise("pressure_offset", "the press shows 4 MPa too much",
+                      &HiddenChange::pressure_offset_MPa, 4.0),
+      shown_otherwise("frame_hysteresis", "the frame springs back late",
+                      &HiddenChange::release_shift_um, 0.3),
+      shown_otherwise("drift", "the displacement drifts while it is recorded",
+                      &HiddenChange::drift_um, 0.4),
       scaled("soft_platen", "a roll with a cover of polymer",
              {"case.material.platen.youngs_modulus_GPa"}, 0.003),
-      shown("short_displacement", "displacements shown are 6 % too small",
-            &HiddenChange::displacement_factor, 0.94),
-      shown("pressure_shown_low", "the press shows 4 MPa too little",
-            &HiddenChange::pressure_offset_MPa, -4.0),
-      shown("release_slip", "the displacement slips when the release begins",
-            &HiddenChange::release_shift_um, -0.3),
-      shown("drift_back", "the displacement drifts back while it is recorded",
-            &HiddenChange::drift_um, -0.4),
-      shown("frame_springs_far", "the frame springs back by half a micrometre too late",
-            &HiddenChange::release_shift_um, 0.5),
+      shown_otherwise("short_displacement", "displacements shown are 6 % too small",
+                      &HiddenChange::displacement_factor, 0.94),
+      shown_otherwise("pressure_shown_low", "the press shows 4 MPa too little",
+                      &HiddenChange::pressure_offset_MPa, -4.0),
+      shown_otherwise("release_slip", "the displacement slips when the release begins",
+                      &HiddenChange::release_shift_um, -0.3),
+      shown_otherwise("drift_back", "the displacement drifts back while it is recorded",
+                      &HiddenChange::drift_um, -0.4),
+      shown_otherwise("frame_springs_far", "the frame springs back by half a micrometre too late",
+                      &HiddenChange::release_shift_um, 0.5),
   };
 }
 

@@ -197,7 +197,7 @@ void make_round(const MakeOptions &given) {
 namespace {
 
 constexpr int kRows = 40; // of a curve's branch, even in pressure
-constexpr std::uint64_t kPurpose = 0x401;
+constexpr std::uint64_t kPressStream = 0x401;
 
 /// Mean over the samples; NaN where one of them does not have it.
 template <class Of> double mean(const PressedSamples &samples, const Of &of) {
@@ -212,7 +212,7 @@ class Press {
 public:
   Press(const Round &round, const Truth &truth, std::uint64_t seed)
       : noise_(round.noise), factor_(truth.understated), error_(1.0 + truth.pressure_error),
-        random_(seed, kPurpose) {
+        random_(seed, kPressStream) {
     for (const std::string &name : truth.hidden) {
       const HiddenChange &h = *find_hidden(name);
       scale_ *= h.displacement_factor;

@@ -23,7 +23,7 @@ namespace calendem {
 namespace {
 
 constexpr int kFewestPackings = 3;
-constexpr std::uint64_t kPurpose = 0x402, kDrawn = 0x403;
+constexpr std::uint64_t kPressureStream = 0x402, kDrawn = 0x403;
 
 using Point = std::pair<std::string, int>; // effect, base point
 
@@ -60,7 +60,8 @@ Experiment sample_of(const std::string &folder, const BankTable &table, const Po
   const auto effect = std::uint64_t(std::find(names.begin(), names.end(), point.first) -
                                     names.begin()); // one seed for each point
   const std::uint64_t seed = std::uint64_t(point.second) * (names.size() + 1) + effect;
-  truth.pressure_error = 0.01 * round.noise.pressure_percent * Random(seed, kPurpose).normal();
+  truth.pressure_error =
+      0.01 * round.noise.pressure_percent * Random(seed, kPressureStream).normal();
   const std::string id =
       fmt::format("{}_{}", point.first.empty() ? "none" : point.first, point.second);
   hand_out(folder + "/samples/" + id, id, round, truth, runs, seed);

@@ -10,14 +10,14 @@
 namespace calendem {
 namespace {
 
-constexpr double kStandsOut = 6.0;  // of the usual distance from neighbours
+constexpr double kJumps = 6.0;      // of the usual distance from neighbours
 constexpr double kSmallJump = 0.01; // of the largest value: never less than that
 
 void add(MeasuredBranch &branch, double p, double d) {
   add_if_higher(branch.pressure, branch.displacement, p, d);
 }
 
-double median(std::vector<double> v) {
+double upper_median(std::vector<double> v) {
   std::nth_element(v.begin(), v.begin() + long(v.size() / 2), v.end());
   return v[v.size() / 2];
 }
@@ -33,15 +33,15 @@ std::vector<bool> standing_out(const std::vector<double> &v,
   for (const double x : v)
     largest = std::max(largest, std::fabs(x));
   for (std::size_t k = 2; k + 2 < v.size(); ++k) {
-    off[k] = std::fabs(v[k] - median({v[k - 2], v[k - 1], v[k], v[k + 1], v[k + 2]}));
+    off[k] = std::fabs(v[k] - upper_median({v[k - 2], v[k - 1], v[k], v[k + 1], v[k + 2]}));
     size.push_back(off[k]);
   }
   if (size.empty())
     return out;
-  const double usual = std::max(1.4826 * median(size), kSmallJump * largest);
+  const double usual = std::max(1.4826 * upper_median(size), kSmallJump * largest);
   const auto turn = std::max_element(v.begin(), v.end()) - v.begin(); // rises and falls steeply
   for (std::size_t k = 0; k < v.size(); ++k)
-    out[k] = off[k] > kStandsOut * usual && std::abs(long(k) - turn) > 2 &&
+    out[k] = off[k] > kJumps * usual && std::abs(long(k) - turn) > 2 &&
              std::none_of(turns.begin(), turns.end(),
                           [&](std::size_t at) { return std::abs(long(k) - long(at)) <= 2; });
   return out;

@@ -8,29 +8,30 @@ namespace calendem::inference {
 namespace {
 
 constexpr double kSaysLess = 0.8; // of the prior's 95 %: a limit above it says little
-constexpr double kCounts = 0.05;  // probability of an effect that belongs to a group
+constexpr double kBelongs = 0.05; // probability of an effect that belongs to a group
 constexpr double kMoved = 0.25;   // of the length of the interval: half of what is on one side
 
-struct Weighted {
+struct WeightedValue {
   double value, weight;
 };
 
-double quantile(const std::vector<Weighted> &sorted, double share) {
+double quantile(const std::vector<WeightedValue> &sorted, double share) {
   double total = 0.0, passed = 0.0;
-  for (const Weighted &w : sorted)
+  for (const WeightedValue &w : sorted)
     total += w.weight;
-  for (const Weighted &w : sorted)
+  for (const WeightedValue &w : sorted)
     if ((passed += w.weight) >= share * total)
       return w.value;
   return sorted.empty() ? std::nan("") : sorted.back().value;
 }
 
-void sort(std::vector<Weighted> &values) {
-  std::stable_sort(values.begin(), values.end(),
-                   [](const Weighted &a, const Weighted &b) { return a.value < b.value; });
+void sort(std::vector<WeightedValue> &values) {
+  std::stable_sort(
+      values.begin(), values.end(),
+      [](const WeightedValue &a, const WeightedValue &b) { return a.value < b.value; });
 }
 
-Range range_of(const std::vector<Weighted> &sorted) {
+Range range_of(const std::vector<WeightedValue> &sorted) {
   return {quantile(sorted, 0.5), quantile(sorted, 0.05), quantile(sorted, 0.95),
           quantile(sorted, 0.025), quantile(sorted, 0.975)};
 }
@@ -47,7 +48,7 @@ double weight_of(const Judged &j) {
 
 /// Draws of one score, as values of its parameter.
 void add_draws(const Matrix &draws, Eigen::Index score, const Prior &prior, double weight,
-               std::vector<Weighted> &to) {
+               std::vector<WeightedValue> &to) {
   for (Eigen::Index k = 0; k < draws.cols(); ++k)
     to.push_back({prior.value(draws(score, k)), weight / double(draws.cols())});
 }
@@ -76,11 +77,11 @@ Eigen::Index score_of(const Problem &problem, const Judged &j, int effect) {
 }
 
 /// Values of a parameter of an effect in all hypotheses in which it acts, sorted.
-std::vector<Weighted> values_of(const Problem &problem, const Which &which, int effect,
-                                int parameter) {
+std::vector<WeightedValue> values_of(const Problem &problem, const Which &which, int effect,
+                                     int parameter) {
   const Prior &prior =
       problem.effects[std::size_t(effect)].parameters[std::size_t(parameter)].prior;
-  std::vector<Weighted> values;
+  std::vector<WeightedValue> values;
   for (const Judged &j : which.judged)
     if (const Eigen::Index score = score_of(problem, j, effect) + parameter;
         has(j, effect) && j.evidence.draws.rows() > score)
@@ -92,7 +93,7 @@ std::vector<Weighted> values_of(const Problem &problem, const Which &which, int 
 EffectRange range_of(const Problem &problem, const Which &which, int effect) {
   const ModelledEffect &e = problem.effects[std::size_t(effect)];
   const Prior &prior = e.parameters[std::size_t(amplitude_of(e))].prior;
-  const std::vector<Weighted> values = values_of(problem, which, effect, amplitude_of(e));
+  const std::vector<WeightedValue> values = values_of(problem, which, effect, amplitude_of(e));
   EffectRange r;
   r.effect = e.name;
   const auto at = which.inclusion.find(e.name);
@@ -124,7 +125,7 @@ std::vector<ParameterRange> parameter_ranges(const std::vector<Parameter> &base,
                                              const Which &which) {
   std::vector<ParameterRange> out;
   for (std::size_t p = 0; p < base.size(); ++p) {
-    std::vector<Weighted> all;
+    std::vector<WeightedValue> all;
     for (const Judged &j : which.judged)
       add_draws(base_draws(j), Eigen::Index(p), base[p].prior, j.probability, all);
     sort(all);
@@ -132,9 +133,9 @@ std::vector<ParameterRange> parameter_ranges(const std::vector<Parameter> &base,
     r.all = range_of(all);
     double farthest = kMoved * (r.all.high95 - r.all.low95);
     for (const Judged &j : which.judged) {
-      if (!j.hypothesis.single() || j.adequacy_p < kCounts)
+      if (!j.hypothesis.single() || j.adequacy_p < kBelongs)
         continue;
-      std::vector<Weighted> here;
+      std::vector<WeightedValue> here;
       add_draws(j.evidence.draws, Eigen::Index(p), base[p].prior, 1.0, here);
       sort(here);
       const Range moved = range_of(here);
@@ -185,7 +186,7 @@ EffectGroup group_of(const Which &which, const std::vector<std::string> &effects
 
 bool counts(const Which &which, const std::string &name) {
   const auto at = which.inclusion.find(name);
-  return at != which.inclusion.end() && at->second + like(which, {name}) >= kCounts;
+  return at != which.inclusion.end() && at->second + like(which, {name}) >= kBelongs;
 }
 
 } // namespace

@@ -9,9 +9,10 @@
 namespace calendem::inference {
 namespace {
 
-constexpr int kCandidates = 16;  // of each draw
-constexpr double kDegrees = 6.0; // of their t distribution: tails heavier than the posterior's
-constexpr int kSteps = 5;        // towards where the posterior is largest
+constexpr int kCandidates = 16; // of each draw
+constexpr double kDegreesBeside =
+    6.0;                  // of their t distribution: tails heavier than the posterior's
+constexpr int kSteps = 5; // towards where the posterior is largest
 
 /// One draw of the unknown, whose base parameters are to be drawn.
 struct Beside {
@@ -55,17 +56,17 @@ Vector middle(const Beside &beside, Vector at) {
 
 Vector one_of(const Beside &beside, const Line &line, Random &random) {
   const auto n = line.mean.size();
-  const boost::math::chi_squared squares(kDegrees);
+  const boost::math::chi_squared squares(kDegreesBeside);
   Matrix all(n, kCandidates);
   Vector weight(kCandidates);
   for (int c = 0; c < kCandidates; ++c) {
     Vector off(n);
     for (double &v : off)
       v = random.normal();
-    off *= std::sqrt(kDegrees / quantile(squares, random.uniform()));
+    off *= std::sqrt(kDegreesBeside / quantile(squares, random.uniform()));
     all.col(c) = line.mean + line.root * off;
     weight[c] = beside.likelihood.log(beside.with(all.col(c))) - 0.5 * all.col(c).squaredNorm() -
-                log_student_t(off.squaredNorm(), 0.0, int(n), kDegrees);
+                log_student_t(off.squaredNorm(), 0.0, int(n), kDegreesBeside);
   }
   weight = (weight.array() - weight.maxCoeff()).exp();
   double left = random.uniform() * weight.sum();

@@ -9,8 +9,8 @@ namespace calendem::inference {
 namespace {
 
 constexpr double kCredible = 0.95;
-constexpr double kCounts = 0.01; // probability of a hypothesis that bears on the claim
-constexpr double kFewest = 30.0; // effective samples of its evidence
+constexpr double kBears = 0.01;         // probability of a hypothesis that bears on the claim
+constexpr double kFewestSamples = 30.0; // effective samples of its evidence
 // Bayes factor below which an effect beside others is excluded: of those that act, drawn from the
 // prior, at most 5 % get so little (Royall, J. Am. Stat. Assoc. 95 (2000) 760); of weak ones more.
 constexpr double kExcluded = 0.05;
@@ -109,7 +109,8 @@ bool rests_on_poor(const std::string &name, const std::vector<std::string> &poor
 /// A hypothesis that counts and whose integral few samples carry.
 const Judged *unsettled(const std::vector<Judged> &judged) {
   for (const Judged &j : judged)
-    if (j.probability > kCounts && j.evidence.samples > 1 && j.evidence.effective_samples < kFewest)
+    if (j.probability > kBears && j.evidence.samples > 1 &&
+        j.evidence.effective_samples < kFewestSamples)
       return &j;
   return nullptr;
 }
@@ -118,7 +119,7 @@ const Judged *unsettled(const std::vector<Judged> &judged) {
 std::string what_acts_alike(const Which &w, const std::string &name) {
   for (const Judged &j : w.judged)
     if (const auto at = j.of_place.find("like " + name);
-        at != j.of_place.end() && at->second * j.probability > kCounts)
+        at != j.of_place.end() && at->second * j.probability > kBears)
       return fmt::format(" An effect outside the table that acts like it has {:.3g}.",
                          at->second * j.probability);
   return "";
@@ -182,7 +183,7 @@ std::string objection(const Which &w, const Lead &lead, const WhichSettings &set
   if (const Judged *few = unsettled(w.judged))
     return fmt::format("The evidence of {} rests on {:.0f} samples that count; at least {:g} are "
                        "asked for.",
-                       few->hypothesis.name, few->evidence.effective_samples, kFewest);
+                       few->hypothesis.name, few->evidence.effective_samples, kFewestSamples);
   if (lead.best->hypothesis.kind == Hypothesis::noise && !settings.noise_seen)
     return fmt::format("Understated errors are the most probable ({:.3g}), but single measurements "
                        "cannot distinguish them from an unknown effect: give a curve with its "
@@ -213,7 +214,7 @@ std::string reason(const Which &w, const Lead &lead) {
     return fmt::format("Probability {:.3g}; the best of what is known fits with p = {:.2g}.",
                        lead.probability, most_adequate(w.judged));
   const double alone = w.of(lead.name).probability;
-  if (lead.probability - alone < kCounts)
+  if (lead.probability - alone < kBears)
     return fmt::format("Probability {:.3g}, adequacy p = {:.2g}.", lead.probability,
                        lead.best->adequacy_p);
   return fmt::format("Probability {:.3g}: {:.3g} alone, the rest together with something else. "

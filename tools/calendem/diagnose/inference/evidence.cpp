@@ -63,7 +63,7 @@ double laplace_evidence(const Peak &peak) {
          0.5 * double(peak.at.size()) * std::log(2.0 * kPi);
 }
 
-struct Weighted {
+struct WeightedPoints {
   Matrix points;
   Vector log_weights;
 };
@@ -74,7 +74,7 @@ double log_mean(const Vector &logs) {
 }
 
 /// Evidence, its error, the share of effective samples and the moments of the posterior.
-void summarise(const std::vector<Weighted> &passes, Evidence &e) {
+void summarise(const std::vector<WeightedPoints> &passes, Evidence &e) {
   Vector each(Eigen::Index(passes.size()));
   e.samples = 0;
   for (Eigen::Index s = 0; s < each.size(); ++s) {
@@ -91,7 +91,7 @@ void summarise(const std::vector<Weighted> &passes, Evidence &e) {
   double sum = 0.0, squares = 0.0;
   e.mean = Vector::Zero(d);
   Matrix second = Matrix::Zero(d, d);
-  for (const Weighted &pass : passes) {
+  for (const WeightedPoints &pass : passes) {
     const Vector w = (pass.log_weights.array() - e.log_evidence).exp();
     sum += w.sum();
     squares += w.squaredNorm();
@@ -104,10 +104,10 @@ void summarise(const std::vector<Weighted> &passes, Evidence &e) {
 }
 
 /// The sample that weighs most: where the proposal lacks a component, if too few count.
-Vector heaviest(const std::vector<Weighted> &passes) {
-  const Weighted *best = nullptr;
+Vector heaviest(const std::vector<WeightedPoints> &passes) {
+  const WeightedPoints *best = nullptr;
   Eigen::Index at = 0, here = 0;
-  for (const Weighted &pass : passes)
+  for (const WeightedPoints &pass : passes)
     if (pass.log_weights.maxCoeff(&here); !best || pass.log_weights[here] > best->log_weights[at]) {
       best = &pass;
       at = here;
@@ -124,13 +124,13 @@ Peak cloud(const Evidence &e) {
 }
 
 /// Systematic resampling: every draw stands for the same share of the weight.
-Matrix resampled(const std::vector<Weighted> &passes, const Evidence &e, int count) {
+Matrix resampled(const std::vector<WeightedPoints> &passes, const Evidence &e, int count) {
   Matrix draws(e.mode.size(), count);
   double total = 0.0, passed = 0.0;
-  for (const Weighted &pass : passes)
+  for (const WeightedPoints &pass : passes)
     total += (pass.log_weights.array() - e.log_evidence).exp().sum();
   int next = 0;
-  for (const Weighted &pass : passes)
+  for (const WeightedPoints &pass : passes)
     for (Eigen::Index k = 0; k < pass.log_weights.size(); ++k) {
       passed += std::exp(pass.log_weights[k] - e.log_evidence) / total;
       while (next < count && (next + 0.5) / count <= passed)
@@ -141,11 +141,11 @@ Matrix resampled(const std::vector<Weighted> &passes, const Evidence &e, int cou
   return draws;
 }
 
-std::vector<Weighted> sample(const Density &density, const Proposal &proposal,
-                             const EvidenceSettings &settings) {
-  std::vector<Weighted> passes;
+std::vector<WeightedPoints> sample(const Density &density, const Proposal &proposal,
+                                   const EvidenceSettings &settings) {
+  std::vector<WeightedPoints> passes;
   for (int s = 0; s < settings.shifts; ++s) {
-    Weighted pass;
+    WeightedPoints pass;
     pass.points = proposal.points(settings.samples, settings.seed + std::uint64_t(s));
     pass.log_weights.resize(pass.points.cols());
     for (Eigen::Index k = 0; k < pass.points.cols(); ++k)

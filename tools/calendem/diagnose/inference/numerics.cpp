@@ -81,8 +81,8 @@ Matrix hessian(const WithGradient &function, const Vector &at, double step) {
 
 namespace {
 
-constexpr std::uint64_t kPurpose = 0x50b01; // of the stream of shifts
-constexpr double kEdge = 1e-12;             // quantiles of 0 and 1 are infinite
+constexpr std::uint64_t kShiftsStream = 0x50b01; // of the stream of shifts
+constexpr double kEdge = 1e-12;                  // quantiles of 0 and 1 are infinite
 
 } // namespace
 
@@ -91,7 +91,7 @@ Matrix sobol_points(int dimension, int count, std::uint64_t shift) {
   if (dimension == 0)
     return points;
   Vector by = Vector::Zero(dimension);
-  Random random(shift, kPurpose);
+  Random random(shift, kShiftsStream);
   for (double &b : by)
     b = shift == 0 ? 0.0 : random.uniform();
   boost::random::sobol sequence(static_cast<std::size_t>(dimension));

@@ -8,7 +8,7 @@
 namespace calendem::inference {
 namespace {
 
-constexpr double kStep = 1e-4; // of differences, in standard deviations of the prior
+constexpr double kScoreStep = 1e-4; // of differences, in standard deviations of the prior
 
 Slopes by_differences(const Problem &problem, const Vector &base, const std::vector<Applied> &on) {
   Vector at = base;
@@ -26,15 +26,15 @@ Slopes by_differences(const Problem &problem, const Vector &base, const std::vec
   for (Eigen::Index j = 0; j < n; ++j) {
     double &moved = *scores[std::size_t(j)];
     const double here = moved;
-    moved = here + kStep;
+    moved = here + kScoreStep;
     const Prediction above = problem.predict(at, with);
-    moved = here - kStep;
+    moved = here - kScoreStep;
     const Prediction below = problem.predict(at, with);
     moved = here;
-    s.mean.col(j) = (above.mean - below.mean) / (2.0 * kStep);
-    s.variance.col(j) = (above.variance - below.variance) / (2.0 * kStep);
+    s.mean.col(j) = (above.mean - below.mean) / (2.0 * kScoreStep);
+    s.variance.col(j) = (above.variance - below.variance) / (2.0 * kScoreStep);
     if (s.scatter.size() > 0)
-      s.scatter.col(j) = (above.scatter - below.scatter) / (2.0 * kStep);
+      s.scatter.col(j) = (above.scatter - below.scatter) / (2.0 * kScoreStep);
   }
   return s;
 }

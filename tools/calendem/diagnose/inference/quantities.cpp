@@ -69,7 +69,7 @@ void check(const ObservableVector &e) {
 
 namespace {
 
-const boost::math::normal kNormal;
+const boost::math::normal kStandardNormal;
 constexpr double kOutermost = 1e-12; // probability beyond which a bounded parameter is its bound
 
 } // namespace
@@ -85,7 +85,7 @@ double Prior::score(double value) const {
   if (kind == normal)
     return (value - a) / b;
   const double share = 0.5 * (scaled(value) + 1.0);
-  return quantile(kNormal, std::clamp(share, kOutermost, 1.0 - kOutermost));
+  return quantile(kStandardNormal, std::clamp(share, kOutermost, 1.0 - kOutermost));
 }
 
 double Prior::scaled(double value) const {
@@ -99,16 +99,16 @@ double Prior::scaled(double value) const {
 double Prior::value_slope(double score) const {
   if (kind == normal)
     return b;
-  return pdf(kNormal, score) * (kind == uniform ? b - a : value(score) * std::log(b / a));
+  return pdf(kStandardNormal, score) * (kind == uniform ? b - a : value(score) * std::log(b / a));
 }
 
 double Prior::scaled_slope(double score) const {
-  return kind == normal ? 0.5 : 2.0 * pdf(kNormal, score);
+  return kind == normal ? 0.5 : 2.0 * pdf(kStandardNormal, score);
 }
 
 double Prior::density(double value) const {
   if (kind == normal)
-    return pdf(kNormal, (value - a) / b) / b;
+    return pdf(kStandardNormal, (value - a) / b) / b;
   return kind == uniform ? 1.0 / (b - a) : 1.0 / (std::clamp(value, a, b) * std::log(b / a));
 }
 

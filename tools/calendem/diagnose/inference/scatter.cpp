@@ -12,7 +12,8 @@ namespace calendem::inference {
 
 namespace {
 
-constexpr double kFewest = 3.0; // degrees of freedom: below, a t distribution has no variance
+constexpr double kFewestDegrees =
+    3.0; // degrees of freedom: below, a t distribution has no variance
 
 using Groups = std::map<int, std::vector<int>>; // runs by packing
 
@@ -43,11 +44,11 @@ Matrix beside_packing(const Matrix &residuals, const Groups &groups, const Matri
 double degrees_of(const GaussianProcess &g, int runs, int packings) {
   const double used = g.parameters_used();
   if (packings == runs)
-    return std::max(kFewest, runs - used);
+    return std::max(kFewestDegrees, runs - used);
   const double between = g.packing_variance() / (g.packing_variance() + g.run_variance());
-  return std::max(
-      kFewest, 1.0 / (between * between / std::max(1.0, packings - 1.0) +
-                      (1.0 - between) * (1.0 - between) / std::max(1.0, runs - packings - used)));
+  return std::max(kFewestDegrees, 1.0 / (between * between / std::max(1.0, packings - 1.0) +
+                                         (1.0 - between) * (1.0 - between) /
+                                             std::max(1.0, runs - packings - used)));
 }
 
 } // namespace

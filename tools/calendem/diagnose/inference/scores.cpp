@@ -9,7 +9,7 @@
 namespace calendem::inference {
 namespace {
 
-constexpr std::uint64_t kPurpose = 0xb007; // of the stream of draws
+constexpr std::uint64_t kDrawsStream = 0xb007; // of the stream of draws
 
 } // namespace
 
@@ -59,7 +59,7 @@ clustered_bootstrap(const std::vector<int> &cluster_of_case,
   std::vector<const std::vector<int> *> clusters;
   for (const auto &m : members)
     clusters.push_back(&m.second);
-  Random random(seed, kPurpose);
+  Random random(seed, kDrawsStream);
   std::vector<double> values;
   for (int d = 0; d < draws; ++d) {
     std::vector<int> cases;

@@ -5,10 +5,10 @@
 namespace calendem::inference {
 namespace {
 
-constexpr double kAlike = 0.85; // cosine: what the two most alike of the table have on a curve
+constexpr double kMostAlike = 0.85; // cosine: what the two most alike of the table have on a curve
 constexpr double kReached = 0.5;
-constexpr double kCounts = 0.01; // probability of a hypothesis that may be claimed
-constexpr double kEnd = 3.0;     // score of the end of a range
+constexpr double kMayBeClaimed = 0.01; // probability of a hypothesis that may be claimed
+constexpr double kEnd = 3.0;           // score of the end of a range
 
 /// The strongest that was run: amplitudes at the end of their ranges, shapes in the middle.
 Applied strongest(const Problem &problem, int effect) {
@@ -34,7 +34,7 @@ void add_rivals(const Problem &problem, const Signatures &signatures, const Appl
     const double reached = end.norm() / signature.norm();
     const double cosine =
         reached > 0.0 ? end.dot(signature) / (end.norm() * signature.norm()) : 0.0;
-    if (cosine >= kAlike && reached < kReached)
+    if (cosine >= kMostAlike && reached < kReached)
       to.push_back({own.name, rival.name, cosine, reached});
   }
 }
@@ -45,7 +45,7 @@ void set_short_runs(Which &w, const Problem &problem) {
   const Signatures signatures(problem, w.base);
   for (Judged &j : w.judged) {
     j.short_runs.clear();
-    if (j.hypothesis.kind == Hypothesis::effects && j.probability >= kCounts)
+    if (j.hypothesis.kind == Hypothesis::effects && j.probability >= kMayBeClaimed)
       for (const Applied &on : applied_at(problem, j.hypothesis, j.evidence.mode))
         add_rivals(problem, signatures, on, j.short_runs);
   }

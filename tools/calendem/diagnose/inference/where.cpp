@@ -9,8 +9,8 @@
 namespace calendem::inference {
 namespace {
 
-constexpr double kMismatch = 0.01;         // p below which something cannot be matched
-constexpr std::uint64_t kPurpose = 0x3e5e; // of the stream of simulated residuals
+constexpr double kMismatch = 0.01;                 // p below which something cannot be matched
+constexpr std::uint64_t kResidualsStream = 0x3e5e; // of the stream of simulated residuals
 
 /// |z| of every block of a residual with covariance `spread`.
 class BlockDistance {
@@ -34,7 +34,7 @@ private:
 
 double family_wise_threshold(const BlockDistance &distance, int blocks, const Matrix &spread,
                              double degrees_of_freedom, const WhereSettings &settings) {
-  Random random(settings.seed, kPurpose);
+  Random random(settings.seed, kResidualsStream);
   const Matrix factor = Cholesky(spread).matrixL();
   const bool normal = degrees_of_freedom >= kNormal;
   const boost::math::chi_squared squares(normal ? 1.0 : degrees_of_freedom);

@@ -175,8 +175,8 @@ Which which(const Problem &problem, const WhichSettings &settings) {
 
 namespace {
 
-constexpr int kDraws = 60;                 // of a posterior, for the moments of what it predicts
-constexpr std::uint64_t kPurpose = 0x4e87; // of the stream of simulated data
+constexpr int kDraws = 60;                    // of a posterior, for the moments of what it predicts
+constexpr std::uint64_t kDataStream = 0x4e87; // of the stream of simulated data
 
 /// What a hypothesis expects of the new features, given the old.
 struct Forecast {
@@ -235,7 +235,7 @@ Forecast forecast(const Judged &judged, const Problem &p, const Matrix &unknown)
 
 /// Mean over simulated data of the probability that the hypothesis they come from is given.
 double expected(const std::vector<Forecast> &forecasts, const NextSettings &settings) {
-  Random random(settings.seed, kPurpose);
+  Random random(settings.seed, kDataStream);
   const auto n = forecasts.front().mean.size();
   double sum = 0.0;
   Vector normal(n);

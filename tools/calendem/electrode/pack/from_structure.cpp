@@ -43,6 +43,18 @@ std::vector<Eigen::Vector3d> join(const Recipe &r, std::vector<ExistingSphere> &
   return x;
 }
 
+// The shortest turn of the x axis onto a unit vector; onto its opposite, half a turn about z. Eigen's
+// FromTwoVectors, which looks there for an axis by a decomposition that takes long to compile.
+Eigen::Quaterniond turn_of_x_onto(const Eigen::Vector3d &u) {
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), to = u.normalized();
+  const double cosine = to.dot(x);
+  if (cosine < -1.0 + 1e-12)
+    return Eigen::Quaterniond(0.0, 0.0, 0.0, 1.0);
+  const double s = std::sqrt((1.0 + cosine) * 2.0);
+  const Eigen::Vector3d axis = x.cross(to) * (1.0 / s);
+  return Eigen::Quaterniond(0.5 * s, axis.x(), axis.y(), axis.z());
+}
+
 // The frame of two pairs that touch at about a right angle, for a cluster on a cubic lattice.
 Eigen::Quaterniond frame_of(const std::vector<Eigen::Vector3d> &x, double touching) {
   std::vector<Eigen::Vector3d> pairs;
@@ -58,7 +70,7 @@ Eigen::Quaterniond frame_of(const std::vector<Eigen::Vector3d> &x, double touchi
         return std::fabs(a.dot(u)) < std::fabs(b.dot(u));
       });
   if (std::fabs(w.dot(u)) > 0.3)
-    return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), u);
+    return turn_of_x_onto(u);
   Eigen::Matrix3d R;
   R << u, (w - w.dot(u) * u).normalized(), u.cross(w).normalized();
   return Eigen::Quaterniond(R);
@@ -173,9 +185,9 @@ void turn(Body &b, const Eigen::Quaterniond &q) {
   b.lattice = (q * b.lattice).normalized();
 }
 
-class Placer {
+class StructurePlacer {
 public:
-  Placer(const Recipe &recipe, double stretch, double widest)
+  StructurePlacer(const Recipe &recipe, double stretch, double widest)
       : recipe_(recipe), random_(recipe.seed, 3), bins_(recipe, 1.05 * widest) {
     out_.stretch = stretch;
   }
@@ -243,7 +255,7 @@ PlacementOfStructure place_as_in_structure(const Recipe &r, const ExistingStruct
                                            BodiesOfStructure &given) {
   const double envelope = r.am_column() + r.cbd_solid_column() / (1.0 - r.nanoporosity);
   const double stretch = std::max(1.0, 5.0 * envelope / structure.extent);
-  Placer placer(r, stretch, std::max(r.primary_diameter, r.cbd_diameter));
+  StructurePlacer placer(r, stretch, std::max(r.primary_diameter, r.cbd_diameter));
   for (size_t k = 0; k < given.bodies.size(); ++k)
     placer.place_body(given.bodies[k], given.at[k], !r.structure.clusters, int(k) + 1);
   for (const ExistingSphere &s : structure.cbd)

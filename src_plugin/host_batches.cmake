@@ -1,0 +1,76 @@
+# Most of the time to compile a file of the host goes into headers, the same in all. Here files are put together into
+# batches, which the compiler reads as one (CMake's UNITY_GROUP). Macros end with their file, and files that define the
+# same name at file scope are in different batches. A file that others could notice nevertheless stays alone: it defines
+# a macro that a header has too, or uses a namespace that others do not.
+set(kFilesPerBatch 12)
+
+# macros_of(OUT FILE...): the names that they define.
+function(macros_of out)
+  set(names "")
+  foreach(file IN LISTS ARGN)
+    file(STRINGS "${file}" lines REGEX "^[ \t]*#[ \t]*define[ \t]")
+    foreach(line IN LISTS lines)
+      if(line MATCHES "^[ \t]*#[ \t]*define[ \t]+([A-Za-z_0-9]+)")
+        list(APPEND names "${CMAKE_MATCH_1}")
+      endif()
+    endforeach()
+  endforeach()
+  list(REMOVE_DUPLICATES names)
+  set(${out} "${names}" PARENT_SCOPE)
+endfunction()
+
+# is_noticed(OUT FILE HEADER_MACROS): what of the file others in its batch would notice.
+function(is_noticed out file header_macros)
+  file(STRINGS "${file}" noticed REGEX "^using namespace ")
+  list(FILTER noticed EXCLUDE REGEX "^using namespace (LAMMPS_NS|FixConst|MathConst)[; ]*$")
+  macros_of(macros "${file}")
+  foreach(macro IN LISTS macros)
+    if(macro IN_LIST header_macros)
+      list(APPEND noticed "${macro}")
+    endif()
+  endforeach()
+  set(${out} "${noticed}" PARENT_SCOPE)
+endfunction()
+
+# names_of(OUT FILE): enumerators, and functions and constants that no other file sees, with words of their types.
+function(names_of out file)
+  file(READ "${file}" text)
+  string(REGEX MATCHALL "\nenum[^{;]*{[^}]*}" enumerators "${text}")
+  string(REGEX MATCHALL "\n(static|const|inline)[ \t][^;={(]*" others "${text}")
+  string(REGEX MATCHALL "[A-Za-z_][A-Za-z_0-9]*" names "${enumerators} ${others}")
+  list(REMOVE_ITEM names enum static const inline void bool char int double)
+  set(${out} "${names}" PARENT_SCOPE)
+endfunction()
+
+# batch_host_sources(TARGET HOST_SOURCE...): gives the sources their batches and the target the end of their macros.
+function(batch_host_sources target)
+  file(GLOB headers "${CALENDEM_HOST_DIR}/src/*.h")
+  macros_of(header_macros ${headers})
+  set(batched "")
+  foreach(source IN LISTS ARGN)
+    is_noticed(alone "${source}" "${header_macros}")
+    if(alone)
+      continue()
+    endif()
+    names_of(names "${source}")
+    set(batch 1)
+    while(TRUE) # to the first batch that has room and none of its names
+      set(others ${names})
+      list(REMOVE_ITEM others "" ${names_${batch}})
+      list(LENGTH sources_${batch} count)
+      if(count LESS kFilesPerBatch AND "${others}" STREQUAL "${names}")
+        break()
+      endif()
+      math(EXPR batch "${batch} + 1")
+    endwhile()
+    list(APPEND sources_${batch} "${source}")
+    list(APPEND names_${batch} ${names})
+    list(APPEND batched "${source}")
+    set_property(SOURCE "${source}" PROPERTY UNITY_GROUP "${target}_${batch}")
+  endforeach()
+  macros_of(macros ${batched})
+  list(TRANSFORM macros PREPEND "#undef ")
+  list(JOIN macros "\n" macros)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP
+                                             UNITY_BUILD_CODE_AFTER_INCLUDE "${macros}\n")
+endfunction()
