@@ -12,30 +12,39 @@
 
 #include "bond_failure.h"
 #include "parallel_bond.h"
+#include <algorithm>
 
 namespace calendem {
 
 struct BondPair {
-  double radius; ///< of the smaller sphere [um]
   BondSection section;
   BondStiffness stiffness;
   PairMotion motion;
-  double tension; ///< F_n [nN]
+  double tension = 0.0; ///< F_n [nN]
 
   /// @param length at creation [um]
+  BondPair(const BondMaterial &m, double radius_i, double radius_j, double length)
+      : section(m.radius_ratio * std::min(radius_i, radius_j)), stiffness(m, section, length) {}
   BondPair(const BondMaterial &m, double radius_i, double radius_j, double length,
            const PairMotion &now)
-      : radius(radius_i < radius_j ? radius_i : radius_j), section(m.radius_ratio * radius),
-        stiffness(m, section, length), motion(now),
-        tension(bond_tension(m, stiffness, now.r, length)) {}
+      : BondPair(m, radius_i, radius_j, length) {
+    place(m, length, now);
+  }
+
+  /// Where the spheres are. In loops over many bonds, after the section: fewer values are alive.
+  void place(const BondMaterial &m, double length, const PairMotion &now) {
+    motion = now;
+    tension = bond_tension(m, stiffness, now.r, length);
+  }
 
   /// Carries the loads through the step of length dt [us] that has led here.
   void advance(BondLoads &loads, double dt) const {
     calendem::advance(loads, motion, stiffness, dt);
   }
   /// @param mass_eff of the pair; at a wall that of the sphere [pg]
-  BondDamping damping(const BondMaterial &m, double mass_eff) const {
-    return {m, section, stiffness, mass_eff, radius};
+  BondDamping damping(const BondMaterial &m, double radius_i, double radius_j,
+                      double mass_eff) const {
+    return {m, section, stiffness, mass_eff, std::min(radius_i, radius_j)};
   }
   BondAction action(const BondLoads &loads, const BondDamping &damping = {}) const {
     return calendem::action(loads, tension, motion, damping);

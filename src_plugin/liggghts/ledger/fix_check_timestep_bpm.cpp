@@ -62,8 +62,8 @@ double FixCheckTimestepBpm::bond_bound() const {
   const double *m = atom->rmass, *R = atom->radius;
   bonds->pairs().for_each_acting_copy([&](int i, int j, const BondHistory &bond) {
     const calendem::BondPair pair = bonds->pair_of(i, j, bond);
-    const calendem::BondDamping c =
-        pair.damping(bonds->settings_of(bond).material, calendem::effective_mass(m[i], m[j]));
+    const calendem::BondDamping c = pair.damping(bonds->settings_of(bond).material, R[i], R[j],
+                                                 calendem::effective_mass(m[i], m[j]));
     const calendem::Vec3 n = pair.motion.n;
     Spheres &of = bond.state() == kBridge ? bridges : bonded;
     of[i].add(pair.stiffness, c, n, pair.motion.r);

@@ -137,8 +137,8 @@ private:
       if (b.breakable && pair.fails(loads, b.strength_of(bond.strength_factor()), b.criterion))
         bonds_->record_break(s.i, s.j, bond, pair, loads);
     }
-    const calendem::BondDamping damping =
-        pair.damping(b.material, calendem::effective_mass(atom->rmass[s.i], atom->rmass[s.j]));
+    const calendem::BondDamping damping = pair.damping(
+        b.material, s.radi, s.radj, calendem::effective_mass(atom->rmass[s.i], atom->rmass[s.j]));
     const calendem::BondAction a = pair.action(loads, damping);
     if (ledger_ && s.computeflag) {
       book_damping(s.i, s.j, pair, damping);

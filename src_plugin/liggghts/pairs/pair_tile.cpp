@@ -39,7 +39,7 @@ __attribute__((flatten)) void run_bonds(BondTile &t, PairStep &s, const BondMate
     }
     calendem::BondDamping damping;
     if (kDamped)
-      damping = pair.damping(material, effective_mass(s, p));
+      damping = pair.damping(material, s.radius_i[p], s.radius_j[p], effective_mass(s, p));
     const calendem::BondAction a = pair.action(loads, damping);
     s.force.set(p, a.force);
     s.torque_i.set(p, a.torque_i);

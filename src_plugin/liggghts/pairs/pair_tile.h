@@ -101,7 +101,9 @@ inline calendem::PairMotion motion_of(const PairStep &s, int p) {
 }
 inline calendem::BondPair bond_of(const calendem::BondMaterial &m, const BondTile &t,
                                   const PairStep &s, int p) {
-  return {m, s.radius_i[p], s.radius_j[p], t.length[p], motion_of(s, p)};
+  calendem::BondPair pair(m, s.radius_i[p], s.radius_j[p], t.length[p]);
+  pair.place(m, t.length[p], motion_of(s, p));
+  return pair;
 }
 
 /// Loads after a step of length dt [us], which bonds fail, and what they exert; without `update`,

@@ -26,7 +26,9 @@ struct WallBridges::Bridge : calendem::BondPair {
   Bridge(const WallBridges &wall, int i)
       : BondPair(wall.material(), wall.atom->radius[i], wall.atom->radius[i],
                  BondHistory(wall.values(i)).length(), wall.motion(i)),
-        bond(wall.values(i)), damping(BondPair::damping(wall.material(), wall.atom->rmass[i])) {}
+        bond(wall.values(i)),
+        damping(BondPair::damping(wall.material(), wall.atom->radius[i], wall.atom->radius[i],
+                                  wall.atom->rmass[i])) {}
 };
 
 WallBridges::WallBridges(LAMMPS *lmp, const std::string &wall, double z)

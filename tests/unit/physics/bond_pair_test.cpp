@@ -37,7 +37,7 @@ TEST(BondPair, AsksTheLaws) {
   pair.advance(loads, 1e-4);
   advance(by_law, motion, pair.stiffness, 1e-4);
   EXPECT_EQ(norm(loads.shear - by_law.shear), 0.0);
-  const BondDamping damping = pair.damping(kMaterial, 2.0);
+  const BondDamping damping = pair.damping(kMaterial, kLarge, kSmall, 2.0);
   EXPECT_EQ(damping.normal,
             BondDamping(kMaterial, pair.section, pair.stiffness, 2.0, kSmall).normal);
   EXPECT_EQ(norm(pair.action(loads, damping).torque_j -
