@@ -17,6 +17,7 @@
 namespace {
 
 using namespace calendem;
+using calendem_test::reported;
 
 constexpr int kSpecimens = 4;
 // All specimens are copies of one run, of one packing: together they are as good as one cell.
