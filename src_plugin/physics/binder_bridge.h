@@ -51,8 +51,7 @@ struct BinderBridges {
 
 /// Motion against a wall at rest: `arm` from the bridge's point of the wall to the centre [um].
 inline PairMotion motion_on_wall(const Vec3 &arm, const Vec3 &v, const Vec3 &spin) {
-  const double r = norm(arm);
-  return {arm, v, spin, {}, (1.0 / r) * arm, r};
+  return pair_motion(arm, norm(arm), v, spin, {});
 }
 
 } // namespace calendem

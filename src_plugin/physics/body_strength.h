@@ -19,6 +19,7 @@
 #ifndef CALENDEM_PHYSICS_BODY_STRENGTH_H
 #define CALENDEM_PHYSICS_BODY_STRENGTH_H
 
+#include "pi.h"
 #include "weibull_strength.h"
 
 namespace calendem {
@@ -34,7 +35,7 @@ inline double body_scatter_factor(double scatter, std::uint64_t seed, std::int64
     return 1.0;
   constexpr std::uint64_t kRadius = 0x626f6479ULL << 32, kAngle = 0x626f647aULL << 32;
   const double radius = std::sqrt(-2.0 * std::log(pair_uniform(seed ^ kRadius, body, body)));
-  const double turn = 6.283185307179586 * pair_uniform(seed ^ kAngle, body, body);
+  const double turn = 2.0 * kPi * pair_uniform(seed ^ kAngle, body, body);
   return std::exp(scatter * radius * std::cos(turn) - 0.5 * scatter * scatter);
 }
 

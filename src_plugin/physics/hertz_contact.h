@@ -7,6 +7,7 @@
 #ifndef CALENDEM_PHYSICS_HERTZ_CONTACT_H
 #define CALENDEM_PHYSICS_HERTZ_CONTACT_H
 
+#include "pi.h"
 #include <cmath>
 
 namespace calendem {
@@ -39,7 +40,6 @@ inline double hertz_energy(double E_eff, double R_eff, double overlap) {
 /// Overlap at which Hertz repulsion balances SJKR attraction (lens area ~ 2 pi R* delta):
 /// delta = R* (3 pi CED / (2 E*))^2, so it grows with (CED/E)^2.
 inline double sjkr_equilibrium_overlap(double cohesion_energy_density, double E_eff, double R_eff) {
-  constexpr double kPi = 3.14159265358979323846;
   const double q = 1.5 * kPi * cohesion_energy_density / E_eff;
   return R_eff * q * q;
 }

@@ -16,16 +16,17 @@
 #ifndef CALENDEM_PHYSICS_HERTZ_MINDLIN_H
 #define CALENDEM_PHYSICS_HERTZ_MINDLIN_H
 
-#include "vector3.h"
+#include "pair_motion.h"
 
 namespace calendem {
 
 /// Of a pair of materials.
 struct ContactMaterial {
-  double modulus;       ///< E* [kPa]
-  double shear_modulus; ///< G* [kPa]
-  double damping;       ///< beta [-], <= 0
-  double friction;      ///< mu [-]
+  double modulus;        ///< E* [kPa]
+  double shear_modulus;  ///< G* [kPa]
+  double damping;        ///< beta [-], <= 0
+  double friction;       ///< mu [-]
+  double cohesion = 0.0; ///< energy density, sjkr_cohesion.h [kPa]
 };
 
 /// Relative motion at the contact point.
@@ -33,16 +34,15 @@ struct ContactMotion {
   double normal_velocity; ///< v_n [um/us], > 0 when parting
   Vec3 sliding_velocity;  ///< v_t [um/us]
   double arm_i, arm_j;    ///< from the centres to the contact point [um]
+  Vec3 spin;              ///< of the spheres, weighted by their arms [rad/us]
 };
 
-/// `d` = x_i - x_j, `v` = v_i - v_j, `n` = d / r; the contact point lies in the overlap's middle.
-inline ContactMotion contact_motion(const Vec3 &d, const Vec3 &v, const Vec3 &spin_i,
-                                    const Vec3 &spin_j, const Vec3 &n, double inverse_r,
-                                    double overlap, double radius_i, double radius_j) {
-  const double normal = dot(v, n);
+/// The contact point lies in the middle of the spheres' overlap.
+inline ContactMotion contact_motion(const PairMotion &m, double radius_i, double radius_j) {
+  const double normal = dot(m.v, m.n), overlap = radius_i + radius_j - m.r;
   const double arm_i = radius_i - 0.5 * overlap, arm_j = radius_j - 0.5 * overlap;
-  const Vec3 spin = inverse_r * (arm_i * spin_i + arm_j * spin_j);
-  return {normal, v - normal * n - cross(spin, d), arm_i, arm_j};
+  const Vec3 spin = (1.0 / m.r) * (arm_i * m.spin_i + arm_j * m.spin_j);
+  return {normal, m.v - normal * m.n - cross(spin, m.d), arm_i, arm_j, spin};
 }
 
 /// Elastic force [nN] of a contact of radius a [um].

@@ -23,6 +23,7 @@
 #ifndef CALENDEM_PHYSICS_NANOPORE_COLLAPSE_H
 #define CALENDEM_PHYSICS_NANOPORE_COLLAPSE_H
 
+#include "pi.h"
 #include <cmath>
 
 namespace calendem {
@@ -65,7 +66,6 @@ struct NanoporeCollapse {
 
 /// Mean pressure [kPa] of a sphere from the sum of its normal contact forces [nN].
 inline double mean_pressure(double sum_of_forces, double radius) {
-  constexpr double kPi = 3.14159265358979323846;
   return sum_of_forces / (4.0 * kPi * radius * radius);
 }
 

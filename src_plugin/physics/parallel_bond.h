@@ -25,11 +25,12 @@
 // Valid for 0.01 <= |d|/l <= 10 and turns below 1 rad per step; outside the host stops the run.
 // Deviations: F_n is the exact integral of eq. 4, E A (|d| - l)/l, not a running sum, so it cannot
 // drift; the paper's R_min in eqs 6-7 is R (they agree at lambda = 1).
-// Verified by tests/unit/physics/parallel_bond_test.cpp, parallel_bond_energy_test.cpp and
-// tests/verification/pair, rotation, cluster.
+// Verified by tests/unit/physics/parallel_bond_test.cpp,
+// tests/unit/physics/parallel_bond_energy_test.cpp and tests/verification/pair, rotation, cluster.
 #ifndef CALENDEM_PHYSICS_PARALLEL_BOND_H
 #define CALENDEM_PHYSICS_PARALLEL_BOND_H
 
+#include "pair_motion.h"
 #include "pi.h"
 #include "vector3.h"
 
@@ -86,16 +87,6 @@ struct BondLoads {
   Vec3 shear;         ///< F_t [nN], at right angles to n
   Vec3 bending;       ///< M_t [nN um], at right angles to n
   double twist = 0.0; ///< M_n [nN um], along n
-};
-
-/// Motion of the pair at the end of a step; velocities are those that moved it through the step.
-struct PairMotion {
-  Vec3 d;       ///< x_i - x_j [um]
-  Vec3 v;       ///< v_i - v_j [um/us]
-  Vec3 spin_i;  ///< omega_i [rad/us]
-  Vec3 spin_j;  ///< omega_j [rad/us]
-  Vec3 n;       ///< d / r
-  double r = 0; ///< |d| [um]
 };
 
 /// Velocity of i relative to j where the bond is cut; `d` is the centre line.

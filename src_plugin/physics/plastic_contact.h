@@ -1,64 +1,96 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Elastic-plastic normal contact with a limiting contact pressure p_y, and linear hardening h. With
-// d the overlap, d* the largest one so far, a* = sqrt(R d*) the contact radius there, u = d - d_y
-// and d_y = R (pi p_y / (2 E))^2:
-//   loading, d = d* <= d_y:  F = 4/3 E sqrt(R) d^(3/2)                             (Hertz)
+// Elastic-plastic normal contact with a limiting contact pressure p_y, and linear hardening h.
+//   loading, d = d* <= d_y:  F = 4/3 E sqrt(R) d^(3/2)                                  (Hertz)
 //   loading, d = d* > d_y:   F = F_y + pi R u (p_y + h u/R),  F_y = 2/3 pi p_y R d_y
-//   below d*:                F = F* x^(3/2),  x = 1 - (d* - d)/e*,  e* = 3 F*/(4 E a*); 0 for x < 0
+//   below d*:                F = F* x^(3/2),  x = 1 - (d* - d)/e*,  0 for x < 0
+//   d_y = R (pi p_y/(2 E))^2,  u = d - d_y,  a* = sqrt(R d*),  e* = 3 F*/(4 E a*)
+// d: overlap, d*: the largest one so far [um]; a*: contact radius there; E, R: effective modulus
+// [kPa] and radius [um]; p_y > 0, h >= 0 [kPa]; F in nN, > 0 repulsive.
 // The last is Hertz with the larger radius R_p = a*^2/e* from the residual overlap d_p = d* - e*
-// on. E, R: effective modulus [kPa] and radius [um]; p_y > 0, h >= 0 [kPa]; overlaps in um, forces
-// in nN, > 0 repulsive. p_y -> infinity is Hertz; h = 0 is perfectly plastic. The area pi R u that
-// has yielded carries p_y + h u/R. Force and slope are continuous in loading; the slope at the
-// start of unloading is 2 E a*, that of Hertz at the same overlap: unloading is stiffer than
-// plastic loading, and since overlaps grow larger, stiffer than Hertz at the same force. Range:
-// small strains, d*/R below about 0.2; beyond, the neighbours' plastic zones would meet, which h
-// can stand for; h <= E/(2 pi), for which loading stays below Hertz up to d = R (F' is straight,
-// Hertz' concave, and at R it is pi (p_y R + 2 h (R - d_y)) <= 2 E R). Energy: elastic_energy is
-// given back, plastic_work (of d* alone) is not. Below SJKR's 2 CED such a contact cannot carry its
-// own cohesion: F ~ pi p_y R d, F_C ~ 2 pi CED R d. An indenter, which does not stick, measures what
-// a contact carries beyond that: p_y = p + 2 b CED with p the pressure that is given and 0 <= b <= 1
-// (0: p is the whole pressure). At a wall the sphere has nowhere to go but aside, and keeps its
-// volume V. Held from both sides and flattened by u on each it is a disc of thickness 2 (R - u) in
-// the end, whose area V/(2 (R - u)) grows without bound. With the flattening f, 0 to 1, and
+// on. p_y -> infinity is Hertz; h = 0 is perfectly plastic. The area pi R u that has yielded
+// carries p_y + h u/R. Force and slope are continuous in loading; the slope at the start of
+// unloading is 2 E a*, that of Hertz at the same overlap: unloading is stiffer than plastic
+// loading, and since overlaps grow larger, stiffer than Hertz at the same force.
+//
+// Range: small strains, d*/R below about 0.2; beyond, the neighbours' plastic zones would meet,
+// which h can stand for; h <= E/(2 pi), for which loading stays below Hertz up to d = R (F' is
+// straight, Hertz' concave, and at R it is pi (p_y R + 2 h (R - d_y)) <= 2 E R).
+// Energy: elastic_energy is given back, plastic_work (of d* alone) is not.
+//
+// Cohesion. Below SJKR's 2 CED such a contact cannot carry its own cohesion: F ~ pi p_y R d,
+// F_C ~ 2 pi CED R d. An indenter, which does not stick, measures what a contact carries beyond:
+//   p_y = p + 2 b CED,  p: the pressure that is given,  0 <= b <= 1 (0: p is the whole pressure)
+//
+// Flattening. At a wall the sphere has nowhere to go but aside, and keeps its volume V. Held from
+// both sides and flattened by u on each it is a disc of thickness 2 (R - u) in the end, whose area
+// V/(2 (R - u)) grows without bound. With the flattening f, 0 to 1, the area that has yielded is
+// pi R g u:
 //   g = 1/(1 - (f u/R_y)^(3/2)),  R_y = R - d_y
-// the area that has yielded is pi R g u: for f = 1 the exponent 3/2 is the one with which it tends
-// to that of the disc. Loading is F_y + pi R g u (p_y + h u/R) then, and a*^2 = R (d_y + g u). From
-// the depth on at which that would be stiffer than 2 E a* nothing yields any more: d* stays, and x
-// grows beyond 1. f = 0 leaves the area as it was. Source: Thornton, J. Appl. Mech. 64 (1997) 383,
-// eqs 8-21; hardening in proportion to the area, a^2/R^2, as of Meyer's law p ~ a^(n-2) with n = 4
-// beyond yield (Tabor, The Hardness of Metals, ch. 1: n = 2 to 2.5 for single indents). Deviations:
-// hardening; flattening; otherwise none; written in d* alone (a*^2 = R d* follows from his
-// R_p F* = R F_e), so that one number is the contact's memory. Verified by
+//   F = F_y + pi R g u (p_y + h u/R),  a*^2 = R (d_y + g u)
+// For f = 1 the exponent 3/2 is the one with which it tends to that of the disc; f = 0 leaves the
+// area as it was. From the depth on at which loading would be stiffer than 2 E a* nothing yields
+// any more: d* stays, and x grows beyond 1.
+//
+// Source: Thornton, J. Appl. Mech. 64 (1997) 383, eqs 8-21; hardening in proportion to the area,
+// a^2/R^2, as of Meyer's law p ~ a^(n-2) with n = 4 beyond yield (Tabor, The Hardness of Metals,
+// ch. 1: n = 2 to 2.5 for single indents). Deviations: hardening; flattening; d* alone is the
+// contact's memory (a*^2 = R d* follows from his R_p F* = R F_e). Verified by
 // tests/unit/physics/plastic_contact_test.cpp, tests/verification/plastic_contact.
 #ifndef CALENDEM_PHYSICS_PLASTIC_CONTACT_H
 #define CALENDEM_PHYSICS_PLASTIC_CONTACT_H
 
 #include "hertz_contact.h"
 #include "law_interface.h"
-#include "law_limits.h"
+#include "pi.h"
 
 namespace calendem {
 
 class PlasticContact {
 public:
-  static constexpr int kMemory = 1;               ///< largest overlap so far [um]
   static constexpr double kMostHardening = 0.159; ///< 1/(2 pi), of the effective modulus
+  struct Params {
+    double yield_pressure = 0.0;  ///< limit of the contact pressure p [kPa], > 0
+    double hardening = 0.0;       ///< h [kPa], 0 to kMostHardening of the effective modulus
+    double beyond_cohesion = 0.0; ///< b [-], 0 to 1
+    double flattening = 0.0;      ///< f [-], 0 to 1; for walls
+  };
+  struct State {
+    double largest = 0.0; ///< overlap so far, d* [um]
+  };
+  static constexpr const char *kName = "elastic-plastic", *kHeader = "plastic_contact.h";
+  static constexpr LawProperty<Params> kProperties[] = {
+      {&Params::yield_pressure, {"contactYieldPressure", "kPa"}},
+      {&Params::hardening,
+       ContactProperty{"contactHardening", "kPa"}.or_zero().at_most_of_modulus(kMostHardening)},
+      {&Params::beyond_cohesion, ContactProperty{"contactBeyondCohesion"}.or_zero()},
+      {&Params::flattening, ContactProperty{"contactFlattening"}.or_zero()}};
+  static constexpr bool kStiffens = true;
+  static constexpr WorkTaken kTakes = WorkTaken::PlasticFlow;
+  static constexpr double kDeepest = 0.9;
 
   /// Effective modulus [kPa], effective radius [um], limiting pressure [kPa]; all > 0. Hardening
   /// [kPa] >= 0. Flattening: 0 to 1.
   PlasticContact(double E_eff, double R_eff, double yield_pressure, double hardening = 0.0,
                  double flattening = 0.0)
-      : E_(E_eff), R_(R_eff), slope_(kPi_ * yield_pressure * R_eff), growth_(kPi_ * hardening),
+      : E_(E_eff), R_(R_eff), slope_(kPi * yield_pressure * R_eff), growth_(kPi * hardening),
         yield_overlap_(slope_ * slope_ / (4.0 * E_eff * E_eff * R_eff)),
         spent_(flattening / (R_eff - yield_overlap_)) {}
   /// Flattening is for walls, where the effective radius is the sphere's.
-  PlasticContact(const ContactSurfaces &s, const double *values)
-      : PlasticContact(s.E_eff, s.R_eff, values[0] + of_cohesion(s.cohesion, values), values[1],
-                       s.R_eff < s.radius ? 0.0 : values[3]) {}
+  PlasticContact(const ContactSurfaces &s, const Params &p)
+      : PlasticContact(s.E_eff, s.R_eff, p.yield_pressure + of_cohesion(s.cohesion, p), p.hardening,
+                       s.R_eff < s.radius ? 0.0 : p.flattening) {}
 
-  /// What cohesion adds to the pressure that is given, values[0] [kPa].
-  static double of_cohesion(double energy_density, const double *values) {
-    return 2.0 * values[2] * energy_density;
+  /// What cohesion adds to the pressure that is given [kPa].
+  static double of_cohesion(double energy_density, const Params &p) {
+    return 2.0 * p.beyond_cohesion * energy_density;
+  }
+  /// A contact that yields below 2 CED cannot carry its cohesion.
+  static ContactLimits limits(const PhasePair &phases, const Params &p) {
+    ContactLimits limits;
+    limits.least = 2.5 * phases.cohesion - of_cohesion(phases.cohesion, p);
+    limits.why = "contacts that yield below twice the cohesion energy density cannot carry their "
+                 "own cohesion, and the packing collapses";
+    return limits;
   }
 
   double yield_overlap() const { return yield_overlap_; }
@@ -91,8 +123,8 @@ public:
   }
 
   /// Force [nN] at an overlap with the largest one so far (or the overlap, if that is larger).
-  double force(double overlap, double largest) const {
-    const double from = yielded(overlap, largest);
+  double force(double overlap, const State &s) const {
+    const double from = yielded(overlap, s.largest);
     if (overlap == from)
       return loading_force(overlap);
     const double x = still_elastic(overlap, from);
@@ -100,24 +132,24 @@ public:
   }
 
   /// Radius [um] of the contact's area; the tangent stiffness below d* is 2 E times it.
-  double contact_radius(double overlap, double largest) const {
-    const double from = yielded(overlap, largest);
+  double contact_radius(double overlap, const State &s) const {
+    const double from = yielded(overlap, s.largest);
     if (overlap == from)
       return radius_at(std::fmax(overlap, 0.0));
     return radius_at(from) * std::sqrt(still_elastic(overlap, from));
   }
 
   /// Unloading begins with the largest stiffness, that of Hertz at the largest overlap.
-  double stiffness_radius(double overlap, double largest) const {
-    const double from = yielded(overlap, largest);
+  double stiffness_radius(double overlap, const State &s) const {
+    const double from = yielded(overlap, s.largest);
     const double radius = radius_at(from);
     return overlap > from ? radius * std::sqrt(still_elastic(overlap, from)) : radius;
   }
-  double radius_under(double force) const { return stiffness_radius(overlap_under(force), 0.0); }
+  double radius_under(double force) const { return stiffness_radius(overlap_under(force), {}); }
 
   /// Energy [fJ] that unloading gives back.
-  double elastic_energy(double overlap, double largest) const {
-    const double from = std::fmax(yielded(overlap, largest), 0.0);
+  double elastic_energy(double overlap, const State &s) const {
+    const double from = std::fmax(yielded(overlap, s.largest), 0.0);
     const double x = overlap == from ? 1.0 : still_elastic(overlap, from);
     return 0.4 * elastic_overlap(from) * loading_force(from) * x * x * std::sqrt(x);
   }
@@ -130,15 +162,15 @@ public:
     const double yielding = spent_ == 0.0 ? d * d * (0.5 * slope_ + growth_ * d / 3.0) : work_of(d);
     const double done =
         hertz_energy(E_, R_, yield_overlap_) + d * loading_force(yield_overlap_) + yielding;
-    return done - elastic_energy(from, from);
+    return done - elastic_energy(from, {from});
   }
 
-  double advance(double, double now, double, double &largest) const {
-    if (now <= largest)
+  double advance(double, double now, double, State &s) const {
+    if (now <= s.largest)
       return 0.0;
-    const double before = plastic_work(largest);
-    largest = yielded(now, largest);
-    return plastic_work(largest) - before;
+    const double before = plastic_work(s.largest);
+    s.largest = yielded(now, s.largest);
+    return plastic_work(s.largest) - before;
   }
 
   /// Depth [um] at a wall from which on nothing yields; infinite without flattening.
@@ -152,7 +184,6 @@ public:
   }
 
 private:
-  static constexpr double kPi_ = 3.14159265358979323846;
   static constexpr double kShallow = 1e-6; // part of spent_: no contact locks before
   double E_, R_, slope_, growth_, yield_overlap_;
   double spent_; // f/R_y: where u times it is 1, the sphere is a disc without thickness
@@ -216,15 +247,6 @@ private:
     return std::fmax(0.0, 1.0 - (largest - overlap) / elastic_overlap(largest));
   }
 };
-
-/// Of the pressure that is given [kPa]: a contact that yields below 2 CED cannot carry its cohesion.
-inline ContactLimits plastic_contact_limits(const PhasePair &phases, const double *values) {
-  ContactLimits limits;
-  limits.least = 2.5 * phases.cohesion - PlasticContact::of_cohesion(phases.cohesion, values);
-  limits.why = "contacts that yield below twice the cohesion energy density cannot carry their own "
-               "cohesion, and the packing collapses";
-  return limits;
-}
 
 } // namespace calendem
 

@@ -13,6 +13,8 @@
 #ifndef CALENDEM_PHYSICS_SJKR_COHESION_H
 #define CALENDEM_PHYSICS_SJKR_COHESION_H
 
+#include "pi.h"
+
 namespace calendem {
 
 /// Area [um^2] of the lens's section; radii and distance in um.
@@ -21,9 +23,8 @@ inline double lens_area(double r, double radius_i, double radius_j) {
   const double difference = radius_i - radius_j;
   if (r >= sum || r * r <= difference * difference)
     return 0.0;
-  constexpr double kQuarterPi = 0.78539816339744830962;
   // grouped so that exchanging the spheres changes no bit
-  return kQuarterPi * (sum - r) * (sum + r) * ((r - difference) * (r + difference)) / (r * r);
+  return 0.25 * kPi * (sum - r) * (sum + r) * ((r - difference) * (r + difference)) / (r * r);
 }
 
 /// Attractive force [nN], >= 0.
@@ -34,14 +35,12 @@ inline double sjkr_force(double cohesion_energy_density, double r, double radius
 
 /// The same at a flat wall, `r` from the centre.
 inline double sjkr_wall_force(double cohesion_energy_density, double r, double radius) {
-  constexpr double kPi = 3.14159265358979323846;
   return r < radius ? cohesion_energy_density * kPi * (radius - r) * (radius + r) : 0.0;
 }
 
 inline double sjkr_wall_potential(double cohesion_energy_density, double r, double radius) {
   if (r >= radius)
     return 0.0;
-  constexpr double kPi = 3.14159265358979323846;
   return -cohesion_energy_density * kPi * (radius - r) * (radius - r) * (2.0 * radius + r) / 3.0;
 }
 
@@ -55,8 +54,7 @@ inline double sjkr_potential(double cohesion_energy_density, double r, double ra
   if (r <= difference) // of equal spheres D^2/r has the limit 0
     r = difference;
   const double last = r > 0.0 ? difference * difference / r : 0.0;
-  constexpr double kQuarterPi = 0.78539816339744830962;
-  return -cohesion_energy_density * kQuarterPi * (sum - r) * (sum - r) *
+  return -cohesion_energy_density * 0.25 * kPi * (sum - r) * (sum - r) *
          ((2.0 * sum + r) / 3.0 - last);
 }
 

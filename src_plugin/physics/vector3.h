@@ -49,6 +49,11 @@ inline Vec3 cross(const Vec3 &a, const Vec3 &b) {
 inline double norm_squared(const Vec3 &a) { return dot(a, a); }
 inline double norm(const Vec3 &a) { return std::sqrt(dot(a, a)); }
 
+/// `v`, or zero without a branch.
+inline Vec3 select(bool condition, const Vec3 &v) {
+  return {condition ? v.x : 0.0, condition ? v.y : 0.0, condition ? v.z : 0.0};
+}
+
 /// Part of `a` at right angles to the unit vector `n`.
 inline Vec3 reject(const Vec3 &a, const Vec3 &n) { return a - dot(a, n) * n; }
 

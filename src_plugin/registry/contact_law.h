@@ -1,84 +1,103 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The contact laws that can take Hertz' place between two phases: one row each. A law reads its
-// properties from the script, by pairs of atom types (`fix property/global NAME peratomtypepair`,
-// units micro). It acts where its first property is > 0; a property that is not set is 0. A pair of
-// types may have one law.
-// To add one: its header in src_plugin/physics with the members of law_interface.h; a row below; the
-// row and the class in kContactLaws and ContactLaws, in the same place; its effect in
-// effects_of_contacts.h; then `calendem registry .`. An example: docs/tutorials/new_law.md.
+// The contact laws that can take Hertz' place between two phases. A law's row is made from its
+// class, which says what it reads from the script (physics/law_interface.h). A pair of atom types
+// may have one law; it acts where its first property is > 0.
+// To add one: its header in src_plugin/physics; its class in ContactLaws below, anywhere. All other
+// steps: docs/developer/add_a_law.md.
 #ifndef CALENDEM_REGISTRY_CONTACT_LAW_H
 #define CALENDEM_REGISTRY_CONTACT_LAW_H
 
 #include "physics/confined_contact.h"
 #include "physics/plastic_contact.h"
 #include "physics/viscous_contact.h"
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstring>
+#include <iterator>
 #include <tuple>
+#include <type_traits>
 
 namespace calendem {
 
-/// Where the law acts a value is > 0 and < `below`.
-struct ContactProperty {
-  const char *name; ///< of the script's property; NULL: the law has no more of them
-  const char *unit; ///< the script's
-  double below = std::numeric_limits<double>::infinity();
-  bool may_be_zero = false;                                    ///< where the law acts
-  double of_modulus = std::numeric_limits<double>::infinity(); ///< at most, of the effective one
-};
+using ContactLaws = std::tuple<PlasticContact, ViscousContact, ConfinedContact>;
 
+/// Properties that a law may have.
+constexpr std::size_t kMostProperties = 4;
+/// Values of a law's properties, in their order, as the script gives them.
+using PropertyValues = std::array<double, kMostProperties>;
+
+/// What is known of a law where its class is not.
 struct ContactLaw {
   const char *name;
   const char *header; ///< in src_plugin/physics
-  std::array<ContactProperty, 4> properties;
-  /// Contacts get stiffer than Hertz' under the same force: the time step is checked as they do.
+  std::array<ContactProperty, kMostProperties> properties;
+  std::size_t size; ///< of the properties
   bool stiffens;
-  /// Of the first property, all of them given.
-  ContactLimits (*limits)(const PhasePair &phases, const double *values);
-  WorkTaken takes = WorkTaken::Nothing;
-  /// Largest overlap with a wall, of the radius: deeper, the host may lose a sphere through it.
-  double deepest = std::numeric_limits<double>::infinity();
+  WorkTaken takes;
+  double deepest;
+  ContactLimits (*limits)(const PhasePair &phases, const PropertyValues &values);
 };
 
-inline constexpr ContactLaw kPlasticContact = {
-    "elastic-plastic",
-    "plastic_contact.h",
-    {{{"contactYieldPressure", "kPa"},
-      {"contactHardening", "kPa", HUGE_VAL, true, PlasticContact::kMostHardening},
-      {"contactBeyondCohesion", "", HUGE_VAL, true},
-      {"contactFlattening", "", HUGE_VAL, true}}},
-    true,
-    &plastic_contact_limits,
-    WorkTaken::PlasticFlow,
-    0.9};
-
-inline constexpr ContactLaw kViscousContact = {
-    "viscoelastic",
-    "viscous_contact.h",
-    {{{"contactRelaxedFraction", "", 1.0}, {"contactRelaxationTime", "us"}}},
-    false,
-    &viscous_contact_limits,
-    WorkTaken::Dashpots};
-
-inline constexpr ContactLaw kConfinedContact = {
-    "confined",
-    "confined_contact.h",
-    {{{"contactBulkModulus", "kPa"}, {"contactFreeSurface", "", 1.0}}},
-    true,
-    &confined_contact_limits};
-
-inline constexpr std::array<const ContactLaw *, 3> kContactLaws = {
-    &kPlasticContact, &kViscousContact, &kConfinedContact};
-/// Their classes (physics/law_interface.h), in the same order.
-using ContactLaws = std::tuple<PlasticContact, ViscousContact, ConfinedContact>;
-static_assert(std::tuple_size_v<ContactLaws> == kContactLaws.size(), "a law has a row and a class");
-
-/// Most history values that one of these laws has.
-template <class... Law> constexpr int most_memory(const std::tuple<Law...> *) {
-  int most = 0;
-  for (const int n : {Law::kMemory...})
-    most = n > most ? n : most;
-  return most;
+template <class Law> typename Law::Params params_of(const PropertyValues &values) {
+  typename Law::Params params;
+  for (std::size_t k = 0; k < std::size(Law::kProperties); ++k)
+    params.*Law::kProperties[k].parameter = values[k];
+  return params;
 }
+
+template <class Law> constexpr std::array<ContactProperty, kMostProperties> properties_of() {
+  static_assert(std::size(Law::kProperties) <= kMostProperties, "raise kMostProperties");
+  std::array<ContactProperty, kMostProperties> all;
+  for (std::size_t k = 0; k < std::size(Law::kProperties); ++k)
+    all[k] = Law::kProperties[k].property;
+  return all;
+}
+
+template <class Law>
+inline constexpr ContactLaw kContactLaw = {
+    Law::kName,
+    Law::kHeader,
+    properties_of<Law>(),
+    std::size(Law::kProperties),
+    Law::kStiffens,
+    Law::kTakes,
+    Law::kDeepest,
+    [](const PhasePair &phases, const PropertyValues &values) {
+      return Law::limits(phases, params_of<Law>(values));
+    }};
+
+/// Numbers that a contact's history holds of a law's State.
+template <class State>
+inline constexpr std::size_t kMemoryOf = std::is_empty_v<State> ? 0
+                                                                : sizeof(State) / sizeof(double);
+
+template <class State> State load_state(const double *memory) {
+  State state;
+  std::memcpy(&state, memory, kMemoryOf<State> * sizeof(double));
+  return state;
+}
+template <class State> void store_state(const State &state, double *memory) {
+  std::memcpy(memory, &state, kMemoryOf<State> * sizeof(double));
+}
+
+/// All laws at once, from their classes.
+template <class> struct LawList;
+template <class... Law> struct LawList<std::tuple<Law...>> {
+  using Params = std::tuple<typename Law::Params...>;
+  static constexpr std::array<const ContactLaw *, sizeof...(Law)> kRows = {&kContactLaw<Law>...};
+  static constexpr std::size_t kMostMemory = std::max({kMemoryOf<typename Law::State>...});
+
+  /// Sets the parameters of law number n.
+  static void set(Params &all, std::size_t n, const PropertyValues &values) {
+    std::size_t number = 0;
+    ((number++ == n ? void(std::get<typename Law::Params>(all) = params_of<Law>(values)) : void()),
+     ...);
+  }
+};
+
+using AllLaws = LawList<ContactLaws>;
+inline constexpr const auto &kContactLaws = AllLaws::kRows;
 
 } // namespace calendem
 

@@ -3,7 +3,7 @@
 # lattice: cost of contact and bond over the host's contact alone.  ranks: 2 ranks over 1 on the demo
 # cell.  memory: resident size early and late in 1e5 steps.  The last two run with CALENDEM_HEAVY=1.
 set -euo pipefail
-case=$1 bin=$2 work=$3 repeats=${4:-5}
+case=$1 bin=$2 work=$3 repeats=${4:-$((${CALENDEM_HEAVY:-0} == 1 ? 5 : 2))}
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 scripts=$(cd "$here/../../input_scripts" && pwd)
 if [ "$(id -u)" -eq 0 ]; then export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; fi

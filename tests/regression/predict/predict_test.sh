@@ -1,16 +1,9 @@
 #!/usr/bin/env bash
 # predict_test.sh BIN CASES WORK: measured films calibrate the bank that ships, others are predicted and a pressure is
 # chosen; the same bytes twice; mistakes are reported; the calibrated case is one that `validate` takes.
-set -euo pipefail
-bin=$1 cases=$2 work=$3
-fail() { echo "FAILED: $*" >&2; exit 1; }
-rm -rf "$work"
-mkdir -p "$work"
-cd "$work"
-films=("$cases/paper/experiment_with_nanopores.toml" "$cases/real/artistic_96/experiment.toml")
-calendem() { "$bin/calendem" "$@"; }
+# shellcheck source=tests/regression/predict/calibrated.sh
+source "$(dirname "${BASH_SOURCE[0]}")/calibrated.sh"
 
-calendem calibrate "${films[@]}" -o model --bank "$cases/coatings/bank.toml" | tee calibrate.log
 calendem calibrate "${films[@]}" -o again --bank "$cases/coatings/bank.toml" >/dev/null
 for file in model.json model.html case.toml; do
   cmp "model/$file" "again/$file" || fail "the same input gave another $file"
@@ -21,14 +14,6 @@ calendem validate model/case.toml || fail "the calibrated case is none"
 grep -q "^beyond_cohesion = 1" model/case.toml || fail "the case lacks a setting of the bank's runs"
 grep -qE "^# In the recipe: cbd.nanoporosity_percent [0-9.]+ (lower|higher)$" model/case.toml || fail "the case does not say which nanoporosity"
 
-cat >film.toml <<'END'
-name = "film"
-[composition]
-carbon_weight_percent = 2.5
-binder_weight_percent = 2.5
-[coating]
-porosity_total_percent = 44
-END
 calendem predict model/model.json film.toml --pressure 20,80,300 -o prediction \
   --vary porosity_before_percent=43,46 >predict.log || { cat predict.log; fail "predict"; }
 [ "$(wc -l <prediction/prediction.csv)" = 7 ] || fail "two films at three pressures are six rows"
@@ -91,14 +76,6 @@ for page in model/model.html prediction/prediction.html design/design.html gap/g
 done
 grep -q "What each reading taught" model/model.html || fail "the page does not say what each reading taught"
 
-refuses() { # WORDS ARGUMENTS...
-  local words=$1 status=0
-  shift
-  calendem "$@" -o bad >bad.log 2>&1 || status=$?
-  [ $status = 2 ] || fail "exit status $status for: $*"
-  grep -qF -- "$words" bad.log || { cat bad.log; fail "'$words' is not said for: $*"; }
-  [ ! -e bad ] || fail "something was written for: $*"
-}
 refuses "the bank has 20 to 300" predict model/model.json film.toml --pressure 5
 refuses "without pores is" predict model/model.json film.toml --gap 30
 refuses "thick before it is pressed" predict model/model.json film.toml --gap 90
@@ -130,89 +107,6 @@ sed 's/"hash": "[0-9a-f]*"/"hash": "0"/' model/model.json >changed.json
 refuses "--material is needed; the model has 'ARTISTIC NMC111', 'BLB NMC111'" predict three/model.json film.toml
 refuses "--material is 'ARTISTIC'; the model has" predict three/model.json film.toml --material ARTISTIC
 refuses "has changed since the model was calibrated" design changed.json film.toml --porosity 30
-
-# A film of another kind is predicted by runs of its own, which are there the second time.
-cat >other.toml <<'END'
-name = "other"
-[coating]
-loading_mg_cm2 = 4
-porosity_total_percent = 50
-[particles]
-sigma_ln = 0.3
-[cell]
-x_um = 6
-y_um = 6
-END
-refuses "or predict it by runs of its own (--runs)" predict model/model.json other.toml
-refuses "one by one" predict model/model.json other.toml --runs 4
-refuses "without --vary" predict model/model.json other.toml --runs 4 --pressure 10,30 --vary porosity_before_percent=40
-refuses "two or more to --pressure" predict model/model.json other.toml --runs 4 --pressure 30 --press-percent 5
-by_runs() { calendem predict model/model.json other.toml --pressure 10,150 --runs 4 --jobs 2 -o own; }
-by_runs
-cp own/prediction.csv first.csv
-by_runs >again.log
-grep -q "8 runs, 8 of them done already" again.log || fail "runs were made twice"
-cmp first.csv own/prediction.csv || fail "the same runs gave another prediction"
-grep -q '"runs": 4' own/prediction.json || fail "it is not said that runs predict"
-grep -q "from 4 simulations at each pressure" own/prediction.html || fail "the page does not say that runs predict"
-awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
-  { p = $at["porosity_after_percent_median"]; if (!(p > 20 && p < 50) || (NR > 2 && p >= last)) exit 1; last = p }' \
-  first.csv || fail "own/prediction.csv: more pressure leaves less, below 50 %"
-
-# The same runs choose between the pressures: each is proposed for the porosity that it leaves, within what four draws of
-# the material differ by.
-left() { awk -F, -v row="$1" 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next } NR == row + 1 { print $at["porosity_after_percent_median"] }' first.csv; }
-calendem design model/model.json other.toml --porosity "$(left 1)" --within 4 --pressure 10,150 --runs 4 --jobs 2 -o own | tee own_design.log
-grep -q "8 runs, 8 of them done already" own_design.log || fail "design made the runs again"
-grep -q "^other: 10 MPa meets the target with" own_design.log || fail "not the pressure is proposed that leaves the porosity"
-calendem design model/model.json other.toml --porosity "$(left 2)" --within 4 --pressure 10,150 --runs 4 -o own | grep "^other: 150 MPa meets the target with" ||
-  fail "the larger pressure is not proposed for the smaller porosity"
-sed '/<script type="application.json" id="data">/,$d' own/design.html | grep "From 4 simulations at each pressure" >/dev/null || fail "the page does not say that runs choose"
-refuses "one by one" design model/model.json other.toml --porosity 38 --runs 4
-refuses "not of the bank's kind" design model/model.json other.toml --porosity 38
-
-# A proposal is run: it meets its target about as surely as was proposed, within the scatter of four runs of so small a cell.
-sed 's/^sigma_ln.*/sigma_ln = 0.487/' other.toml >small.toml
-calendem design model/model.json small.toml --porosity 38 --within 3 --pressure 20,25 --confirm 4 --jobs 2 -o confirmed | tee confirmed.log
-grep -q "run 4 times, each with another draw of the material on another packing: it meets the target with" confirmed.log ||
-  fail "the proposal was not run"
-grep -q '"confirmed": \[' confirmed/design.json || fail "design.json does not hold what was run"
-sed '/<script type="application.json" id="data">/,$d' confirmed/design.html | grep "4 runs: .* %, porosity" >/dev/null || fail "the page does not show what was run"
-grep -q '"tortuosity_through_plane": {' own/prediction.json || fail "runs of their own are not measured"
-
-# So is a gap, under a roll in two passes. One packing of ten micrometres scatters by 0.75 points, of six by 1.25, the median of
-# four by 0.7: three points are four standard deviations.
-calendem design model/model.json small.toml --porosity 38 --within 3 --gap 13,14,15 --confirm 4 --passes 2 --jobs 2 -o by_gap | tee by_gap.log
-grep -q "^other: 14.0 um meets the target with" by_gap.log || fail "not the gap is proposed that leaves 38 %"
-awk '/porosity/ { for (k = 1; k < NF; ++k) if ($k == "porosity") p[++n] = $(k + 1) } END { exit !(n == 2 && (p[1] - p[2]) ^ 2 < 9) }' \
-  by_gap.log || fail "the roll leaves another porosity"
-grep -q "run 4 times in 2 passes under the roll" by_gap.log || fail "the gap was not run"
-grep -q '"passes": 2' by_gap/design.json || fail "design.json does not hold the passes"
-grep -q "Which gap gives" by_gap/design.html || fail "the page does not ask for a gap"
-# The same runs, which are there, as a prediction. No emulator: the bank has not this film.
-calendem predict model/model.json small.toml --gap 14 --runs 4 --passes 2 --jobs 2 -o by_gap >gap_runs.log || { cat gap_runs.log; fail "predict --gap --runs"; }
-grep -q "4 runs, 4 of them done already" gap_runs.log || fail "the roll's runs were made twice"
-grep -q '"runs": 4' by_gap/gap.json || fail "it is not said that runs predict at a gap"
-grep -q "from 4 simulations under a roll at each gap" by_gap/gap.html || fail "the page does not say that runs predict at a gap"
-refuses "whole numbers from 1 to 20" design model/model.json small.toml --porosity 38 --gap 13 --confirm 4 --passes 1.5
-refuses "values of --gap one by one" predict model/model.json small.toml --gap 12:14 --runs 4
-
-# A calibration runs its films again: simulated beside emulated.
-cat >pressed.toml <<'END'
-[experiment]
-name = "pressed"
-electrode = "small.toml"
-[[condition]]
-id = "p025"
-control = "pressure"
-max_pressure_MPa = { value = 25, sd_relative = 0.05 }
-porosity_after_percent = { value = 38, sd = 0.5 }
-END
-calendem calibrate pressed.toml -o small --samples 512 --confirm 4 --jobs 2 --bank "$cases/coatings/bank.toml" | tee small.log
-grep -q "pressed .* 25 MPa  measured 38.0, 4 runs .* emulators .*: off by .* ±" small.log || fail "the film was not run again"
-grep -q '"emulated":' small/model.json || fail "model.json does not hold what was run"
-grep -q "Run again" small/model.html || fail "the page does not show what was run"
-refuses "--confirm runs recipes as they are" design model/model.json small.toml --porosity 38 --confirm 4 --vary porosity_before_percent=44
 
 # The blind predictions are what their page's commands make: four digits, the last of which another processor may round.
 calendem predict model/model.json "$cases/coatings/film.toml" --vary carbon_and_binder_each_percent=3,2.5,2 \

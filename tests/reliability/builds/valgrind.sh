@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# valgrind.sh WORK: everything the plugin has, once (valgrind/in.memory), under valgrind's memcheck on one rank and
-# on two; fails when the program's own code reads or writes where it must not, or uses what was never set. Errors
+# valgrind.sh WORK BIN: everything the plugin has, once (valgrind/in.memory), under valgrind's memcheck on one rank and
+# on two, and the decks of three tests of BIN; fails when the program's own code reads or writes where it must not, or uses what was never set. Errors
 # inside MPI's libraries alone do not count. Runs with CALENDEM_HEAVY=1; builds a program for it in WORK, because
 # valgrind does not know every instruction of -march=native.
 set -euo pipefail
@@ -49,4 +49,19 @@ for ranks in 1 2; do
   grep -q '^END' "$run/said.txt" || { tail "$run/said.txt"; echo "FAILED: the run on $ranks ranks did not end"; exit 1; }
   [ "$(wc -l <"$run/breaks.csv")" -gt 5 ] || { echo "FAILED: too few breaks to show anything"; exit 1; }
 done
+# The decks of other tests: their programs start this in the place of liggghts.
+decks=$work/decks
+rm -rf "$decks"
+mkdir -p "$decks"
+printf '#!/bin/sh\nexec %s --log-file=%s/valgrind.%%p.txt %s "$@"\n' "${check[*]}" "$decks" "$work/build/bin/liggghts" \
+  >"$work/liggghts"
+chmod +x "$work/liggghts"
+for test in host_styles between_runs lost_bonds; do
+  CALENDEM_LIGGGHTS=$work/liggghts "$2/${test}_test" >"$decks/$test.txt" 2>&1 ||
+    { grep -E 'FAILED|Failure' "$decks/$test.txt"; failed=1; }
+done
+our_errors "$decks"/valgrind.*.txt >"$decks/errors.txt"
+echo "decks: $(find "$decks" -name 'valgrind.*' | wc -l) processes," \
+  "$(awk -v RS= 'END { print NR }' "$decks/errors.txt") errors of the program's own"
+[ ! -s "$decks/errors.txt" ] || { cat "$decks/errors.txt"; failed=1; }
 [ $failed -eq 0 ] || { echo "FAILED: see above"; exit 1; }

@@ -67,7 +67,7 @@ commands_exist() {
 }
 styles_have_pages() { # each style that the plugin registers has a page with its name
   grep -hoE '^ *((Fix|Compute|Dump|Command)Style\([a-z/_]+|(NORMAL|COHESION|SURFACE)_MODEL\([A-Z_]+, [a-z_]+)|DumpStyle\(platen/vtk|ComputeStyle\(bond/bpm/body' \
-    src_plugin/liggghts/*.h | sed 's/.*[( ]//' | sort -u |
+    src_plugin/liggghts/*/*.h | sed 's/.*[( ]//' | sort -u |
     while read -r style; do
       grep -qE "^# .*$style" docs/reference/styles/*.md || echo "$style"
     done | report "styles without a page in docs/reference/styles"

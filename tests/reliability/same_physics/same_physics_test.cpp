@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "liggghts/film_cuts.h"
+#include "liggghts/base/film_cuts.h"
 #include "spheres.h"
 
 using namespace calendem;

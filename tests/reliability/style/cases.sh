@@ -36,7 +36,7 @@ includes_point_one_way() { # physics <- registry <- liggghts, tools/calendem; te
     report "src_plugin must not include tools or tests" || exit 1
   # A folder of tools/calendem knows itself, those before it in this list, and its CMake library links no other.
   local folder known=physics\|registry
-  for folder in base electrode/structure electrode/pack electrode/slurry electrode simulate measure report \
+  for folder in effects base electrode/structure electrode/pack electrode/slurry electrode simulate measure report \
     diagnose/inference diagnose/compare diagnose/bank diagnose predict withheld commands .; do
     known="$known|$folder"
     find "tools/calendem/$folder" -maxdepth 1 -name '*.h' -o -maxdepth 1 -name '*.cpp' | LC_ALL=C sort |
@@ -46,6 +46,39 @@ includes_point_one_way() { # physics <- registry <- liggghts, tools/calendem; te
   cxx_files | matching '^tools/calendem/' | cut -d/ -f3- | sed 's:/*[^/]*$::' | sort -u |
     without "^($known)?$" | report "folders of tools/calendem that have no place in the order of includes" || exit 1
   includes tools/calendem | matching '<(gtest|gmock|benchmark)/' | report "tools/calendem must not include tests"
+}
+named_files_exist() { # those that heads of laws name, and pages (.md) that any comment names; or a program writes them
+  local file name folder found
+  { grep -nE '^//' src_plugin/physics/*.h src_plugin/registry/*.h | grep -oE '^[^:]+:[0-9]+|[A-Za-z0-9_/.]+\.(h|cpp|md|sh)\b'
+    cxx_files | xargs grep -nE '//.*\.md\b' | grep -oE '^[^:]+:[0-9]+|[A-Za-z0-9_/.]+\.md\b'; } |
+    while read -r name; do
+      case $name in *:[0-9]*) file=$name; continue ;; esac
+      found=0
+      for folder in . src_plugin "$(dirname "${file%:*}")"; do [ ! -f "$folder/$name" ] || found=1; done
+      [ $found -eq 1 ] || grep -qrF "$name\"" tools/calendem --include='*.cpp' || echo "$file names $name"
+    done | sort -u | report "files that a comment names and that do not exist"
+}
+pi_has_one_place() { # physics/pi.h
+  cxx_files | without '/physics/pi\.h$' | { xargs grep -nE '3\.14159|6\.28318|M_PI|acos\(-1' /dev/null || true; } |
+    report "include physics/pi.h and say kPi"
+}
+rooms_of_the_plugin() { # a room knows those before it; no unit (a header and its source) reaches itself
+  local rooms=(base bonds pairs walls ledger output) room later known="" name
+  local -A room_of
+  for room in "${rooms[@]}"; do
+    while read -r name; do room_of[$name]=$room; done < <(find "src_plugin/liggghts/$room" -name '*.h' -printf '%f\n')
+  done
+  find src_plugin/liggghts -mindepth 1 -maxdepth 1 -printf '%f\n' | without "^($(IFS='|'; echo "${rooms[*]}"))$" |
+    report "src_plugin/liggghts has no other rooms than ${rooms[*]}" || exit 1
+  for room in "${rooms[@]}"; do
+    known="$known $room"
+    includes "src_plugin/liggghts/$room" | sed -n 's/:.*"\([a-z_0-9]*\.h\)".*/ \1/p' | while read -r file name; do
+      later=${room_of[$name]:-}
+      [ -z "$later" ] || [[ " $known " = *" $later "* ]] || echo "$file includes $later/$name"
+    done | report "the room $room may include${known} and the host" || exit 1
+  done
+  includes src_plugin/liggghts | sed -n 's|.*/\([a-z_0-9]*\)\.[a-z]*:.*"\([a-z_0-9]*\)\.h".*|\1 \2|p' | awk '$1 != $2' |
+    LC_ALL=C sort -u | tsort 2>&1 >/dev/null | report "units of src_plugin/liggghts that include each other in a circle"
 }
 header_options=(-std=c++17 -Wall -Wextra -I src_plugin -I tools/calendem -isystem /usr/include/eigen3 -x c++)
 all_headers() { # of physics, registry and tools/calendem as one translation unit
@@ -72,7 +105,27 @@ formatted() {
 bodies_are_short() { # at once, for all files; clang-tidy counts too, but reads few of them unless asked for all
   cxx_files | xargs awk -f tests/reliability/style/long_bodies.awk | report "bodies of more than 60 lines"
 }
-# clang-tidy on all headers and, as a source takes it some seconds, on twelve of the sources that the last commit
+# compile_commands.json of BUILD, with each source of a file that CMake made of several (UNITY_BUILD) by itself.
+write_commands_of_sources() { # BUILD FOLDER
+  mkdir -p "$2"
+  awk '
+    /^  "command"/ { command = $0 }
+    /^  "file": ".*\/unity_[0-9]+_cxx\.cxx"/ {
+      split($0, part, "\""); unity = part[4]; n = 0
+      while ((getline line < unity) > 0)
+        if (split(line, include, "\"") == 3) {
+          by_itself = command
+          sub(" -c .*", " -c " include[2] "\",", by_itself)
+          entries[++n] = by_itself "\n  \"file\": \"" include[2] "\""
+        }
+      for (k = 1; k < n; ++k) printf "%s\n},\n{\n%s", entries[k], directory
+      print entries[n]; next }
+    /^  "directory"/ { directory = $0 "\n"; printf "%s", directory; next }
+    /^  "command"/ { next }
+    /^  "file"/ { print command }
+    { print }' "$1/compile_commands.json" >"$2/compile_commands.json"
+}
+# clang-tidy on all headers and, as a source takes it some seconds, on six of the sources that the last commit
 # or the work since has changed; with CALENDEM_HEAVY=1 on every source: some ten minutes on two idle cores. The
 # adapters, which are built in the host's tree, keep the host's manner: NULL, no override.
 tidy() { # BUILD: where compile_commands.json is
@@ -81,12 +134,13 @@ tidy() { # BUILD: where compile_commands.json is
   local run=(clang-tidy --quiet --config-file=.clang-tidy) each=(xargs -r -n 1 -P "$(nproc)") headers=$1/all_headers.cpp
   local sources failed=0
   all_headers >"$headers"
+  write_commands_of_sources "$1" "$1/tidy"
   "${run[@]}" "$headers" -- "${header_options[@]}" || { echo "FAILED: clang-tidy on the headers"; exit 1; }
   if [ "${CALENDEM_HEAVY:-0}" = 1 ]; then sources=$(cxx_files | matching '\.cpp$')
-  else sources=$(git diff --name-only --diff-filter=d HEAD~1 -- '*.cpp' 2>/dev/null | head -n 12 || true); fi
-  without '^src_plugin/liggghts/' <<<"$sources" | "${each[@]}" "${run[@]}" -p "$1" || failed=1
-  sed -n "s|^src_plugin/liggghts/|$1/host/src/|p" <<<"$sources" |
-    "${each[@]}" "${run[@]}" -p "$1" '--checks=-modernize-*' || failed=1
+  else sources=$(git diff --name-only --diff-filter=d HEAD~1 -- '*.cpp' 2>/dev/null | head -n 6 || true); fi
+  without '^src_plugin/liggghts/' <<<"$sources" | "${each[@]}" "${run[@]}" -p "$1/tidy" || failed=1
+  sed -n "s|^src_plugin/liggghts/[a-z]*/|$1/host/src/|p" <<<"$sources" |
+    "${each[@]}" "${run[@]}" -p "$1/tidy" '--checks=-modernize-*' || failed=1
   [ $failed -eq 0 ] || { echo "FAILED: the files named above; see .clang-tidy"; exit 1; }
 }
 shell_is_clean() {

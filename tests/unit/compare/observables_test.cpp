@@ -10,7 +10,7 @@
 namespace calendem {
 namespace {
 
-// physics.md's reading of Table 1: h/h_solid = 1.385 and 1.336, from mass and thickness with foil.
+// Table 1 of the paper: h/h_solid = 1.385 and 1.336, from mass and thickness with foil.
 TEST(Observables, ThicknessOverSolidThicknessOfTable1) {
   Experiment e = paper();
   std::vector<std::string> not_said;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/experiment_data.h"
+#include "reported.h"
 #include "support/made_bank.h"
 #include "support/test_folder.h"
 #include <fstream>
@@ -11,11 +12,6 @@ using namespace calendem;
 using namespace calendem_test;
 
 const BankPoint kTruth = {"", 0, 99, {1.5, 250.0}, 0.0};
-
-bool reported(const ExperimentData &data, const std::string &part) {
-  return std::any_of(data.not_said.begin(), data.not_said.end(),
-                     [&](const std::string &s) { return s.find(part) != std::string::npos; });
-}
 
 /// One condition with its porosity only.
 Experiment with_pressure(double pressure, double sd = 0.0) {

@@ -9,7 +9,7 @@ namespace {
 using namespace calendem;
 using namespace calendem_test;
 
-const BankPoint kTruth = {"", 0, 99, {1.5, 250.0}, 0.0};
+const BankPoint kBaseFilm = {"", 0, 99, {1.5, 250.0}, 0.0};
 
 const inference::Candidate *named(const ExperimentData &data, const std::string &what) {
   for (const inference::Candidate &c : data.next)
@@ -19,7 +19,7 @@ const inference::Candidate *named(const ExperimentData &data, const std::string 
 }
 
 TEST(Further, WhatIsMeasuredIsNotAskedForAgain) {
-  const ExperimentData data = data_of(made_experiment(kTruth), made_bank(), {});
+  const ExperimentData data = data_of(made_experiment(kBaseFilm), made_bank(), {});
   ASSERT_EQ(data.next.size(), 1u);
   EXPECT_EQ(data.next[0].what, "displacement while the pressure rises: p30, p60");
   EXPECT_EQ(data.next[0].cost, 2.0); // an hour for each sample
@@ -29,7 +29,7 @@ TEST(Further, WhatIsMeasuredIsNotAskedForAgain) {
 }
 
 TEST(Further, EveryConditionThatLacksAKindIsInIt) {
-  Experiment e = made_experiment(kTruth);
+  Experiment e = made_experiment(kBaseFilm);
   e.conditions[1].cracked_bodies_fraction.reset();
   for (Condition &c : e.conditions)
     c.thickness_at_max_um.reset();
@@ -48,8 +48,8 @@ TEST(Further, EveryConditionThatLacksAKindIsInIt) {
 TEST(Further, ReleasesThatTheBankHasCanBeMeasured) {
   const std::string what = "displacement while the pressure falls: p30, p60";
   const BankTable bank = made_bank(), with = with_release(made_bank());
-  EXPECT_FALSE(named(data_of(made_experiment(kTruth), bank, {}), what));
-  const ExperimentData data = data_of(made_experiment(kTruth), with, {});
+  EXPECT_FALSE(named(data_of(made_experiment(kBaseFilm), bank, {}), what));
+  const ExperimentData data = data_of(made_experiment(kBaseFilm), with, {});
   const auto *release = named(data, what);
   ASSERT_TRUE(release);
   ASSERT_EQ(release->of.size(), 6u);
@@ -59,7 +59,7 @@ TEST(Further, ReleasesThatTheBankHasCanBeMeasured) {
 
 // The pressure of the others is known within 10 %, so its own is.
 TEST(Further, OtherPressuresOfTheBankAreAsUncertainAsThoseMeasured) {
-  Experiment e = made_experiment(kTruth);
+  Experiment e = made_experiment(kBaseFilm);
   e.conditions.resize(1);
   e.conditions[0].max_pressure_MPa->sd = 3.0;
   const BankTable table = made_bank();
@@ -77,7 +77,7 @@ TEST(Further, PricesOfTheBankCount) {
   BankTable table = made_bank();
   for (MeasurementPrice &p : table.spec.prices)
     p.hours = 7.0, p.sd = 2.0;
-  const ExperimentData data = data_of(made_experiment(kTruth), table, {});
+  const ExperimentData data = data_of(made_experiment(kBaseFilm), table, {});
   EXPECT_EQ(data.next[0].cost, 14.0);
   EXPECT_NEAR(data.next[0].covariance(0, 0), 4.0, 1e-12);
 }

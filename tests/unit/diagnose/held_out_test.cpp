@@ -99,7 +99,7 @@ double coverage(int packings, int worlds, double gap_before, double gap_after, d
 }
 
 TEST(HeldOutGap, NinetyPercentIntervalsHoldTheTruthAsOftenAsTheDesignAsks) {
-  // gap.md asks for 80-97 % of intervals; 400 worlds know the share within 0.02.
+  // 80-97 % of the intervals are asked for; 400 worlds know the share within 0.02.
   for (const double after : {3.0, 6.0})
     for (const double common : {0.0, 0.5})
       for (const int packings : {4, 8}) {

@@ -2,6 +2,7 @@
 // Banks of which some points were run to more pressures than others.
 #include "diagnose/diagnose.h"
 #include "diagnose/experiment_data.h"
+#include "reported.h"
 #include "support/made_bank.h"
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,7 @@ namespace {
 using namespace calendem;
 using namespace calendem_test;
 
-const BankPoint kTruth = {"friction", 0, 99, {1.5, 250.0}, 0.3};
+const BankPoint kWithFriction = {"friction", 0, 99, {1.5, 250.0}, 0.3};
 
 /// The made bank, with runs of all base points and of some points of friction to one pressure more.
 BankTable with_runs_to(double pressure, int of_friction) {
@@ -27,20 +28,16 @@ BankTable with_runs_to(double pressure, int of_friction) {
 
 /// One condition, with its porosity.
 Experiment at(double pressure) {
-  Experiment e = made_experiment(kTruth);
+  Experiment e = made_experiment(kWithFriction);
   e.conditions.resize(1);
   Condition &c = e.conditions[0];
   c.id = "one";
   c.max_pressure_MPa = Measured{pressure, 0.0};
-  c.porosity_after_percent = Measured{100.0 * made_run(kTruth, pressure).porosity_after, 0.5};
+  c.porosity_after_percent =
+      Measured{100.0 * made_run(kWithFriction, pressure).porosity_after, 0.5};
   c.cracked_bodies_fraction.reset();
   c.thickness_at_max_um.reset();
   return e;
-}
-
-bool reported(const ExperimentData &data, const std::string &part) {
-  return std::any_of(data.not_said.begin(), data.not_said.end(),
-                     [&](const std::string &s) { return s.find(part) != std::string::npos; });
 }
 
 int runs_of(const ExperimentData &data, const std::string &effect) {
@@ -105,7 +102,7 @@ TEST(PartialBank, APressureThatAnEffectHasFewRunsToIsInterpolated) {
 // What 30 and 60 MPa say does not depend on runs to 120 MPa: the same to the last digit, but for the
 // measurement that these add to what could be done next.
 TEST(PartialBank, MorePressuresChangeNothingButTheNextMeasurements) {
-  const Experiment e = made_experiment(kTruth);
+  const Experiment e = made_experiment(kWithFriction);
   SharedModels models;
   const BankTable wide = with_runs_to(120.0, 6);
   Diagnosed narrow = diagnosed(e, made_bank(), 100.0, models),
@@ -121,7 +118,7 @@ TEST(PartialBank, MorePressuresChangeNothingButTheNextMeasurements) {
 // Learnt from the points that went there. A sample of many cells knows it as well as it is measured,
 // 0.5 points: that is the feature's unit. Three of the emulators' own standard deviations.
 TEST(PartialBank, AFurtherPressureIsLearntFromThePointsThatWentThere) {
-  const ExperimentData data = data_of(made_experiment(kTruth), with_runs_to(120.0, 6), {});
+  const ExperimentData data = data_of(made_experiment(kWithFriction), with_runs_to(120.0, 6), {});
   const inference::Candidate *further = offered(data, ": 120 MPa");
   ASSERT_TRUE(further);
   inference::ModelSettings settings;
@@ -141,10 +138,10 @@ TEST(PartialBank, AFurtherPressureIsLearntFromThePointsThatWentThere) {
     return std::pair(0.5 * all.mean.tail(1)[0], 0.25 * all.variance.tail(1)[0]);
   };
   const BankPoint stiff = {"", 0, 99, {1.2, 250.0}, 0.0};
-  const auto [friction, its_variance] = predicted(kTruth);
+  const auto [friction, its_variance] = predicted(kWithFriction);
   const auto [none, variance] = predicted(stiff);
-  const double truth =
-      100.0 * (made_run(kTruth, 120.0).porosity_after - made_run(stiff, 120.0).porosity_after);
+  const double truth = 100.0 * (made_run(kWithFriction, 120.0).porosity_after -
+                                made_run(stiff, 120.0).porosity_after);
   EXPECT_GT(truth, 4.0);
   EXPECT_NEAR(friction - none, truth, 3.0 * std::sqrt(its_variance + variance));
   EXPECT_LT(std::sqrt(its_variance + variance), 0.3);
@@ -152,10 +149,11 @@ TEST(PartialBank, AFurtherPressureIsLearntFromThePointsThatWentThere) {
 
 // Where no next measurement is asked for, what runs lack of one is no mistake of the bank.
 TEST(PartialBank, AModelNeedsWhatWasMeasuredOnly) {
-  const ExperimentData data = data_of(made_experiment(kTruth), with_runs_to(120.0, 6), {});
+  const ExperimentData data = data_of(made_experiment(kWithFriction), with_runs_to(120.0, 6), {});
   EXPECT_NO_THROW(inference::Model(data.bank, data.experiment, {}));
-  const Diagnosed d = diagnosed_change(made_experiment({"", 0, 98, {1.5, 250.0}, 0.0}),
-                                       made_experiment(kTruth), with_runs_to(120.0, 6), 100.0);
+  const Diagnosed d =
+      diagnosed_change(made_experiment({"", 0, 98, {1.5, 250.0}, 0.0}),
+                       made_experiment(kWithFriction), with_runs_to(120.0, 6), 100.0);
   EXPECT_EQ(d.gap["which"]["claim"], "friction");
 }
 

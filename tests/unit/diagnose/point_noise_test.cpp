@@ -12,7 +12,7 @@ using namespace calendem;
 using namespace calendem_test;
 
 constexpr double kSd = 0.02;
-std::vector<std::string> reported;
+std::vector<std::string> said_of;
 
 /// One condition whose release has 20 rows between a quarter and the whole of 30 MPa, on the bank's
 /// line with errors `times` as large as stated.
@@ -41,7 +41,7 @@ TEST(PointNoise, IsStandardNormalIfErrorsAreAsStated) {
   double sum = 0.0, square = 0.0;
   constexpr int n = 100;
   for (int k = 0; k < n; ++k) {
-    const auto noise = point_noise_of(released(bank, 1.0, std::uint64_t(k)), bank, 1.0, reported);
+    const auto noise = point_noise_of(released(bank, 1.0, std::uint64_t(k)), bank, 1.0, said_of);
     ASSERT_EQ(noise.size(), 1u);
     EXPECT_EQ(noise[0].condition, "p30");
     ASSERT_EQ(noise[0].measured.size(), 18);
@@ -58,7 +58,7 @@ TEST(PointNoise, LargerErrorsAreEstimated) {
   double sum = 0.0;
   constexpr int n = 50;
   for (int k = 0; k < n; ++k) {
-    const auto noise = point_noise_of(released(bank, 3.0, std::uint64_t(k)), bank, 1.0, reported);
+    const auto noise = point_noise_of(released(bank, 3.0, std::uint64_t(k)), bank, 1.0, said_of);
     EXPECT_GT(noise.at(0).score, 3.0);
     sum += noise.at(0).times_stated() / n;
   }
@@ -69,8 +69,8 @@ TEST(PointNoise, LargerErrorsAreEstimated) {
 TEST(PointNoise, NeedsARelease) {
   const BankTable bank = made_bank();
   Experiment e = made_experiment({"", 0, 99, {1.5, 250.0}, 0.0});
-  EXPECT_TRUE(point_noise_of(e, bank, 1.0, reported).empty()); // no curve
-  EXPECT_TRUE(point_noise_of(released(with_release(bank), 1.0, 1), bank, 1.0, reported).empty());
+  EXPECT_TRUE(point_noise_of(e, bank, 1.0, said_of).empty()); // no curve
+  EXPECT_TRUE(point_noise_of(released(with_release(bank), 1.0, 1), bank, 1.0, said_of).empty());
 }
 
 /// Without the beginnings of all releases, at the maximum.
@@ -86,11 +86,11 @@ BankTable begins_lower(BankTable bank) {
 // 14 rows from 0.25 to 0.75 of the maximum.
 TEST(PointNoise, RowsAboveTheBanksReleaseAreLeftOut) {
   const BankTable bank = with_release(made_bank());
-  reported.clear();
-  const auto noise = point_noise_of(released(bank, 1.0, 1), begins_lower(bank), 1.0, reported);
+  said_of.clear();
+  const auto noise = point_noise_of(released(bank, 1.0, 1), begins_lower(bank), 1.0, said_of);
   ASSERT_EQ(noise.size(), 1u);
   EXPECT_EQ(noise[0].measured.size(), 12);
-  EXPECT_TRUE(reported.empty());
+  EXPECT_TRUE(said_of.empty());
 }
 
 TEST(PointNoise, AReleaseOfTooFewRowsIsReported) {
@@ -102,12 +102,12 @@ TEST(PointNoise, AReleaseOfTooFewRowsIsReported) {
     text += line + "\n";
   whole.close();
   std::ofstream(e.conditions[0].curve) << text;
-  reported.clear();
-  EXPECT_TRUE(point_noise_of(e, bank, 1.0, reported).empty());
-  ASSERT_EQ(reported.size(), 1u);
-  EXPECT_NE(reported[0].find("p30: how much its points scatter is not judged: of 5 rows"),
+  said_of.clear();
+  EXPECT_TRUE(point_noise_of(e, bank, 1.0, said_of).empty());
+  ASSERT_EQ(said_of.size(), 1u);
+  EXPECT_NE(said_of[0].find("p30: how much its points scatter is not judged: of 5 rows"),
             std::string::npos)
-      << reported[0];
+      << said_of[0];
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "base/messages.h"
 #include "diagnose/diagnose.h"
 #include "diagnose/experiment_data.h"
+#include "reported.h"
 #include "support/made_bank.h"
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,7 @@ namespace {
 using namespace calendem;
 using namespace calendem_test;
 
-const BankPoint kTruth = {"friction", 0, 99, {1.5, 250.0}, 0.3};
+const BankPoint kRubbed = {"friction", 0, 99, {1.5, 250.0}, 0.3};
 constexpr double kPressure = 60.0; // MPa
 
 /// Once more to the pressure: the film is denser; held there: friction loses some of it.
@@ -41,7 +42,7 @@ BankTable bank_with_pressings() {
 
 /// A film at 60 MPa and another one pressed so, with porosities.
 Experiment pressed_twice(const std::string &pressing) {
-  Experiment e = made_experiment(kTruth);
+  Experiment e = made_experiment(kRubbed);
   e.conditions.erase(e.conditions.begin());
   e.conditions.push_back(e.conditions[0]);
   for (Condition &c : e.conditions) {
@@ -52,13 +53,8 @@ Experiment pressed_twice(const std::string &pressing) {
   Condition &other = e.conditions[1];
   other.id = other.specimen = "other";
   other.pressing = pressing;
-  other.porosity_after_percent->value = 100.0 * pressed_so(pressing, kTruth).porosity_after;
+  other.porosity_after_percent->value = 100.0 * pressed_so(pressing, kRubbed).porosity_after;
   return e;
-}
-
-bool reported(const ExperimentData &data, const std::string &part) {
-  return std::any_of(data.not_said.begin(), data.not_said.end(),
-                     [&](const std::string &s) { return s.find(part) != std::string::npos; });
 }
 
 /// Base points differ in every parameter.
@@ -180,7 +176,7 @@ TEST(Pressings, AreOfferedAsMeasurements) {
   for (MeasurementPrice &price : table.spec.prices)
     if (price.name == "dwell")
       price.hours = 7.0;
-  Experiment e = made_experiment(kTruth);
+  Experiment e = made_experiment(kRubbed);
   const auto offered = [&](const std::string &what) {
     const ExperimentData data = data_of(e, table, {});
     return std::count_if(data.next.begin(), data.next.end(), [&](const inference::Candidate &c) {

@@ -6,8 +6,8 @@
 #include "diagnose/inference/hypothesis.h"
 #include "diagnose/inference/which.h"
 #include "support/test_folder.h"
+#include "support/with_all.h"
 #include <algorithm>
-#include <cstdlib>
 #include <fmt/format.h>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -127,7 +127,7 @@ TEST(ShippedBank, EffectsAtTwiceTheirDetectionLimitAreNamed) {
   };
   const inference::Diagnosis base = inference::diagnose(model, data.bank, copy_of({}), settings);
   EXPECT_EQ(base.which.claim, "none");
-  const bool heavy = std::getenv("CALENDEM_HEAVY"); // else every second
+  const int every = calendem_test::with_all(1, 3);
   int visible = 0;
   for (std::size_t k = 0; k < data.bank.effects.size(); ++k) {
     const inference::DetectionLimit &limit = base.confounding.limits[k];
@@ -136,7 +136,7 @@ TEST(ShippedBank, EffectsAtTwiceTheirDetectionLimitAreNamed) {
     RecordProperty(limit.effect, fmt::format("{:.3g} of {:.3g}", limit.amplitude, prior.upper()));
     if (!(2.0 * limit.amplitude <= prior.upper()))
       continue;
-    if (visible++ % 2 != 0 && !heavy)
+    if (visible++ % every != 0)
       continue;
     const inference::Vector score =
         inference::Vector::Constant(1, prior.score(2.0 * limit.amplitude));

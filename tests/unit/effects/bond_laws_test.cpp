@@ -2,14 +2,13 @@
 // Requirement: the rows of laws of bond strength and the keywords of fix bond/bpm are the same,
 // with the same numbers in the same ranges.
 #include "base/registry.h"
-#include "liggghts/bond_strengths.h"
+#include "registry/bond_strengths.h"
 #include <algorithm>
 #include <gtest/gtest.h>
 
 namespace {
 
 using namespace calendem;
-using LAMMPS_NS::BondStrengths;
 
 TEST(BondLaws, RowsAreKeywordsOfTheFix) {
   std::size_t rows = 0;
@@ -17,10 +16,9 @@ TEST(BondLaws, RowsAreKeywordsOfTheFix) {
     if (e.bond_law.empty())
       continue;
     ++rows;
-    const auto &all = BondStrengths::keywords();
-    const auto law = std::find_if(all.begin(), all.end(), [&](const BondStrengths::Keyword &k) {
-      return e.bond_law == k.name;
-    });
+    const auto &all = bond_strength_laws();
+    const auto law = std::find_if(
+        all.begin(), all.end(), [&](const BondStrengthLaw &k) { return e.bond_law == k.keyword; });
     ASSERT_NE(law, all.end()) << e.name;
     ASSERT_EQ(law->numbers.size(), e.settings.size()) << e.name;
     for (std::size_t k = 0; k < e.settings.size(); ++k) {
@@ -29,7 +27,7 @@ TEST(BondLaws, RowsAreKeywordsOfTheFix) {
       EXPECT_EQ(law->numbers[k].most, e.settings[k].high) << e.settings[k].name;
     }
   }
-  EXPECT_EQ(rows, BondStrengths::keywords().size());
+  EXPECT_EQ(rows, bond_strength_laws().size());
 }
 
 } // namespace

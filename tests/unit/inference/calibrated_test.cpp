@@ -3,6 +3,8 @@
 #include "diagnose/inference/scores.h"
 #include "diagnose/inference/which.h"
 #include "linear_world.h"
+#include "physics/pi.h"
+#include "support/with_all.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -43,7 +45,7 @@ struct Calibration {
         variance += p * (1.0 - p);
       }
       error += std::abs(stated - came) / double(all.probability.size());
-      by_chance += std::sqrt(2.0 / M_PI * variance) / double(all.probability.size());
+      by_chance += std::sqrt(2.0 / kPi * variance) / double(all.probability.size());
       if (count > 0)
         std::printf("%s: %d with %.2f, true %.2f\n", what, count, stated / count, came / count);
     }
@@ -51,7 +53,7 @@ struct Calibration {
   }
 };
 
-constexpr int kFeatures = 10, kEffects = 4, kWorlds = 400;
+constexpr int kFeatures = 10, kEffects = 4;
 
 /// A cause that the table does not have: a signature of its own, or one that departs from a known
 /// one by half of its length.
@@ -78,7 +80,8 @@ TEST_P(Calibrated, ProbabilitiesOfTheUnknownAndOfTheNamed) {
   settings.pairs = 0;
   settings.beside = 0;
   Stated unknown, named, visible;
-  for (int w = 0; w < kWorlds; ++w) {
+  const int worlds = calendem_test::with_all(400, 100);
+  for (int w = 0; w < worlds; ++w) {
     LinearWorld world(kFeatures, 2, kEffects, std::uint64_t(5000 + w));
     world.amplitude = GetParam();
     Random random(std::uint64_t(w), 31);

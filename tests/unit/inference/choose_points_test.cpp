@@ -11,7 +11,7 @@ namespace calendem::inference {
 namespace {
 
 constexpr double kScatter = 0.08, kNoise = 0.02;
-constexpr int kBase = 40;
+constexpr int kBaseRuns = 40;
 
 // What is asked for one by one and all together is the same; a run that was not made scatters as
 // runs do.
@@ -50,7 +50,7 @@ TEST(GaussianProcess, CovarianceOfWhatWasNotRun) {
 
 /// A bank whose friction was run beside few of the base runs, and what it could still run.
 struct Half {
-  Bank whole = synthetic_bank(kBase, kScatter), bank = whole;
+  Bank whole = synthetic_bank(kBaseRuns, kScatter), bank = whole;
   std::vector<PossiblePoint> possible;
   std::vector<BankRun> runs; ///< the same, made
 

@@ -2,6 +2,7 @@
 #include "diagnose/inference/confounding.h"
 #include "diagnose/inference/which.h"
 #include "linear_world.h"
+#include "physics/pi.h"
 #include <boost/math/tools/minima.hpp>
 #include <gtest/gtest.h>
 
@@ -48,7 +49,7 @@ TEST(Confounding, CosinesOddsAndLimitsInClosedForm) {
   problem.effects.resize(1);
   const Confounding alone = confounding(problem, w, settings);
   EXPECT_NEAR(alone.limits[0].amplitude,
-              std::sqrt(6.0 + 2.0 * std::log(10.0 / std::sqrt(2.0 * M_PI))), 0.02);
+              std::sqrt(6.0 + 2.0 * std::log(10.0 / std::sqrt(2.0 * kPi))), 0.02);
   EXPECT_EQ(alone.limits[0].rival, "none");
   EXPECT_NEAR(alone.limits[0].against_none, std::sqrt(6.0), 0.02);
 }

@@ -3,6 +3,7 @@
 #include "diagnose/inference/hypothesis.h"
 #include "diagnose/inference/numerics.h"
 #include "linear_world.h"
+#include "physics/pi.h"
 #include <gtest/gtest.h>
 
 namespace calendem::inference {
@@ -58,7 +59,7 @@ double by_quadrature(const std::function<double(double)> &log_likelihood) {
   double sum = 0.0;
   const double step = 1e-3;
   for (double x = -10.0; x <= 10.0; x += step)
-    sum += step * std::exp(log_likelihood(x) - 0.5 * x * x) / std::sqrt(2.0 * M_PI);
+    sum += step * std::exp(log_likelihood(x) - 0.5 * x * x) / std::sqrt(2.0 * kPi);
   return std::log(sum);
 }
 
@@ -88,8 +89,7 @@ TEST(Evidence, BentRidgeAgainstQuadrature) {
   double sum = 0.0, first = 0.0;
   for (double x = -5.0; x <= 5.0; x += step)
     for (double y = -5.0; y <= 5.0; y += step) {
-      const double here =
-          step * step * std::exp(ridge(x, y) - 0.5 * (x * x + y * y)) / (2.0 * M_PI);
+      const double here = step * step * std::exp(ridge(x, y) - 0.5 * (x * x + y * y)) / (2.0 * kPi);
       sum += here;
       first += here * y;
     }

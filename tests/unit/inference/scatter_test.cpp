@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/inference/scatter.h"
 #include "linear_world.h"
+#include "physics/pi.h"
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -25,9 +26,9 @@ TEST(ShrunkCorrelation, IndependentColumnsLoseTheirCorrelationAndEqualOnesKeepIt
 // log density of t with nu degrees in one dimension against its textbook value, and its normal
 // limit.
 TEST(LogStudentT, KnownValues) {
-  EXPECT_NEAR(log_student_t(1.0, 0.0, 1, 1.0), std::log(1.0 / (2.0 * M_PI)), 1e-12); // Cauchy at 1
+  EXPECT_NEAR(log_student_t(1.0, 0.0, 1, 1.0), std::log(1.0 / (2.0 * kPi)), 1e-12); // Cauchy at 1
   EXPECT_NEAR(log_student_t(4.0, std::log(9.0), 1, kNormal),
-              -2.0 - std::log(3.0) - 0.5 * std::log(2.0 * M_PI), 1e-12);
+              -2.0 - std::log(3.0) - 0.5 * std::log(2.0 * kPi), 1e-12);
   EXPECT_NEAR(log_student_t(7.0, 0.3, 5, 0.9e6), log_student_t(7.0, 0.3, 5, kNormal), 1e-4);
 }
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/inference/which.h"
 #include "linear_world.h"
+#include "support/with_all.h"
 #include <gtest/gtest.h>
 
 namespace calendem::inference {
 namespace {
 
-WhichSettings quick() {
+WhichSettings few_samples() {
   WhichSettings s;
   s.noise = false;
   s.evidence.samples = 128;
@@ -27,7 +28,7 @@ TEST(UnknownPlaces, WhatActsLikeAnEffectDepartsByHalfItsLength) {
   LinearWorld world(8, 2, 3, 5);
   world.amplitude = 6.0;
   const Problem problem = world.problem(world.mean_of(1));
-  const Which w = which(problem, quick());
+  const Which w = which(problem, few_samples());
   const Judged &known = w.of("effect 1");
   const Linearised base = linearise(problem, known.evidence.mode.head(2));
   const Cholesky factor(recalibrated_covariance(base));
@@ -52,7 +53,7 @@ TEST(UnknownPlaces, SharesSumToAtMostOne) {
   LinearWorld world(8, 2, 4, 6);
   world.amplitude = 1.0;
   const Problem problem = world.problem(world.centre);
-  const Which w = which(problem, quick());
+  const Which w = which(problem, few_samples());
   double sum = 0.0, alike = 0.0;
   for (const UnknownPlace &p : unknown_places(problem, w, {0, 1, 2, 3}, Priors()))
     sum += p.share;
@@ -68,16 +69,16 @@ TEST(UnknownPlaces, SharesSumToAtMostOne) {
   EXPECT_NEAR(places, 1.0, 1e-12);
 }
 
-// Of 60 worlds each: an effect that departs from the known one by half of its length, at right
+// Of as many worlds each: an effect that departs from the known one by half of its length, at right
 // angles to what is known, is rarely called it; its exact copy is.
 TEST(UnknownPlaces, WhatOnlyActsLikeAnEffectIsRarelyNamed) {
   int called = 0, named = 0;
-  const int worlds = 60;
+  const int worlds = calendem_test::with_all(60, 20);
   for (int k = 0; k < worlds; ++k) {
     LinearWorld world(12, 2, 3, std::uint64_t(700 + k));
     world.amplitude = 8.0;
     const Problem exact = world.problem(world.mean_of(0));
-    named += which(exact, quick()).claim == "effect 0";
+    named += which(exact, few_samples()).claim == "effect 0";
     Random random(std::uint64_t(k), 10);
     Vector off(12);
     for (double &v : off)
@@ -89,8 +90,9 @@ TEST(UnknownPlaces, WhatOnlyActsLikeAnEffectIsRarelyNamed) {
       off -= white(off).dot(white(known)) / white(known).squaredNorm() * known;
     off *= 0.5 * world.amplitude / white(off).norm();
     const Vector mean = world.mean_of(0) + off;
-    called += which(world.problem(world.draw(mean, world.covariance, random)), quick()).claim ==
-              "effect 0";
+    called +=
+        which(world.problem(world.draw(mean, world.covariance, random)), few_samples()).claim ==
+        "effect 0";
   }
   EXPECT_EQ(named, worlds);
   EXPECT_LE(called, 0.1 * worlds + 3.0 * std::sqrt(0.1 * 0.9 * worlds)); // gate: a tenth

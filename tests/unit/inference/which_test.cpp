@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/inference/which.h"
 #include "linear_world.h"
+#include "support/with_all.h"
 #include <gtest/gtest.h>
 
 namespace calendem::inference {
 namespace {
 
 /// Probabilities of none and three effects, by importance sampling, in worlds drawn from the prior.
-struct Calibration {
+struct ClaimCounts {
   int worlds = 0, claims = 0, wrong = 0, covered = 0, intervals = 0, inadequate = 0;
   double expected_right = 0.0, variance = 0.0;
   int right = 0;
 };
 
-Calibration calibrate(int worlds) {
-  Calibration c;
+ClaimCounts calibrate(int worlds) {
+  ClaimCounts c;
   WhichSettings settings = quick();
   settings.priors.unknown = 0.0;
   settings.priors.none = 0.25;
@@ -50,11 +51,11 @@ Calibration calibrate(int worlds) {
 // is uniform. All within three standard deviations of binomial counts (intervals of one world are
 // correlated: at most as if they were equal).
 TEST(Which, IsCalibratedInLinearWorlds) {
-  const Calibration c = calibrate(300);
+  const ClaimCounts c = calibrate(calendem_test::with_all(300, 100));
   EXPECT_NEAR(c.right, c.expected_right, 3.0 * std::sqrt(c.variance));
   EXPECT_NEAR(c.covered / double(c.intervals), 0.9, 3.0 * std::sqrt(0.09 / c.worlds));
   EXPECT_NEAR(c.inadequate / double(c.worlds), 0.1, 3.0 * std::sqrt(0.09 / c.worlds));
-  EXPECT_GT(c.claims, 10);
+  EXPECT_GT(c.claims, c.worlds / 30);
   EXPECT_LE(c.wrong, 0.2 * c.claims + 3.0 * std::sqrt(0.16 * c.claims)); // a claim is 80 % sure
   RecordProperty("claims", c.claims);
   RecordProperty("wrong", c.wrong);
@@ -69,7 +70,8 @@ TEST(Which, TheUnknownIsCalibratedWhereMuchOfItIsTooSmallToBeSeen) {
   settings.priors.unknown = 0.5;
   double expected = 0.0, variance = 0.0;
   int unknown = 0;
-  for (int w = 0; w < 300; ++w) {
+  const int worlds = calendem_test::with_all(300, 200);
+  for (int w = 0; w < worlds; ++w) {
     const LinearWorld world(8, 2, 0, std::uint64_t(4100 + w));
     Random random(std::uint64_t(w), 28);
     Vector mean = world.draw(
@@ -97,9 +99,9 @@ TEST(Which, TheUnknownIsCalibratedWhereMuchOfItIsTooSmallToBeSeen) {
 
 TEST(Which, NullsAreRarelyCalledAnEffect) {
   WhichSettings settings = quick();
-  const int kWorlds = 300;
+  const int worlds = calendem_test::with_all(300, 100);
   int effects = 0, none = 0, unknown = 0;
-  for (int w = 0; w < kWorlds; ++w) {
+  for (int w = 0; w < worlds; ++w) {
     const LinearWorld world(8, 2, 4, std::uint64_t(900 + w));
     Random random(std::uint64_t(w), 9);
     const Which found =
@@ -108,9 +110,9 @@ TEST(Which, NullsAreRarelyCalledAnEffect) {
     unknown += found.claim == "unknown";
     effects += found.claim.rfind("effect", 0) == 0;
   }
-  EXPECT_LE(effects, 0.03 * kWorlds + 3.0 * std::sqrt(0.03 * 0.97 * kWorlds)); // gate: 3 %
-  EXPECT_LE(unknown, 0.03 * kWorlds + 3.0 * std::sqrt(0.03 * 0.97 * kWorlds));
-  EXPECT_GE(none, 0.5 * kWorlds);
+  EXPECT_LE(effects, 0.03 * worlds + 3.0 * std::sqrt(0.03 * 0.97 * worlds)); // gate: 3 %
+  EXPECT_LE(unknown, 0.03 * worlds + 3.0 * std::sqrt(0.03 * 0.97 * worlds));
+  EXPECT_GE(none, 0.5 * worlds);
 }
 
 TEST(Which, AStrongEffectIsNamedAndWithoutItsHypothesisItIsUnknown) {

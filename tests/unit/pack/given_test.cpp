@@ -3,6 +3,7 @@
 #include "electrode/pack/electrode_files.h"
 #include "electrode/pack/from_structure.h"
 #include "electrode/pack/pack.h"
+#include "physics/pi.h"
 #include "support.h"
 #include <fmt/format.h>
 #include <set>
@@ -43,7 +44,7 @@ std::string film() {
                      "Atoms # sphere\n\n{}",
                      id, rows);
 }
-constexpr double kBall = 3.14159265358979323846 / 6.0; // of diameter 1
+constexpr double kBall = kPi / 6.0; // of diameter 1
 const double kAmVolume = kBall * (6 * 64 + 8 * 27), kCbdVolume = kBall * 6 * 1.728;
 
 Recipe recipe_with(const std::string &lines) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/pack/packing_state.h"
+#include "physics/pi.h"
 #include "support.h"
 #include <algorithm>
 
@@ -55,7 +56,7 @@ TEST_F(PlacedCell, TagsRunFromOneWithPrimariesFirstBodyByBody) {
 TEST_F(PlacedCell, MassGivesTheLoadingAndTheWeightFractions) {
   double am = 0.0, cbd = 0.0;
   for (const Particle &p : placed.particles)
-    (p.type == 1 ? am : cbd) += p.density * 3.14159265358979 / 6.0 * std::pow(p.diameter, 3);
+    (p.type == 1 ? am : cbd) += p.density * kPi / 6.0 * std::pow(p.diameter, 3);
   EXPECT_NEAR((am + cbd) / recipe.area() / 10.0, 17.46, 0.01 * 17.46);
   EXPECT_NEAR(am / (am + cbd), 0.96, 0.002);
 }
@@ -124,7 +125,7 @@ TEST(Place, TheGradientCountsBesideTheRoomThatBodiesLeave) {
 
 TEST(Densities, MakeABodyWeighItsEnvelope) {
   const Recipe recipe = cell(15.0);
-  const double sphere = 3.14159265358979323846 / 6.0 * std::pow(1.59, 3);
+  const double sphere = kPi / 6.0 * std::pow(1.59, 3);
   EXPECT_NEAR(primary_density(recipe) * sphere, 4.65 * std::pow(1.28, 3), 1e-12);
   EXPECT_NEAR(cbd_density(recipe), 0.915, 1e-12);
   EXPECT_NEAR(cbd_count(recipe), 1440, 2);

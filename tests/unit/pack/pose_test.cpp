@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/pack/packing_state.h"
+#include "physics/pi.h"
 #include "support.h"
 
 namespace {
@@ -53,7 +54,7 @@ TEST(MeasureEnvelope, ABodyHasTheVolumeOfItsLatticeCells) {
 
 TEST(MeasureEnvelope, CountsOverlapsOnce) {
   const Recipe recipe = cell(15.0);
-  const double d = 1.316, sphere = 3.14159265358979 / 6.0 * d * d * d;
+  const double d = 1.316, sphere = kPi / 6.0 * d * d * d;
   std::vector<Particle> particles;
   for (int k = 0; k < 100; ++k) // pairs at one place, clear of the next
     particles.push_back({k + 1, 2, d, 1.0,

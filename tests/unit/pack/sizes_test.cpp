@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/pack/body.h"
+#include "physics/pi.h"
 #include "support.h"
 #include <numeric>
 
 namespace {
 using namespace calendem;
 using calendem_test::cell;
-
-constexpr double kPi = 3.14159265358979323846;
 
 double volume(const std::vector<double> &d) {
   double sum = 0.0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Bodies touch where the smooth particles that they stand for would (docs/model/contacts.md).
 #include "electrode/pack/body.h"
+#include "physics/pi.h"
 #include "support.h"
 #include <cmath>
 #include <cstdio>
@@ -35,7 +36,7 @@ double kept_clear(double diameter, double lattice, double inset) {
   Recipe recipe = cell(15.0);
   recipe.primary_diameter *= lattice / recipe.lattice;
   recipe.lattice = lattice;
-  const int count = static_cast<int>(std::lround(M_PI / 6.0 * std::pow(diameter / lattice, 3)));
+  const int count = static_cast<int>(std::lround(kPi / 6.0 * std::pow(diameter / lattice, 3)));
   Random random(1, 1);
   std::vector<Body> bodies;
   for (int k = 0; k < kBodies; ++k)

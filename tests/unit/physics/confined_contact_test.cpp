@@ -7,7 +7,6 @@ using namespace calendem;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double E = 1.3e6, R_s = 0.658, K = 2e6, psi = 0.5; // CBD-like; kPa, um
 const ContactSurfaces equal = {E, 0.5 * R_s, R_s}, wall = {E, R_s, R_s};
 
@@ -17,7 +16,7 @@ const ContactSurfaces equal = {E, 0.5 * R_s, R_s}, wall = {E, R_s, R_s};
 // more.
 TEST(ConfinedContact, HertzUntilTheSurfaceIsUsedUp) {
   for (const ContactSurfaces &s : {equal, wall}) {
-    const ConfinedContact contact(s, K, psi);
+    const ConfinedContact contact(s, {K, psi});
     const double x_b = s.R_eff * contact.begin() / (R_s * R_s);
     EXPECT_NEAR(1.0 - ConfinedContact::kContacts * x_b / 4.0, psi, 1e-15);
     for (double part : {-1.0, 0.0, 0.3, 0.999}) {
@@ -32,7 +31,7 @@ TEST(ConfinedContact, HertzUntilTheSurfaceIsUsedUp) {
 // Requirement: beyond it, the pressure of the source on the source's area, written as it is there:
 // kappa A_con d_BULK/V times A_c, against a flat wall; two equal spheres are two such walls. 8 ulp.
 TEST(ConfinedContact, TheBulkAnswersAsInTheSource) {
-  const ConfinedContact on_wall(wall, K, psi), pair(equal, K, psi);
+  const ConfinedContact on_wall(wall, {K, psi}), pair(equal, {K, psi});
   for (double times : {1.2, 2.0, 3.0}) {
     const double d = times * on_wall.begin(), area = kPi * R_s * d;
     const double volume = 4.0 / 3.0 * kPi * R_s * R_s * R_s;
@@ -47,7 +46,7 @@ TEST(ConfinedContact, TheBulkAnswersAsInTheSource) {
 // Central differences of step h = 1e-4 d: 1e-8 times at most 4, the force being d^4 at most.
 TEST(ConfinedContact, ForceIsSlopeOfEnergy) {
   for (const ContactSurfaces &s : {equal, wall}) {
-    const ConfinedContact contact(s, K, psi);
+    const ConfinedContact contact(s, {K, psi});
     for (double times : {0.5, 1.1, 1.5, 3.0}) {
       const double d = times * contact.begin(), h = 1e-4 * d;
       const double slope =
@@ -62,7 +61,7 @@ TEST(ConfinedContact, ForceIsSlopeOfEnergy) {
 // Requirement: the radius for the time step is that of the stiffness at the overlap under a force.
 // The last step of Newton's method is below round-off.
 TEST(ConfinedContact, StiffnessUnderAForce) {
-  const ConfinedContact contact(equal, K, psi);
+  const ConfinedContact contact(equal, {K, psi});
   for (double times : {0.5, 1.5, 4.0}) {
     const double d = times * contact.begin();
     EXPECT_NEAR(2.0 * E * contact.radius_under(contact.force(d)) / contact.stiffness(d), 1.0,

@@ -13,8 +13,7 @@ const double kContactRadius = std::sqrt(0.5 * kRadius * kOverlap);
 
 ContactMotion moving(const Vec3 &v, const Vec3 &spin_i = {}, const Vec3 &spin_j = {}) {
   const double r = 2.0 * kRadius - kOverlap;
-  return contact_motion({r, 0, 0}, v, spin_i, spin_j, {1, 0, 0}, 1.0 / r, kOverlap, kRadius,
-                        kRadius);
+  return contact_motion({{r, 0, 0}, v, spin_i, spin_j, {1, 0, 0}, r}, kRadius, kRadius);
 }
 } // namespace
 
@@ -70,11 +69,9 @@ TEST(HertzMindlin, DisplacementStaysInTheContactPlane) {
 // Both copies of a pair follow the same bits.
 TEST(HertzMindlin, ExchangingTheSpheresChangesSignsOnly) {
   const Vec3 d = {0.9, -0.7, 1.05}, v = {0.3, 0.2, -0.1}, w = {1.0, 2.0, 3.0}, u = {-0.5, 0.1, 4.0};
-  const double r = norm(d), overlap = 2.0 * kRadius + 0.1 - r;
-  const ContactMotion a =
-      contact_motion(d, v, w, u, (1.0 / r) * d, 1.0 / r, overlap, kRadius, kRadius + 0.1);
-  const ContactMotion b =
-      contact_motion(-d, -v, u, w, (1.0 / r) * -d, 1.0 / r, overlap, kRadius + 0.1, kRadius);
+  const double r = norm(d);
+  const ContactMotion a = contact_motion(pair_motion(d, r, v, w, u), kRadius, kRadius + 0.1);
+  const ContactMotion b = contact_motion(pair_motion(-d, r, -v, u, w), kRadius + 0.1, kRadius);
   EXPECT_EQ(a.normal_velocity, b.normal_velocity);
   EXPECT_EQ(a.sliding_velocity.x, -b.sliding_velocity.x);
   EXPECT_EQ(a.sliding_velocity.y, -b.sliding_velocity.y);

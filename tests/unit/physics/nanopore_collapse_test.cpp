@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "physics/nanopore_collapse.h"
+#include "physics/pi.h"
 
 #include <gtest/gtest.h>
 
 using namespace calendem;
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 const NanoporeCollapse law = {0.5, 0.27, 2e4, 5e4, 0.1};
 
 } // namespace

@@ -30,12 +30,12 @@ struct Body {
   double dt = 0.0, strain = 0.0;
 
   explicit Body(const std::vector<Vec3> &arms) : spheres(1), loads(arms.size()) {
-    BondRowSum row;
+    SphereBlock block;
     for (const Vec3 &n : arms) {
       spheres.push_back({kLength * n, {}, {}, {}, {}});
-      row.add(k, n, kLength);
+      block.add(k, -n, kLength);
     }
-    dt = kOfBound * stable_step(row, BondRowSum(), kMass, kR);
+    dt = kOfBound * stable_step(block, SphereBlock(), kMass, kR);
     act(false);
   }
   void spin(const Vec3 &omega) {

@@ -8,9 +8,14 @@ using namespace calendem;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double E = 1e8, R = 0.4, p_y = 5e6; // NMC-like; kPa, um
 const PlasticContact contact(E, R, p_y);
+
+PlasticContact::Params params(double yield_pressure) {
+  PlasticContact::Params p;
+  p.yield_pressure = yield_pressure;
+  return p;
+}
 
 } // namespace
 
@@ -24,12 +29,12 @@ TEST(PlasticContact, YieldsAtTheLimitingPressure) {
 TEST(PlasticContact, HertzBelowYield) {
   const double d = 0.9 * contact.yield_overlap();
   for (double part : {0.0, 0.3, 1.0}) {
-    EXPECT_DOUBLE_EQ(contact.force(part * d, d), hertz_force(E, R, part * d));
-    EXPECT_DOUBLE_EQ(contact.elastic_energy(part * d, d), hertz_energy(E, R, part * d));
+    EXPECT_DOUBLE_EQ(contact.force(part * d, {d}), hertz_force(E, R, part * d));
+    EXPECT_DOUBLE_EQ(contact.elastic_energy(part * d, {d}), hertz_energy(E, R, part * d));
   }
   EXPECT_EQ(contact.plastic_work(d), 0.0);
-  EXPECT_EQ(contact.force(-0.1, 0.0), 0.0);
-  EXPECT_EQ(contact.force(-0.1, d), 0.0);
+  EXPECT_EQ(contact.force(-0.1, {0.0}), 0.0);
+  EXPECT_EQ(contact.force(-0.1, {d}), 0.0);
 }
 
 // Requirement: force and slope are continuous at yield; beyond, the slope is pi p_y R. The overlaps
@@ -64,11 +69,12 @@ TEST(PlasticContact, UnloadingIsThorntons) {
     for (double part : {0.1, 0.5, 1.0}) { // of the way from the residual overlap to the largest
       const double d = residual + part * (largest - residual);
       const double law = hertz_force(E, R_p, d - residual);
-      EXPECT_NEAR(contact.force(d, largest) / law, 1.0, 1e-13);
-      EXPECT_NEAR(contact.contact_radius(d, largest) / std::sqrt(R_p * (d - residual)), 1.0, 1e-13);
+      EXPECT_NEAR(contact.force(d, {largest}) / law, 1.0, 1e-13);
+      EXPECT_NEAR(contact.contact_radius(d, {largest}) / std::sqrt(R_p * (d - residual)), 1.0,
+                  1e-13);
     }
-    EXPECT_EQ(contact.force(0.99 * residual, largest), 0.0);
-    EXPECT_EQ(contact.contact_radius(0.99 * residual, largest), 0.0);
+    EXPECT_EQ(contact.force(0.99 * residual, {largest}), 0.0);
+    EXPECT_EQ(contact.contact_radius(0.99 * residual, {largest}), 0.0);
   }
 }
 
@@ -76,7 +82,8 @@ TEST(PlasticContact, UnloadingIsThorntons) {
 // of step h = 1e-6 e*: error h F''/2 = h F'/(4 e*) and round-off 1e-16/1e-6.
 TEST(PlasticContact, UnloadingIsAsStiffAsHertzAtThatOverlap) {
   const double largest = 20 * contact.yield_overlap(), h = 1e-6 * contact.elastic_overlap(largest);
-  const double slope = (contact.force(largest, largest) - contact.force(largest - h, largest)) / h;
+  const double slope =
+      (contact.force(largest, {largest}) - contact.force(largest - h, {largest})) / h;
   EXPECT_NEAR(slope / hertz_stiffness(E, R, largest), 1.0, 0.25e-6 + 1e-9);
   EXPECT_GT(slope, 4.0 * kPi * p_y * R); // plastic loading is softer: sqrt(20) times
 }
@@ -95,8 +102,8 @@ TEST(PlasticContact, WorkIsStoredOrTaken) {
     return sum * h / 3;
   };
   const double in = integral(0.0, largest, [&](double d) { return contact.loading_force(d); });
-  const double out = integral(0.0, largest, [&](double d) { return contact.force(d, largest); });
-  EXPECT_NEAR(contact.elastic_energy(largest, largest) / out, 1.0, 1e-6);
+  const double out = integral(0.0, largest, [&](double d) { return contact.force(d, {largest}); });
+  EXPECT_NEAR(contact.elastic_energy(largest, {largest}) / out, 1.0, 1e-6);
   EXPECT_NEAR(contact.plastic_work(largest) / (in - out), 1.0, 1e-6);
   EXPECT_GT(in, 2 * out); // most of it is taken
 }
@@ -108,8 +115,9 @@ TEST(PlasticContact, ForceIsSlopeOfElasticEnergy) {
   for (double back : {0.1, 0.7}) {
     const double d = largest - back * e, h = 1e-4 * e;
     const double slope =
-        (contact.elastic_energy(d + h, largest) - contact.elastic_energy(d - h, largest)) / (2 * h);
-    EXPECT_NEAR(slope / contact.force(d, largest), 1.0, 1.4e-8 + 1e-11);
+        (contact.elastic_energy(d + h, {largest}) - contact.elastic_energy(d - h, {largest})) /
+        (2 * h);
+    EXPECT_NEAR(slope / contact.force(d, {largest}), 1.0, 1.4e-8 + 1e-11);
   }
 }
 
@@ -130,7 +138,7 @@ TEST(PlasticContact, HardeningRaisesThePressureOfWhatHasYielded) {
   const PlasticContact hard(E, R, p_y, h);
   const double y = contact.yield_overlap(), F_y = hertz_force(E, R, y);
   EXPECT_EQ(hard.yield_overlap(), y);
-  EXPECT_EQ(hard.force(0.9 * y, 0.0), contact.force(0.9 * y, 0.0));
+  EXPECT_EQ(hard.force(0.9 * y, {0.0}), contact.force(0.9 * y, {0.0}));
   for (double times : {1.5, 10.0, 60.0}) {
     const double d = times * y, u = d - y;
     EXPECT_NEAR(hard.loading_force(d) / (F_y + kPi * R * u * (p_y + h * u / R)), 1.0, 2e-15);
@@ -140,11 +148,10 @@ TEST(PlasticContact, HardeningRaisesThePressureOfWhatHasYielded) {
 
 // Requirement: hardening 0 is the perfectly plastic law to the bit.
 TEST(PlasticContact, NoHardeningChangesNoBit) {
-  const double values[] = {p_y, 0.0, 0.0, 0.0};
-  const PlasticContact none({E, R, R, 1e5}, values);
+  const PlasticContact none({E, R, R, 1e5}, params(p_y));
   for (double times : {0.5, 3.0, 40.0}) {
     const double d = times * contact.yield_overlap();
-    EXPECT_EQ(none.force(0.9 * d, d), contact.force(0.9 * d, d));
+    EXPECT_EQ(none.force(0.9 * d, {d}), contact.force(0.9 * d, {d}));
     EXPECT_EQ(none.plastic_work(d), contact.plastic_work(d));
     EXPECT_EQ(none.overlap_under(none.loading_force(d)),
               contact.overlap_under(none.loading_force(d)));
@@ -157,8 +164,9 @@ TEST(PlasticContact, NoHardeningChangesNoBit) {
 TEST(PlasticContact, TheLimitMayBeBeyondCohesion) {
   constexpr double ced = 1e5, soft = 5e4; // p_y below 2 CED
   for (double part : {0.5, 1.0}) {
-    const double values[] = {soft + (1.0 - part) * 2.0 * ced, 0.0, part, 0.0};
-    const PlasticContact law({E, R, R, ced}, values);
+    PlasticContact::Params limit = params(soft + (1.0 - part) * 2.0 * ced);
+    limit.beyond_cohesion = part;
+    const PlasticContact law({E, R, R, ced}, limit);
     const auto carried = [&](double d) {
       return law.loading_force(d) - sjkr_force(ced, 4 * R - d, 2 * R, 2 * R);
     };
@@ -168,7 +176,7 @@ TEST(PlasticContact, TheLimitMayBeBeyondCohesion) {
                 1e-9 * soft);
     EXPECT_GT(carried(d), 0.0);
     EXPECT_EQ(law.yield_overlap(), PlasticContact(E, R, soft + 2.0 * ced).yield_overlap());
-    EXPECT_NEAR(plastic_contact_limits({ced, E}, values).least, (2.5 - 2.0 * part) * ced, 1e-9);
+    EXPECT_NEAR(PlasticContact::limits({ced, E}, limit).least, (2.5 - 2.0 * part) * ced, 1e-9);
   }
 }
 
@@ -192,7 +200,7 @@ TEST(PlasticContact, WorkOfHardeningIsStoredOrTaken) {
     in += h / 3 *
           (hard.loading_force(y + k * h) + 4 * hard.loading_force(y + (k + 1) * h) +
            hard.loading_force(y + (k + 2) * h));
-  EXPECT_NEAR((hard.elastic_energy(largest, largest) + hard.plastic_work(largest)) / in, 1.0,
+  EXPECT_NEAR((hard.elastic_energy(largest, {largest}) + hard.plastic_work(largest)) / in, 1.0,
               1e-13);
 }
 
@@ -200,17 +208,19 @@ TEST(PlasticContact, WorkOfHardeningIsStoredOrTaken) {
 // carries the same pressure, and is the area of the contact. 8 ulp.
 TEST(PlasticContact, FlatteningWidensTheAreaThatHasYielded) {
   constexpr double h = 1e7;
-  const double values[] = {p_y, h, 0.0, 1.0};
-  const PlasticContact flat({E, R, R, 0.0}, values);
+  PlasticContact::Params wall = params(p_y);
+  wall.hardening = h;
+  wall.flattening = 1.0;
+  const PlasticContact flat({E, R, R, 0.0}, wall);
   const double y = flat.yield_overlap(), F_y = hertz_force(E, R, y);
-  EXPECT_EQ(flat.force(0.9 * y, 0.0), contact.force(0.9 * y, 0.0));
+  EXPECT_EQ(flat.force(0.9 * y, {0.0}), contact.force(0.9 * y, {0.0}));
   for (double part : {0.03, 0.1, 0.5}) {
     const double d = y + part * (R - y), u = d - y, g = 1.0 / (1.0 - std::pow(part, 1.5));
-    EXPECT_NEAR(flat.force(d, 0.0) / (F_y + kPi * R * g * u * (p_y + h * u / R)), 1.0, 2e-15);
-    EXPECT_NEAR(flat.contact_radius(d, d) / std::sqrt(R * (y + g * u)), 1.0, 2e-15);
-    EXPECT_EQ(flat.stiffness_radius(0.5 * d, d), flat.contact_radius(d, d));
-    EXPECT_NEAR(flat.overlap_under(flat.force(d, 0.0)) / d, 1.0, 4e-15);
-    EXPECT_NEAR(flat.radius_under(flat.force(d, 0.0)) / flat.contact_radius(d, d), 1.0, 4e-14);
+    EXPECT_NEAR(flat.force(d, {0.0}) / (F_y + kPi * R * g * u * (p_y + h * u / R)), 1.0, 2e-15);
+    EXPECT_NEAR(flat.contact_radius(d, {d}) / std::sqrt(R * (y + g * u)), 1.0, 2e-15);
+    EXPECT_EQ(flat.stiffness_radius(0.5 * d, {d}), flat.contact_radius(d, {d}));
+    EXPECT_NEAR(flat.overlap_under(flat.force(d, {0.0})) / d, 1.0, 4e-15);
+    EXPECT_NEAR(flat.radius_under(flat.force(d, {0.0})) / flat.contact_radius(d, {d}), 1.0, 4e-14);
   }
 }
 
@@ -220,7 +230,7 @@ TEST(PlasticContact, FlatteningWidensTheAreaThatHasYielded) {
 TEST(PlasticContact, AFlattenedSphereKeepsItsVolume) {
   const PlasticContact flat(E, R, 1e-4 * p_y, 0.0, 1.0); // d_y/R below 1e-10
   for (double e : {1e-1, 1e-2}) {
-    const double d = (1.0 - e) * R, a = flat.contact_radius(d, d);
+    const double d = (1.0 - e) * R, a = flat.contact_radius(d, {d});
     ASSERT_LT(d, flat.locking_overlap());
     EXPECT_NEAR(kPi * a * a * 2.0 * (R - d) / (4.0 / 3.0 * kPi * R * R * R), 1.0 - 0.75 * e, e * e);
   }
@@ -229,18 +239,20 @@ TEST(PlasticContact, AFlattenedSphereKeepsItsVolume) {
 // Requirement: between two spheres, and with flattening 0, all is as without it, to the bit; a part
 // f of it is all of it at the depth f u.
 TEST(PlasticContact, FlatteningIsForWalls) {
-  const double whole[] = {p_y, 0.0, 0.0, 1.0}, none[] = {p_y, 0.0, 0.0, 0.0};
+  const PlasticContact::Params none = params(p_y);
+  PlasticContact::Params whole = none;
+  whole.flattening = 1.0;
   for (double d : {0.1 * R, 0.5 * R, 1.5 * R})
     for (const PlasticContact &law :
          {PlasticContact({E, R, 2 * R, 0.0}, whole), PlasticContact({E, R, R, 0.0}, none)}) {
-      EXPECT_EQ(law.force(d, 0.0), contact.force(d, 0.0));
-      EXPECT_EQ(law.force(0.9 * d, d), contact.force(0.9 * d, d));
+      EXPECT_EQ(law.force(d, {0.0}), contact.force(d, {0.0}));
+      EXPECT_EQ(law.force(0.9 * d, {d}), contact.force(0.9 * d, {d}));
       EXPECT_EQ(law.plastic_work(d), contact.plastic_work(d));
     }
   const PlasticContact half(E, R, p_y, 0.0, 0.5), full(E, R, p_y, 0.0, 1.0);
   const auto widened = [&](const PlasticContact &law, double u) {
     const double y = law.yield_overlap();
-    return (law.force(y + u, 0.0) - law.force(y, 0.0)) / (kPi * p_y * R * u);
+    return (law.force(y + u, {0.0}) - law.force(y, {0.0})) / (kPi * p_y * R * u);
   };
   EXPECT_NEAR(widened(half, 0.6 * R) / widened(full, 0.3 * R), 1.0, 1e-14);
 }
@@ -253,23 +265,23 @@ TEST(PlasticContact, AFlattenedContactLocks) {
   for (double p : {1e6, 5e6, 2e7, 5e7})
     for (double h : {0.0, 1e7}) {
       const PlasticContact flat(E, R, p, h, 1.0);
-      const double lock = flat.locking_overlap(), step = 1e-6 * R, F = flat.force(lock, 0.0);
+      const double lock = flat.locking_overlap(), step = 1e-6 * R, F = flat.force(lock, {0.0});
       const auto slope = [&](double d) {
-        return (flat.force(d + step, 0.0) - flat.force(d, 0.0)) / step;
+        return (flat.force(d + step, {0.0}) - flat.force(d, {0.0})) / step;
       };
       ASSERT_GT(lock, flat.yield_overlap());
       ASSERT_LT(lock, R);
-      const double stiffness = 2.0 * E * flat.contact_radius(lock, lock);
+      const double stiffness = 2.0 * E * flat.contact_radius(lock, {lock});
       EXPECT_NEAR(slope(lock - 2 * step) / stiffness, 1.0, 1e-4) << p;
       EXPECT_NEAR(slope(lock + step) / stiffness, 1.0, 1e-5) << p;
       for (double part : {0.02, 0.5, 0.95}) {
         const double d = flat.yield_overlap() + part * (lock - flat.yield_overlap());
-        EXPECT_LT(slope(d), 2.0 * E * flat.contact_radius(d, d)) << p << " " << part;
+        EXPECT_LT(slope(d), 2.0 * E * flat.contact_radius(d, {d})) << p << " " << part;
       }
-      double memory = 0.0;
+      PlasticContact::State memory;
       const double deep = 1.2 * R;
       EXPECT_GT(flat.advance(0.0, deep, 1.0, memory), 0.0);
-      EXPECT_EQ(memory, lock);
+      EXPECT_EQ(memory.largest, lock);
       EXPECT_EQ(flat.advance(0.0, 1.1 * deep, 1.0, memory), 0.0);
       const double x = 1.0 + (deep - lock) / flat.elastic_overlap(lock);
       EXPECT_NEAR(flat.force(deep, memory) / (F * std::pow(x, 1.5)), 1.0, 1e-14);
@@ -277,7 +289,7 @@ TEST(PlasticContact, AFlattenedContactLocks) {
       EXPECT_NEAR(flat.stiffness_radius(deep, memory) / flat.contact_radius(deep, memory), 1.0,
                   1e-15);
       EXPECT_NEAR(flat.elastic_energy(deep, memory) /
-                      (flat.elastic_energy(lock, lock) * std::pow(x, 2.5)),
+                      (flat.elastic_energy(lock, {lock}) * std::pow(x, 2.5)),
                   1.0, 1e-14);
       EXPECT_EQ(flat.plastic_work(deep), flat.plastic_work(lock));
     }
@@ -298,7 +310,7 @@ TEST(PlasticContact, WorkOfFlatteningIsStoredOrTaken) {
         in += f(k * step) * (k % 2 ? 4 : 2);
       in = in * step / 3 + hertz_energy(E, R, y);
       const double d = y + end * end;
-      EXPECT_NEAR((flat.elastic_energy(d, d) + flat.plastic_work(d)) / in, 1.0, 1e-9);
+      EXPECT_NEAR((flat.elastic_energy(d, {d}) + flat.plastic_work(d)) / in, 1.0, 1e-9);
       EXPECT_GT(flat.plastic_work(d), before);
       before = flat.plastic_work(d);
     }

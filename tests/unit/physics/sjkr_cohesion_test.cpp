@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "physics/pi.h"
 #include "physics/sjkr_cohesion.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+using calendem::kPi;
 using calendem::lens_area;
 using calendem::sjkr_force;
 using calendem::sjkr_potential;
@@ -12,8 +14,6 @@ using calendem::sjkr_wall_force;
 using calendem::sjkr_wall_potential;
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // Area of the circle in which two spheres meet, without the closed form: bisection for the plane at
 // distance x from centre i in which both sections have the same radius.

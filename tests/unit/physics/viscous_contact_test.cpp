@@ -8,22 +8,23 @@ using namespace calendem;
 namespace {
 
 constexpr double E = 1e6, R = 0.33, g = 0.4, tau = 2.0, depth = 0.05;
-const ViscousContact contact(E, R, g, tau);
+const ViscousContact contact({E, R, R}, {g, tau});
 
 struct Pressed {
-  double overlap = 0.0, dashpot = 0.0, work = 0.0, taken = 0.0;
+  ViscousContact::State state;
+  double overlap = 0.0, work = 0.0, taken = 0.0;
 
   /// At constant speed to `to` in `time`, in n steps; work by the trapezoid.
   void go(double to, double time, int n) {
     const double step = (to - overlap) / n;
     for (int k = 0; k < n; ++k) {
-      const double before = overlap, force = contact.force(overlap, dashpot);
+      const double before = overlap, force = contact.force(overlap, state);
       overlap = before + step;
-      taken += contact.advance(before, overlap, time / n, dashpot);
-      work += 0.5 * step * (force + contact.force(overlap, dashpot));
+      taken += contact.advance(before, overlap, time / n, state);
+      work += 0.5 * step * (force + contact.force(overlap, state));
     }
   }
-  double force() const { return contact.force(overlap, dashpot); }
+  double force() const { return contact.force(overlap, state); }
 };
 
 } // namespace
@@ -56,7 +57,7 @@ TEST(ViscousContact, ExactAtConstantSpeed) {
   for (int n : {1, 1000}) {
     Pressed p;
     p.go(depth, time, n);
-    EXPECT_NEAR((p.overlap - p.dashpot) / e, 1.0, 1e-12);
+    EXPECT_NEAR((p.overlap - p.state.dashpot) / e, 1.0, 1e-12);
     EXPECT_NEAR(p.force() / ((1 - g) * hertz_force(E, R, depth) + g * hertz_force(E, R, e)), 1.0,
                 1e-12);
   }
@@ -89,10 +90,10 @@ TEST(ViscousContact, WorkIsStoredOrTaken) {
     Pressed p;
     p.go(depth, time, n);
     const double in = p.work;
-    EXPECT_NEAR(p.work, contact.elastic_energy(p.overlap, p.dashpot) + p.taken, 1e-6 * in);
+    EXPECT_NEAR(p.work, contact.elastic_energy(p.overlap, p.state) + p.taken, 1e-6 * in);
     p.go(depth, 2.0 * tau, n);
     p.go(0.0, time, n);
-    EXPECT_LT(contact.elastic_energy(p.overlap, p.dashpot), 1e-20); // (an ulp of the way)^2.5
+    EXPECT_LT(contact.elastic_energy(p.overlap, p.state), 1e-20); // (an ulp of the way)^2.5
     EXPECT_GT(p.taken, 0.0);
     EXPECT_NEAR(p.work, p.taken, 1e-5 * in);
   }
@@ -106,10 +107,10 @@ TEST(ViscousContact, TakesOnly) {
   for (double to : way) {
     p.go(to, 0.3 * tau, 50);
     EXPECT_GE(p.taken, before);
-    EXPECT_GE(p.dashpot, 0.0);
+    EXPECT_GE(p.state.dashpot, 0.0);
     before = p.taken;
   }
-  EXPECT_EQ(contact.force(-0.1, 0.0), 0.0);
-  EXPECT_EQ(contact.elastic_energy(-0.1, 0.0), 0.0);
-  EXPECT_EQ(contact.contact_radius(-0.1, 0.0), 0.0);
+  EXPECT_EQ(contact.force(-0.1, {}), 0.0);
+  EXPECT_EQ(contact.elastic_energy(-0.1, {}), 0.0);
+  EXPECT_EQ(contact.contact_radius(-0.1, {}), 0.0);
 }

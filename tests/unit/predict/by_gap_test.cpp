@@ -10,7 +10,7 @@ using namespace calendem_test;
 
 const std::vector<double> kMaterial = {190.0, 2.4, 480.0};
 
-Calibration exact() {
+Calibration exact_calibration() {
   Calibration c;
   c.error = {0.0, 0.001, 0.002, 0.1};
   c.draws = {{{{kMaterial, {}}}, {0.001, 0.5}}};
@@ -32,7 +32,7 @@ TEST(ByGap, AGapTakesThePressureThatLeadsToIt) {
   const double after = made_porosity(all, 0.0, 80.0), springback = made_springback(all, 80.0),
                solid = made_film_bank().solid_column(film);
   const double gap = solid / ((1.0 - after) * (1.0 + springback));
-  const AtGap at = at_gaps(under_gaps(made_film_bank(), exact(), film, {gap}))[0];
+  const AtGap at = at_gaps(under_gaps(made_film_bank(), exact_calibration(), film, {gap}))[0];
   EXPECT_NEAR(std::log(at.pressure.median / 80.0), 0.0, 0.1);
   EXPECT_NEAR(at.after.median, after, 0.003);
   EXPECT_NEAR(at.thickness_after.median, gap * (1.0 + springback), 0.05);
@@ -45,7 +45,7 @@ TEST(ByGap, AGapTakesThePressureThatLeadsToIt) {
 // Two materials that need 60 and 120 MPa for a gap: the pressure is either, the porosity after release nearly the same.
 TEST(ByGap, MaterialsDifferInPressureNotInPorosity) {
   const Film film = made_film("x", 46.0, 2.0);
-  Calibration c = exact();
+  Calibration c = exact_calibration();
   Draw stiff = c.draws[0];
   stiff.materials[0].parameters = {190.0, 2.4 * 1.5, 480.0}; // the scale of pressure by half more
   c.draws.push_back(stiff);
@@ -59,7 +59,7 @@ TEST(ByGap, MaterialsDifferInPressureNotInPorosity) {
 TEST(ByGap, ATargetIsMetAsOftenAsTheBandSays) {
   const Film film = made_film("x", 46.0, 2.0);
   const double solid = made_film_bank().solid_column(film), gap = solid / (1.0 - 0.28);
-  const GapDraws draws = under_gaps(made_film_bank(), exact(), film, {gap, 1.2 * gap});
+  const GapDraws draws = under_gaps(made_film_bank(), exact_calibration(), film, {gap, 1.2 * gap});
   const AtGap at = at_gaps(draws)[0];
   const Target target = {0.5 * (at.after.low90 + at.after.high90),
                          0.5 * (at.after.high90 - at.after.low90)};
@@ -81,7 +81,7 @@ TEST(ByGap, ATargetIsMetAsOftenAsTheBandSays) {
 TEST(ByGap, RunsToAGapAddWhatTheyDifferBy) {
   const FilmBank &bank = made_film_bank();
   const Film film = made_film("x", 46.0, 2.0);
-  const Calibration c = exact();
+  const Calibration c = exact_calibration();
   const double gap = bank.solid_column(film) / (1.0 - 0.28);
   const auto at = [&](FilmNumber number, double pressure) {
     return bank.at(bank.at_pressures(number, film, c.draws[0].materials[0]), pressure).mean;
@@ -114,8 +114,8 @@ TEST(ByGap, RunsToAGapAddWhatTheyDifferBy) {
 TEST(ByGap, PressuresBeyondTheBanksAreReported) {
   const Film film = made_film("x", 46.0, 2.0);
   const double solid = made_film_bank().solid_column(film);
-  const auto at =
-      at_gaps(under_gaps(made_film_bank(), exact(), film, {solid / 0.92, solid / 0.56}));
+  const auto at = at_gaps(
+      under_gaps(made_film_bank(), exact_calibration(), film, {solid / 0.92, solid / 0.56}));
   EXPECT_EQ(at[0].above, 1.0);
   EXPECT_NEAR(at[0].pressure.median, 300.0, 1e-6);
   EXPECT_EQ(at[1].below, 1.0);
@@ -127,7 +127,7 @@ TEST(ByGap, WhereNoDrawIsWithinTheBanksPressuresNothingIsSaid) {
   const double solid = made_film_bank().solid_column(film);
   const auto refused = [&](double gap) {
     try {
-      check_reached(under_gaps(made_film_bank(), exact(), film, {gap}));
+      check_reached(under_gaps(made_film_bank(), exact_calibration(), film, {gap}));
     } catch (const Failure &e) {
       return std::string(e.what());
     }
@@ -141,9 +141,10 @@ TEST(ByGap, WhereNoDrawIsWithinTheBanksPressuresNothingIsSaid) {
 TEST(ByGap, AGapWithoutPoresOrWithoutTouchIsRefused) {
   const Film film = made_film("x", 46.0, 2.0);
   const double solid = made_film_bank().solid_column(film);
-  EXPECT_THROW(under_gaps(made_film_bank(), exact(), film, {0.99 * solid}), Failure);
-  EXPECT_THROW(under_gaps(made_film_bank(), exact(), film, {1.01 * solid / 0.54}), Failure);
-  EXPECT_THROW(under_gaps(made_film_bank(), exact(), film, {std::nan("")}), Failure);
+  EXPECT_THROW(under_gaps(made_film_bank(), exact_calibration(), film, {0.99 * solid}), Failure);
+  EXPECT_THROW(under_gaps(made_film_bank(), exact_calibration(), film, {1.01 * solid / 0.54}),
+               Failure);
+  EXPECT_THROW(under_gaps(made_film_bank(), exact_calibration(), film, {std::nan("")}), Failure);
 }
 
 } // namespace

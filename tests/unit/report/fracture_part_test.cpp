@@ -51,8 +51,6 @@ const char *const kCracks = "time_us,stage,pressure_MPa,bodies_with_bonds,bodies
                             "bodies_cracked,bodies_split,cracked_fraction,crack_surface_um2,"
                             "parted_surface_um2\n";
 
-} // namespace
-
 // Percent of bodies with bonds, up to the row of maximum pressure.
 TEST_F(FracturePart, ChartsByHand) {
   made(150, false);
@@ -137,3 +135,5 @@ TEST_F(FracturePart, OldAndDamagedTables) {
   EXPECT_TRUE(cracked_by_pressure({old}).series.empty());
   EXPECT_EQ(studied_body(old), 0);
 }
+
+} // namespace

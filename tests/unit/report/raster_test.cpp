@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "physics/pi.h"
 #include "report/pictures.h"
 
 #include <gtest/gtest.h>
@@ -53,7 +54,7 @@ TEST(Raster, AreaOfASphere) {
   int inside = 0;
   for (std::size_t i = 0; i < pixels.size(); i += 3)
     inside += pixels[i] < 200;
-  EXPECT_NEAR(inside / (3.14159 * 60 * 60), 1.0, 0.02);
+  EXPECT_NEAR(inside / (calendem::kPi * 60 * 60), 1.0, 0.02);
 }
 
 // Requirement: what is drawn after a fade lies on top of everything before it.

@@ -11,7 +11,7 @@ namespace {
 using namespace calendem;
 
 /// A case that only differs from the defaults in its platen.
-Settings case_with(const std::string &platen) {
+Settings platen_case(const std::string &platen) {
   const std::string file = (calendem_test::test_folder() / "case.toml").string();
   write_file(file, "electrode = \"none\"\n[platen]\n" + platen);
   return read_case(file);
@@ -33,7 +33,7 @@ std::vector<RawRow> compressed() {
 }
 
 TEST(TimeToTarget, PressureGrowsAsItDid) {
-  const Settings s = case_with("control = \"pressure\"\nmax_pressure_MPa = 90\n");
+  const Settings s = platen_case("control = \"pressure\"\nmax_pressure_MPa = 90\n");
   std::vector<RawRow> rows = compressed();
   // 3 exp(2 t) = 90 at t = ln(30) / 2, 1.2 us of which are over.
   EXPECT_NEAR(time_to_target(s, rows), 0.5 * std::log(30.0) - 1.2, 1e-12);
@@ -49,17 +49,18 @@ TEST(TimeToTarget, PressureGrowsAsItDid) {
 
 TEST(TimeToTarget, DisplacementAndThicknessAtThePlatensSpeed) {
   const std::vector<RawRow> rows = compressed(); // 2.4 um down
-  EXPECT_NEAR(time_to_target(case_with("control = \"displacement\"\ndisplacement_um = 6\nspeed_m_s "
-                                       "= 2\n"),
-                             rows),
-              1.8, 1e-12);
+  EXPECT_NEAR(
+      time_to_target(platen_case("control = \"displacement\"\ndisplacement_um = 6\nspeed_m_s "
+                                 "= 2\n"),
+                     rows),
+      1.8, 1e-12);
   EXPECT_NEAR(time_to_target(
-                  case_with("control = \"thickness\"\nthickness_um = 24\nspeed_m_s = 2\n"), rows),
+                  platen_case("control = \"thickness\"\nthickness_um = 24\nspeed_m_s = 2\n"), rows),
               1.8, 1e-12);
 }
 
 TEST(TimeToTarget, OnlyWhileThePlatenGoesDown) {
-  const Settings s = case_with("control = \"pressure\"\nmax_pressure_MPa = 90\n");
+  const Settings s = platen_case("control = \"pressure\"\nmax_pressure_MPa = 90\n");
   std::vector<RawRow> rows = compressed();
   rows.back().stage = 3.0;
   EXPECT_TRUE(std::isnan(time_to_target(s, rows)));

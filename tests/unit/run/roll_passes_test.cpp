@@ -3,6 +3,7 @@
 // load.
 #include "base/case.h"
 #include "base/provenance.h"
+#include "base/random.h"
 #include "physics/roll_nip.h"
 #include "simulate/collect.h"
 #include "simulate/rolling.h"
@@ -17,7 +18,7 @@ using namespace calendem;
 
 constexpr double kRadius = 2e5, kStart = 60.0, kFilm = 58.0, kStiffness = 10.0; // um, MPa/um
 
-Settings case_with(const std::string &tables) {
+Settings rolling_case(const std::string &tables) {
   const std::string file = (calendem_test::test_folder() / "case.toml").string();
   write_file(file, "electrode = \"electrode\"\n" + tables);
   return read_case(file);
@@ -42,8 +43,8 @@ void add_pass(std::vector<RawRow> &rows, double gap, bool springs) {
 // Requirement: a film of pressure k (h0 - h) takes q = (2/3) k (h0 - h_min) s0 on each side of the
 // nip, s0 = sqrt(2 R (h0 - h_min)); the trapezoid of rows ds apart is off by (ds/s0)^2 at most.
 TEST(RollPasses, LineLoadOfALinearFilm) {
-  const Settings s = case_with("[platen]\ncontrol = \"roll_gap\"\nroll_gap_um = 50\n[roll]\n"
-                               "passes = 2\nfirst_gap_um = 54\n");
+  const Settings s = rolling_case("[platen]\ncontrol = \"roll_gap\"\nroll_gap_um = 50\n[roll]\n"
+                                  "passes = 2\nfirst_gap_um = 54\n");
   std::vector<RawRow> rows;
   add_pass(rows, 54.0, true);
   add_pass(rows, 50.0, false);
@@ -69,7 +70,7 @@ TEST(RollPasses, LineLoadOfALinearFilm) {
 // Requirement: what a roll cannot do is refused, all of it at once.
 TEST(RollPasses, CaseIsChecked) {
   try {
-    case_with(
+    rolling_case(
         "[platen]\ncontrol = \"roll_gap\"\nroll_gap_um = 50\ndwell_us = 1\npresses = 2\n[roll]\n"
         "first_gap_um = 40\n[effects.machine_compliance]\num_per_MPa = 0.01\n");
     FAIL() << "the case was taken";
@@ -81,7 +82,7 @@ TEST(RollPasses, CaseIsChecked) {
       EXPECT_NE(std::string(e.what()).find(said), std::string::npos) << e.what();
   }
   try {
-    case_with("[roll]\nline_load_N_mm = 100\npasses = 2\n");
+    rolling_case("[roll]\nline_load_N_mm = 100\npasses = 2\n");
     FAIL() << "the case was taken";
   } catch (const std::exception &e) {
     EXPECT_NE(std::string(e.what()).find("only a roll has a line load"), std::string::npos);
@@ -101,7 +102,6 @@ TEST(LineLoad, GapIsFound) {
       done.push_back({gap, film(gap), std::max(touch, gap)});
       gap = next_gap(done, asked, lowest);
       EXPECT_GT(gap, lowest);
-      EXPECT_FALSE(is_scatter(done, asked));
     }
     return done.size() + 1;
   };
@@ -112,10 +112,38 @@ TEST(LineLoad, GapIsFound) {
   }
 }
 
-// Requirement: runs at gaps as good as the same, or a wider one that carries more, end the search.
-TEST(LineLoad, ScatterIsNotSearched) {
-  EXPECT_FALSE(is_scatter({{13.2, 90.0, 15.0}, {13.1, 110.0, 15.0}}, 100.0));
-  EXPECT_TRUE(is_scatter({{13.2, 90.0, 15.0}, {13.19, 110.0, 15.0}}, 100.0));
-  EXPECT_TRUE(is_scatter({{13.2, 90.0, 15.0}, {13.4, 110.0, 15.0}}, 100.0));
-  EXPECT_FALSE(is_scatter({{13.2, 90.0, 15.0}, {13.19, 95.0, 15.0}}, 100.0));
+// Requirement: runs count as their mean where a narrower gap carried less. The loads are those of a
+// film of 6 x 6 um; 40 is looked for.
+TEST(LineLoad, ARunThatCarriedMoreByChanceIsNoBound) {
+  std::vector<Rehearsal> done = {{13.35, 41.0, 15.6}, {13.4, 36.0, 15.6}, {13.3, 37.0, 15.6}};
+  // 13.35 and 13.3 um carry sqrt(41 * 37) = 38.95 at 13.325; nothing carries 40
+  const double depth = (15.6 - 13.325) * std::sqrt(40.0 / std::sqrt(41.0 * 37.0));
+  EXPECT_NEAR(next_gap(done, 40.0, 9.3), 15.6 - depth, 1e-12);
+  done.push_back({13.2, 44.0, 15.6});
+  const double part =
+      std::log(40.0 / std::sqrt(41.0 * 37.0)) / std::log(44.0 / std::sqrt(41.0 * 37.0));
+  EXPECT_NEAR(next_gap(done, 40.0, 9.3), 13.325 - part * (13.325 - 13.2), 1e-12);
+}
+
+// Requirement: a load that scatters by 4 % from run to run, twice the tolerance, is met. A run at the
+// mean's gap meets it with a probability of 0.38 (a normal deviate below half its standard
+// deviation), one at a gap that is known as badly as that of two runs, with 0.32. Three runs find the
+// place: 0.68^9 = 3 % of the searches meet nothing in nine more, of 400 12 +- 3.5; 23 is three of
+// these more.
+TEST(LineLoad, IsFoundAmongRunsThatScatter) {
+  const double touch = 15.6, asked = 40.0;
+  int missed = 0;
+  for (int seed = 0; seed < 400; ++seed) {
+    Random random(std::uint64_t(seed), 7);
+    std::vector<Rehearsal> done;
+    double gap = 14.0, load = 0.0;
+    while (std::fabs(load / asked - 1.0) > 0.02 && done.size() < kMostRehearsals) {
+      load = 5.0 * std::expm1(0.9 * (touch - gap)) * std::exp(0.04 * random.normal());
+      done.push_back({gap, load, touch});
+      gap = next_gap(done, asked, 9.3);
+    }
+    missed += std::fabs(load / asked - 1.0) > 0.02;
+  }
+  std::printf("%d of 400 searches met nothing\n", missed);
+  EXPECT_LE(missed, 23);
 }

@@ -9,8 +9,6 @@ using namespace calendem;
 using namespace calendem_test;
 namespace fs = std::filesystem;
 
-const std::string kData = std::string(CALENDEM_TEST_DATA) + "/";
-
 StructureSource source(const std::string &file, const std::set<int> &am, const std::set<int> &cbd) {
   StructureSource s;
   s.file = file;

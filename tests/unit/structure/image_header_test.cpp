@@ -10,17 +10,10 @@ namespace {
 using namespace calendem;
 using namespace calendem_test;
 
-const std::string kData = std::string(CALENDEM_TEST_DATA) + "/";
-
 std::string said_of(const std::string &ending, const std::string &bytes) {
   const std::string file = (test_folder() / ("a" + ending)).string();
   std::ofstream(file, std::ios::binary) << bytes;
   return refusal([&] { read_label_image(file, 0.3); });
-}
-std::string replaced(std::string text, const std::string &what, const std::string &with) {
-  const size_t at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << what;
-  return text.replace(at, what.size(), with);
 }
 // What write_label_image() makes of an image of 12 x 5 x 4 voxels.
 std::string written(const std::string &ending) {

@@ -10,8 +10,6 @@ using namespace calendem;
 using namespace calendem_test;
 namespace fs = std::filesystem;
 
-const std::string kData = CALENDEM_TEST_DATA;
-
 // What the files in data/ show.
 int expected(int i, int j, int k) {
   if (i >= 1 && i <= 2 && j >= 1 && j <= 3 && k >= 1 && k <= 2)
@@ -72,7 +70,7 @@ TEST(LabelImage, VtkAndMetaImageFilesKeepLabelsAndVoxelSize) {
 
 TEST(LabelImage, NrrdFilesOfTeemAreRead) {
   for (const char *name : {"unu_gzip.nrrd", "unu_raw.nhdr"}) {
-    const LabelImage image = read_label_image(kData + "/" + name);
+    const LabelImage image = read_label_image(kData + name);
     expect_sample(image);
     EXPECT_NEAR((image.voxel - sample().voxel).norm(), 0.0, 1e-6) << name;
   }
@@ -80,7 +78,7 @@ TEST(LabelImage, NrrdFilesOfTeemAreRead) {
 
 // VTK 9.1 reads other numbers than are in the file.
 TEST(LabelImage, NrrdAsTextIsRefused) {
-  expect_parts(refusal([] { read_label_image(kData + "/unu_text.nrrd"); }),
+  expect_parts(refusal([] { read_label_image(kData + "unu_text.nrrd"); }),
                {"ASCII", "raw and gzip"});
 }
 
@@ -117,7 +115,7 @@ TEST(LabelImage, FilesThatAreCutAreRefused) {
   write_tiff((folder / "a.tif").string(), 0, 3);
   cut(folder / "a.tif", 0.4);
   for (const char *name : {"unu_gzip.nrrd", "unu_raw.nhdr", "unu_raw.raw"})
-    fs::copy(kData + "/" + name, folder / name);
+    fs::copy(kData + name, folder / name);
   cut(folder / "unu_gzip.nrrd", 0.9);
   cut(folder / "unu_raw.raw", 0.9);
   for (const char *name : {"a.vti", "a.mha", "a.mhd", "a.tif", "unu_gzip.nrrd", "unu_raw.nhdr"})
@@ -160,7 +158,7 @@ TEST(LabelImage, VoxelsOfOneMicrometreAreStatedOrNot) {
                  {name, "voxel size", "shapes.voxel_size_um"});
     EXPECT_EQ(read_label_image(file, 1.0).voxel.x(), 1.0);
   }
-  std::string nrrd = bytes_of(kData + "/unu_gzip.nrrd");
+  std::string nrrd = bytes_of(kData + "unu_gzip.nrrd");
   const std::regex spacings("(spacings|space directions): [^\n]*\n");
   ASSERT_TRUE(std::regex_search(nrrd, spacings));
   const std::string file = (folder / "a.nrrd").string();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The three porosities of physics.md, section 4, and profiles, on structures with a known answer.
+// The three porosities (docs/model/porosity.md), and profiles, on structures with a known answer.
 #include "measure/structure.h"
 #include "measure_support.h"
 

@@ -9,8 +9,6 @@ namespace {
 using namespace calendem;
 using namespace calendem_test;
 
-const std::string kData = std::string(CALENDEM_TEST_DATA) + "/";
-
 ParticleData read_file(const std::string &file, const DataFormat &format = {}) {
   Mistakes mistakes(file, 10);
   ParticleData data = read_particle_data(file, format, mistakes);
@@ -29,12 +27,6 @@ ParticleData read_text(const std::string &text, const DataFormat &format = {}) {
   return read_file(file_of(text), format);
 }
 DataFormat style(const std::string &atom_style) { return {atom_style, 1.0, 1.0, false}; }
-
-std::string replaced(std::string text, const std::string &what, const std::string &with) {
-  const size_t at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << what;
-  return text.replace(at, what.size(), with);
-}
 
 const std::string kHead = "two spheres\n\n2 atoms\n2 atom types\n\n-6 6 xlo xhi\n0 12 ylo yhi\n"
                           "-1 9 zlo zhi\n\nAtoms # sphere\n\n"; // 11 lines

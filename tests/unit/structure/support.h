@@ -49,6 +49,15 @@ inline void expect_parts(const std::string &text, const std::vector<std::string>
     EXPECT_NE(text.find(part), std::string::npos) << "no '" << part << "' in\n" << text;
 }
 
+/// Where label images and data files of other software are.
+const std::string kData = std::string(CALENDEM_TEST_DATA) + "/";
+
+inline std::string replaced(std::string text, const std::string &what, const std::string &with) {
+  const size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return text.replace(at, what.size(), with);
+}
+
 inline std::string bytes_of(const std::filesystem::path &file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};

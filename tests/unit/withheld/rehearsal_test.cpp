@@ -6,6 +6,7 @@
 #include "base/provenance.h"
 #include "diagnose/bank/bank_table.h"
 #include "support/test_folder.h"
+#include "support/with_all.h"
 #include "withheld/rehearsal.h"
 #include <algorithm>
 #include <cmath>
@@ -15,12 +16,12 @@ namespace {
 
 using namespace calendem;
 
-const std::string kBank = CALENDEM_CASES "/bank/bank.toml";
+const std::string kShippedBank = CALENDEM_CASES "/bank/bank.toml";
 
 /// Of the shipped bank's first 48 base points, three to a packing, and its first 16 runs of
 /// friction, one to a packing, those of packings 1 to `packings`.
 RehearsalOptions part_of_shipped(int packings, const std::filesystem::path &folder) {
-  BankTable table = read_bank_table(read_bank_spec(kBank), CALENDEM_CASES "/bank/bank.csv");
+  BankTable table = read_bank_table(read_bank_spec(kShippedBank), CALENDEM_CASES "/bank/bank.csv");
   table.rows.erase(std::remove_if(table.rows.begin(), table.rows.end(),
                                   [&](const BankRow &row) {
                                     const bool on = !row.point.effect.empty();
@@ -29,7 +30,8 @@ RehearsalOptions part_of_shipped(int packings, const std::filesystem::path &fold
                                            (on && row.point.effect != "friction");
                                   }),
                    table.rows.end());
-  const RehearsalOptions o = {kBank, (folder / "part.csv").string(), (folder / "one").string()};
+  const RehearsalOptions o = {kShippedBank, (folder / "part.csv").string(),
+                              (folder / "one").string()};
   write_file(o.table, write_bank_table(table));
   return o;
 }
@@ -38,6 +40,7 @@ RehearsalOptions part_of_shipped(int packings, const std::filesystem::path &fold
 // in a bank. Strong enough to be distinguished from none it is the most probable, or something
 // unknown is that acts like it; at three times that strength it is the most probable.
 TEST(Rehearsal, EveryPackingIsLeftOutOnce) {
+  CALENDEM_RUNS_WITH_ALL();
   const auto folder = calendem_test::test_folder();
   RehearsalOptions o = part_of_shipped(7, folder);
   rehearse(o);
@@ -105,6 +108,8 @@ TEST(Rehearsal, DrawnSamplesAreWhatTheBankPredicts) {
   rehearse(o);
   EXPECT_EQ(text_of_file(o.folder + "/rehearsal.csv"),
             text_of_file((folder / "one/rehearsal.csv").string()));
+  if (!calendem_test::with_all(1, 0))
+    return;
   o.draws = 1;
   const auto drawn_of = [&](double cells) { // of its rows
     o.cells = cells;

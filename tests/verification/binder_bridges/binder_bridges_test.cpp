@@ -226,7 +226,7 @@ TEST(VerificationBinderBridges, OnePassGivesTheHostsForces) {
 TEST(VerificationBinderBridges, ValuesOutOfRangeStop) {
   const std::pair<Settings, const char *> cases[] = {
       {{{"cbd", "2e4"}}, "stretch too far before they break"},
-      {{{"gap", "0.06"}}, "at most 0.05 is allowed"},
+      {{{"gap", "0.06"}}, "'bridges: gap' is '0.06'; it must be a number between 0 and 0.05"},
       {{{"ratio", "0"}}, "must be a finite number > 0"}};
   for (const auto &[settings, words] : cases) {
     const CaseRun run = move(kJoined[1], 0.0, 0.0, settings);

@@ -5,6 +5,7 @@
 #ifndef CALENDEM_TESTS_IMPACT_H
 #define CALENDEM_TESTS_IMPACT_H
 
+#include "physics/pi.h"
 #include <cmath>
 
 #include <Eigen/Dense>
@@ -33,13 +34,11 @@ struct Impact {
 };
 
 inline double mass_of(const Material &m, double R) {
-  return m.density * 4.0 / 3.0 * 3.14159265358979323846 * R * R * R;
+  return m.density * 4.0 / 3.0 * kPi * R * R * R;
 }
 
 /// Fraction of critical damping that gives the restitution e (Antypov & Elliott 2011).
-inline double damping_ratio(double e) {
-  return -std::log(e) / std::hypot(std::log(e), 3.14159265358979323846);
-}
+inline double damping_ratio(double e) { return -std::log(e) / std::hypot(std::log(e), kPi); }
 
 /// Effective modulus, shear modulus, radius and mass; an elastic impact in Hertz' closed forms.
 struct Contact {

@@ -25,7 +25,7 @@ double way_down(double depth, double speed) {
 }
 
 CaseRun stretch(const std::vector<BodySphere> &spheres, double side, const Settings &settings,
-                const std::string &rest = "", int ranks = 1, Files more = {}) {
+                const std::string &rest = "", int ranks = 1, const Files &more = {}) {
   Files files = files_of(spheres, {0, 0, 0}, {side, 5, 12});
   files["rest.in"] = files["start.in"] + rest;
   for (const auto &[name, text] : more)
@@ -130,8 +130,8 @@ CaseRun press(Settings settings, int ranks = 1, const Files &more = {}) {
                    {"damping", "0.3"},
                    {"e", "0.02"},
                    {"dt", number(dt)},
-                   {"half", number(steps / 4)},
-                   {"rest", number(steps - steps / 4)}});
+                   {"half", std::to_string(steps / 4)},
+                   {"rest", std::to_string(steps - steps / 4)}});
   return stretch(all, 6 * kSpacing, settings, "", ranks, more);
 }
 
@@ -182,6 +182,10 @@ TEST(VerificationElongation, LedgerRanksAndRestart) {
     const Row on_end = on.rows("curve.csv").back();
     for (const auto &[column, value] : end)
       EXPECT_EQ(on_end.at(column), value) << column;
+    from["web"] = "other";
+    const CaseRun other = press(from, 1, {{"half.restart", half}, {"rest.in", "\n"}});
+    EXPECT_FALSE(other.finished());
+    EXPECT_NE(other.why().find("under the ID 'elongation'"), std::string::npos) << other.why();
   }
 }
 

@@ -244,25 +244,101 @@ TEST(VerificationFaults, MomentumOfADampedUnequalPair) {
   EXPECT_LT(worst, kSteps * 2.2e-16 * 4.0);
 }
 
-// Forces are sums of whole units, 2^62 of which are E R^2 or up to twice that: 7/4 of it or more stops
-// the run instead of wrapping. Damping alone makes it.
-TEST(VerificationFaults, ForceBeyondTheUnitsOfItsSumStops) {
-  const double R = 0.795, E = 2e8, overlap = 0.1 * R;
-  const double most = 1.75 * std::exp2(std::ceil(std::log2(E * R * R)));
-  const double modulus = effective_modulus(E, 0.3, E, 0.3), log_e = std::log(0.15);
-  const double mass = kDensity * 4.0 / 3.0 * kPi * std::pow(R, 3);
+namespace {
+// Forces are sums of whole units, 2^62 of which are E R^2 or up to twice that: twice it or more stops
+// the run instead of wrapping.
+constexpr double kRadius = 0.795, kPressed = 0.1 * kRadius; // um
+double most_force() { return 2.0 * std::exp2(std::ceil(std::log2(2e8 * kRadius * kRadius))); }
+
+// At which two spheres that overlap by kPressed must meet to be under that force, mostly by damping.
+double speed_for(double force) {
+  const double modulus = effective_modulus(2e8, 0.3, 2e8, 0.3), log_e = std::log(0.15);
+  const double mass = kDensity * 4.0 / 3.0 * kPi * std::pow(kRadius, 3);
   const double beta = log_e / std::sqrt(log_e * log_e + kPi * kPi);
   const double damping =
-      contact_resistance({modulus, 0.0, beta, 0.0}, std::sqrt(0.5 * R * overlap), 0.5 * mass)
+      contact_resistance({modulus, 0.0, beta, 0.0}, std::sqrt(0.5 * kRadius * kPressed), 0.5 * mass)
           .normal_damping;
+  return (force - hertz_force(modulus, 0.5 * kRadius, kPressed)) / damping;
+}
+
+CaseRun pressed(const std::vector<BodySphere> &spheres) {
+  return CaseRun(
+      "in.body",
+      {{"bonded", "0"}, {"ced", "0"}, {"friction", "0"}, {"dt", "1e-8"}, {"steps", "10"}}, 1,
+      files_of(spheres, {0, 0, 0}, {10, 10, 10}));
+}
+} // namespace
+
+TEST(VerificationFaults, ForceBeyondTheUnitsOfItsSumStops) {
   for (const double share : {0.9, 1.1}) {
-    const double speed =
-        0.5 * (share * most - hertz_force(modulus, 0.5 * R, overlap)) / damping; // of each
-    const CaseRun run("in.body", {{"bonded", "0"}, {"ced", "0"}, {"dt", "1e-8"}, {"steps", "10"}},
-                      1,
-                      files_of({{{5.0, 5.0, 5.0}, R, 1, {speed, 0.0, 0.0}},
-                                {{5.0 + 2.0 * R - overlap, 5.0, 5.0}, R, 2, {-speed, 0.0, 0.0}}},
-                               {0, 0, 0}, {10, 10, 10}));
+    const double speed = 0.5 * speed_for(share * most_force()); // of each
+    const CaseRun run =
+        pressed({{{5.0, 5.0, 5.0}, kRadius, 1, {speed, 0.0, 0.0}},
+                 {{5.0 + 2.0 * kRadius - kPressed, 5.0, 5.0}, kRadius, 2, {-speed, 0.0, 0.0}}});
     EXPECT_EQ(run.finished(), share < 1.0) << run.why();
+  }
+}
+
+// Three spheres press a fourth from one side, each with less than the most: together with 0.6 of it,
+// or with 2.0 and 2.3, where the whole number of the sum has wrapped and is a small one again. And
+// when two of them press from opposite sides, the sum is in its range.
+TEST(VerificationFaults, SumThatLooksLikeASmallOneStops) {
+  const double r = 2.0 * kRadius - kPressed, angle = 37.5 / 180.0 * kPi; // they do not touch
+  for (const double share : {0.25, 0.85, 0.97}) {
+    const double speed = speed_for(share * most_force());
+    std::vector<BodySphere> all = {{{5.0, 5.0, 5.0}, kRadius, 1}};
+    for (int k = 0; k < 3; ++k) {
+      const double turn = 2.0 / 3.0 * kPi * k;
+      const Vec3 n = {std::cos(angle), std::sin(angle) * std::cos(turn),
+                      std::sin(angle) * std::sin(turn)};
+      all.push_back({all[0].x + r * n, kRadius, k + 2, -speed * n});
+    }
+    const CaseRun run = pressed(all);
+    EXPECT_EQ(run.finished(), share < 0.5) << run.why();
+    EXPECT_EQ(run.why().find("more than the units of its sum hold") == std::string::npos,
+              share < 0.5);
+  }
+  const double speed = speed_for(0.9 * most_force());
+  const CaseRun both = pressed({{{5.0, 5.0, 5.0}, kRadius, 1},
+                                {{5.0 + r, 5.0, 5.0}, kRadius, 2, {-speed, 0.0, 0.0}},
+                                {{5.0 - r, 5.0, 5.0}, kRadius, 3, {speed, 0.0, 0.0}}});
+  EXPECT_TRUE(both.finished()) << both.why();
+}
+
+// A sphere is driven into four to which it is bonded: until the run stops its force grows.
+TEST(VerificationFaults, OverflowStopsInItsStepOnAnyRanks) {
+  for (const int ranks : {1, 2}) {
+    Files files = files_of({{{0, 0, 0}, 1.0, 1},
+                            {{1.6113, 1.0068, 0}, 1.0, 1},
+                            {{1.6113, -1.0068, 0}, 1.0, 1},
+                            {{1.6113, 0, 1.0068}, 1.0, 1},
+                            {{1.6113, 0, -1.0068}, 1.0, 1}},
+                           {-5, -5, -5}, {5, 5, 5});
+    files["start.in"] +=
+        "unfix integrate\ngroup driven id 1\nvelocity driven set 60 0 0 units box\n"
+        "fix mv driven move linear 60 0 0 units box\n";
+    const CaseRun run("in.body",
+                      {{"ced", "0"},
+                       {"friction", "0"},
+                       {"restitution", "1"},
+                       {"dt", "1e-4"},
+                       {"steps", "190"},
+                       {"every", "1"},
+                       {"gx", std::to_string(ranks)},
+                       {"gy", "1"},
+                       {"gz", "1"}},
+                      ranks, files);
+    EXPECT_FALSE(run.finished());
+    double before = 0.0;
+    const std::vector<std::vector<Row>> frames = run.frames();
+    for (const std::vector<Row> &frame : frames) {
+      ASSERT_FALSE(frame.empty());
+      EXPECT_LE(frame[0].at("fx"), before);
+      before = frame[0].at("fx");
+    }
+    std::printf("%d ranks: stopped after %zu steps, at a force of %.3g nN\n", ranks,
+                frames.size() - 1, before);
+    EXPECT_GT(frames.size(), 50u);
+    EXPECT_LT(frames.size(), 100u); // faults of one rank are told at the 100th
   }
 }

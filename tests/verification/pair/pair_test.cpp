@@ -5,14 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "physics/hertz_contact.h"
+#include "physics/pi.h"
 #include "physics/sjkr_cohesion.h"
 #include "run_case.h"
 
 using namespace calendem;
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 constexpr double E = 2e8, G = E / 2.6, R = 0.795, l = 1.28, dt = 1e-4, sc = 2e5, tc = 2e4;
 const double A = kPi * R * R, I = kPi * R * R * R * R / 4.0, J = 2.0 * I;
 const double kSteps = 1279.53; // steps until the break: well away from a whole number

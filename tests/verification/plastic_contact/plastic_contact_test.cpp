@@ -42,15 +42,15 @@ Errors pressed(double touch, double R_eff, Settings settings, double hardening =
     const double d = std::fmax(touch - row.at("z"), 0.0);
     largest = std::fmax(largest, d);
     force = std::fmax(force, row.at("f"));
-    const double expected = law.force(d, largest) - sjkr_force(ced, row.at("z"), R, R);
+    const double expected = law.force(d, {largest}) - sjkr_force(ced, row.at("z"), R, R);
     worst.force = std::fmax(worst.force, std::fabs(row.at("f") - expected));
     worst.elastic =
-        std::fmax(worst.elastic, std::fabs(row.at("elastic") - law.elastic_energy(d, largest)));
+        std::fmax(worst.elastic, std::fabs(row.at("elastic") - law.elastic_energy(d, {largest})));
     worst.taken = std::fmax(worst.taken, std::fabs(row.at("taken") - law.plastic_work(largest)));
   }
   EXPECT_GT(largest, 5.0 * law.yield_overlap());
   worst.force /= force;
-  worst.elastic /= law.elastic_energy(largest, largest);
+  worst.elastic /= law.elastic_energy(largest, {largest});
   worst.taken /= law.plastic_work(largest);
   return worst;
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "physics/hertz_contact.h"
+#include "physics/pi.h"
 #include "physics/roll_nip.h"
 #include "spheres.h"
 
@@ -81,7 +82,7 @@ TEST(VerificationRoll, PathLoadAndLineLoad) {
   EXPECT_LT(force, 1e-3);
   for (const int n : {0, 1}) {
     const double depth = top - gaps[n];
-    const double expected = 3.0 * std::acos(-1.0) / 8.0 * load_at(gaps[n]) * nip.distance(depth);
+    const double expected = 3.0 * kPi / 8.0 * load_at(gaps[n]) * nip.distance(depth);
     std::printf("pass %d: smallest gap off by %.1e um, line load by %.1e\n", n + 1,
                 lowest[n] - gaps[n], line[n] / expected - 1.0);
     EXPECT_LT(lowest[n] - gaps[n], nip.above(every * dt * nip.web_speed(speed, depth)));
@@ -115,7 +116,7 @@ TEST(VerificationRoll, SlipRollsASphereOnOneAndTwoRanks) {
   }
   const double moved = ends[0][0].at("x") - 2.5, slipped = slip * u * steps * dt;
   // from rest by friction: (1/2) v m = int F dt under the growing load of d = v t / 2
-  const double mass = 4.0 / 3.0 * std::acos(-1.0) * R * R * R * kDensity;
+  const double mass = 4.0 / 3.0 * kPi * R * R * R * kDensity;
   const double rise = hertz_force(E_eff, R, 1.0) * std::pow(0.5 * speed, 1.5);
   const double start = std::pow(2.5 * 0.5 * slip * u * mass / rise, 0.4);
   std::printf("slip of %.4g um moves the sphere by %.5f of it; start takes %.1e\n", slipped,

@@ -2,7 +2,6 @@
 #include "base/case.h"
 #include "physics/hertz_contact.h"
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
@@ -74,10 +73,10 @@ void check_contact(const Settings &s, const Effect &e, Phase a, Phase b, Mistake
   if (!sound(s, names) || !sound(s, keys_of(a)) || !sound(s, keys_of(b)))
     return;
   const double factor = script_units(key.unit), value = factor * s.number(key.name);
-  std::array<double, std::tuple_size_v<decltype(ContactLaw::properties)>> values = {};
+  PropertyValues values = {};
   for (std::size_t k = 0; k < e.settings.size(); ++k)
     values.at(k) = script_units(e.settings[k].unit) * s.number(e.settings[k].name);
-  const ContactLimits limits = e.contact.law->limits(pair_of(s, a, b), values.data());
+  const ContactLimits limits = e.contact.law->limits(pair_of(s, a, b), values);
   if (value <= 0.0 || (value >= limits.least && value <= limits.most))
     return;
   const bool low = value < limits.least;
@@ -96,7 +95,7 @@ void check_part_of_modulus(const Settings &s, const Effect &e, Phase a, Phase b,
                            Mistakes &mistakes) {
   for (std::size_t k = 0; k < e.settings.size(); ++k) {
     const Key &key = e.settings[k];
-    const double part = e.contact.law->properties.at(k).of_modulus;
+    const double part = e.contact.law->properties.at(k).most_of_modulus;
     if (!s.sound({key.name}) || !sound(s, keys_of(a)) || !sound(s, keys_of(b)))
       continue;
     const double most = part * pair_of(s, a, b).modulus / script_units(key.unit);

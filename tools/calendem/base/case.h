@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A calendering case (case.toml): what `calendem run` simulates. Its keys are the rows of
-// registry/settings.h.
+// effects/settings.h.
 #ifndef CALENDEM_BASE_CASE_H
 #define CALENDEM_BASE_CASE_H
 
 #include "base/toml_reader.h"
-#include "registry/settings.h"
+#include "effects/settings.h"
 
 namespace calendem {
 

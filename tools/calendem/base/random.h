@@ -3,6 +3,7 @@
 #ifndef CALENDEM_BASE_RANDOM_H
 #define CALENDEM_BASE_RANDOM_H
 
+#include "physics/pi.h"
 #include "physics/weibull_strength.h"
 #include <Eigen/Geometry>
 #include <cmath>
@@ -21,7 +22,7 @@ public:
   }
   double normal() {
     const double length = std::sqrt(-2.0 * std::log(uniform()));
-    return length * std::cos(6.283185307179586 * uniform());
+    return length * std::cos(2.0 * kPi * uniform());
   }
   // Braces: the draws follow in the order written, with every compiler.
   Eigen::Vector3d uniform3() { return Eigen::Vector3d{uniform(), uniform(), uniform()}; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/recipe.h"
-#include "registry/effects.h"
+#include "effects/effects.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -2,7 +2,7 @@
 #include "base/registry.h"
 #include "base/messages.h"
 #include "base/recipe.h"
-#include "registry/settings.h"
+#include "effects/settings.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

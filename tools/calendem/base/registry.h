@@ -3,8 +3,8 @@
 #ifndef CALENDEM_BASE_REGISTRY_H
 #define CALENDEM_BASE_REGISTRY_H
 
-#include "registry/effects.h"
-#include "registry/key.h"
+#include "effects/effects.h"
+#include "effects/key.h"
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>

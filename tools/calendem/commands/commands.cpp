@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/commands.h"
 #include "base/registry.h"
-#include "registry/settings.h"
+#include "effects/settings.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fmt/format.h>
@@ -134,7 +134,7 @@ std::string law_in_script(const LawInScript &l, int number) {
   for (const Effect *e : l.effects)
     on += fmt::format("{}(v_{} > 0)", on.empty() ? "" : " || ",
                       name.at(e->settings.front().variable));
-  for (std::size_t k = 0; k < l.law->properties.size() && l.law->properties[k].name; ++k)
+  for (std::size_t k = 0; k < l.law->size; ++k)
     fixes += fmt::format(" &\n    \"fix {0} all property/global {0} peratomtypepair 4{1}\"",
                          l.law->properties[k].name, matrix(l, k));
   out += fmt::format(

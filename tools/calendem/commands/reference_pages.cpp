@@ -3,9 +3,9 @@
 #include "base/recipe.h"
 #include "base/registry.h"
 #include "commands/commands.h"
+#include "effects/settings.h"
 #include "electrode/slurry/dry.h"
 #include "electrode/tomogram.h"
-#include "registry/settings.h"
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>

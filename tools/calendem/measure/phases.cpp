@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "measure/phases.h"
 #include "base/messages.h"
+#include "physics/pi.h"
 #include <algorithm>
 #include <climits>
 #include <cmath>
@@ -271,7 +272,7 @@ Eigen::Vector3d length(const Offset &d, const Eigen::Vector3d &voxel) {
 std::array<double, kDirections> shares(const std::array<Offset, kDirections> &d,
                                        const Eigen::Vector3d &voxel) {
   constexpr int kPoints = 100000;
-  const double golden = 3.14159265358979323846 * (3.0 - std::sqrt(5.0));
+  const double golden = kPi * (3.0 - std::sqrt(5.0));
   std::array<Eigen::Vector3d, kDirections> unit;
   for (size_t m = 0; m < d.size(); ++m)
     unit[m] = length(d[m], voxel).normalized();

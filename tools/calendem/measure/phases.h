@@ -62,7 +62,7 @@ struct Volumes {
   double cbd_envelope = 0.0; ///< part of the CBD spheres outside the AM envelopes
 };
 
-/// physics.md, section 4.
+/// See docs/model/porosity.md.
 struct Porosity {
   double total = 0.0; ///< 1 - (V_AM + V_CBD,solid)/(A h)
   double macro = 0.0; ///< 1 - (V_AM + V_CBD,envelope)/(A h): what a tomogram resolves
@@ -124,7 +124,7 @@ struct Cell {
   double lx, ly, height;
 };
 
-/// AM is the envelope of each body, which holds its lattice volume N s^3 (physics.md, section 4):
+/// AM is the envelope of each body, which holds its lattice volume N s^3 (docs/model/porosity.md):
 /// every primary is a Gaussian of 0.4 lattice spacings s, and the voxels where their sum is largest
 /// are the body, as many as fill N s^3. So gaps between the primaries are no pores, and a crack is
 /// one once it is 0.6 s wide. CBD is what of its spheres lies outside. Bodies that overlap share

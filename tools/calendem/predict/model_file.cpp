@@ -3,11 +3,11 @@
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "base/registry.h"
+#include "effects/effects.h"
 #include "predict/crushed.h"
 #include "predict/files.h"
 #include "predict/film_sheet.h"
 #include "predict/learnt.h"
-#include "registry/effects.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

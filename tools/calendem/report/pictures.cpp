@@ -331,7 +331,7 @@ std::vector<Picture> draw_pictures(Run &run) {
 
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
+constexpr double kTurn = 2.0 * kPi;
 
 /// Of a cell whose web may elongate.
 double side_of(const Run &run, double as_packed, double time_us) {

@@ -12,8 +12,6 @@
 namespace calendem {
 
 constexpr int kMostRehearsals = 12;
-/// Gaps so near to each other carry the same but for the scatter of breaks [um].
-constexpr double kSameGap = 0.02;
 
 /// The last pass of a run at `gap`.
 struct Rehearsal {
@@ -25,11 +23,9 @@ struct Rehearsal {
 /// The gap to try next, from the nearest on both sides: a film's load grows about exponentially.
 /// Where one side is missing, from `touch`, where the film carries nothing and its load begins as
 /// the square of the depth. Stays above `lowest`, and goes at most half of the way there at once.
+/// Breaks scatter the loads of single runs: where a narrower gap carried less, the runs count as
+/// their mean. One run that carried by chance what others of its kind do not, misleads nobody.
 double next_gap(const std::vector<Rehearsal> &done, double asked, double lowest);
-
-/// True if less and more than asked was carried at gaps that are as good as the same: another
-/// rehearsal would meet it by chance only.
-bool is_scatter(const std::vector<Rehearsal> &done, double asked);
 
 /// What a folder's runs so far were; kept in it as rehearsals.csv.
 class Rehearsals {

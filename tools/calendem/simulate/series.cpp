@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The frames of a run: ParaView series and the space that particles fill.
 #include "base/provenance.h"
+#include "physics/pi.h"
 #include "simulate/collect.h"
 #include <algorithm>
 #include <cmath>
@@ -122,7 +123,7 @@ UnionVolume union_volumes(const std::string &folder, const ElectrodeFacts &e,
         }
     out.time.push_back(time);
     out.volume.push_back(e.am + voxels.volume(kCbdType));
-    out.cbd_spheres.push_back(4.0 / 3.0 * M_PI * cubes);
+    out.cbd_spheres.push_back(4.0 / 3.0 * kPi * cubes);
   }
   return out;
 }

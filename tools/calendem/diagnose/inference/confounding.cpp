@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/inference/confounding.h"
 #include "diagnose/inference/numerics.h"
+#include "physics/pi.h"
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -104,7 +105,7 @@ std::vector<double> occam_of(const Prior &p, double end, const std::vector<Signa
   for (std::size_t k = 0; k < truths.size(); ++k) {
     const Vector &below = k == 0 ? off.mean : truths[k - 1].mean;
     const double slope = (truths[k].mean - below).norm() / std::fabs(step); // sd per unit
-    const double widths = slope / (std::sqrt(2.0 * M_PI) * p.density(double(k + 1) * step));
+    const double widths = slope / (std::sqrt(2.0 * kPi) * p.density(double(k + 1) * step));
     cost.push_back(widths > 1.0 ? std::log(widths) : 0.0);
   }
   return cost;

@@ -2,6 +2,7 @@
 #include "diagnose/inference/evidence.h"
 #include "diagnose/inference/numerics.h"
 #include "diagnose/inference/scatter.h"
+#include "physics/pi.h"
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
@@ -20,7 +21,7 @@ constexpr double kStep = 0.01; // of second derivatives, in standard deviations 
 using Density = std::function<double(const Vector &)>;
 
 double log_prior(const Vector &scores) {
-  return -0.5 * (scores.squaredNorm() + double(scores.size()) * std::log(2.0 * M_PI));
+  return -0.5 * (scores.squaredNorm() + double(scores.size()) * std::log(2.0 * kPi));
 }
 
 /// Inverse of the second derivatives; directions that bend less than the prior get the prior's.
@@ -59,7 +60,7 @@ std::vector<Peak> modes_of(const Density &density, const WithGradient &falling, 
 double laplace_evidence(const Peak &peak) {
   const Matrix factor = Cholesky(peak.covariance).matrixL();
   return peak.log_density + factor.diagonal().array().log().sum() +
-         0.5 * double(peak.at.size()) * std::log(2.0 * M_PI);
+         0.5 * double(peak.at.size()) * std::log(2.0 * kPi);
 }
 
 struct WeightedPoints {

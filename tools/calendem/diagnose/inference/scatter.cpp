@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/inference/scatter.h"
+#include "physics/pi.h"
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
@@ -134,9 +135,9 @@ double mixed_degrees(const Matrix &known, const Matrix &estimated, double degree
 
 double log_student_t(double square, double log_determinant, int n, double nu) {
   if (nu >= kNormal)
-    return -0.5 * (n * std::log(2.0 * M_PI) + log_determinant + square);
+    return -0.5 * (n * std::log(2.0 * kPi) + log_determinant + square);
   return std::lgamma(0.5 * (nu + n)) - std::lgamma(0.5 * nu) -
-         0.5 * (n * std::log(nu * M_PI) + log_determinant) -
+         0.5 * (n * std::log(nu * kPi) + log_determinant) -
          0.5 * (nu + n) * std::log1p(square / nu);
 }
 

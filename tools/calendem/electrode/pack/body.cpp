@@ -10,7 +10,7 @@ namespace calendem {
 
 namespace {
 
-double sphere_volume(double d) { return 3.14159265358979323846 / 6.0 * d * d * d; }
+double sphere_volume(double d) { return kPi / 6.0 * d * d * d; }
 
 double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/pack/electrode_files.h"
+#include "physics/pi.h"
 #include <algorithm>
 #include <fmt/format.h>
 #include <fstream>
@@ -64,8 +65,8 @@ std::string bodies_table(const std::vector<Body> &bodies, const std::vector<Pose
     out += fmt::format("{},{},{},{:.6g},{:.6g},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.6f},{:.6f},"
                        "{:.6f},{:.6f}\n",
                        k + 1, b.primaries.size(), state.body_bonds[k], b.volume,
-                       std::cbrt(6.0 / 3.14159265358979323846 * b.volume), b.width, b.sphericity,
-                       c.x(), c.y(), c.z(), q.w(), q.x(), q.y(), q.z());
+                       std::cbrt(6.0 / kPi * b.volume), b.width, b.sphericity, c.x(), c.y(), c.z(),
+                       q.w(), q.x(), q.y(), q.z());
   }
   return out;
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/pack/packing_state.h"
+#include "effects/settings.h"
 #include "physics/hertz_contact.h"
 #include "physics/pi.h"
 #include "physics/sjkr_cohesion.h"
-#include "registry/settings.h"
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -128,8 +128,7 @@ SurfaceMeasures measure_surface(const ParticleMask &mask) {
   out.area = measure->GetSurfaceArea();
   out.volume = measure->GetVolume();
   if (out.area > 0.0)
-    out.sphericity = std::cbrt(3.14159265358979323846) *
-                     std::pow(6.0 * std::fabs(out.volume), 2.0 / 3.0) / out.area;
+    out.sphericity = std::cbrt(kPi) * std::pow(6.0 * std::fabs(out.volume), 2.0 / 3.0) / out.area;
   return out;
 }
 

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fix_time_bpm.h"
+#include "comm.h"
+#include "error.h"
+#include "modify.h"
+#include "update.h"
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+namespace {
+const char *const kId = "simulated_time";
+}
+
+FixTimeBpm::FixTimeBpm(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), begun_(false) {
+  if (narg != 3 || strcmp(id, kId) != 0)
+    error->fix_error(FLERR, this, "is made by the fixes that need it; leave it out of the script");
+  scalar_flag = 1;
+  global_freq = 1;
+  restart_global = 1;
+}
+
+FixTimeBpm *FixTimeBpm::of(LAMMPS *lmp) {
+  if (lmp->modify->find_fix(kId) < 0) {
+    const char *words[] = {kId, "all", "time/bpm"};
+    lmp->modify->add_fix(3, const_cast<char **>(words));
+  }
+  return static_cast<FixTimeBpm *>(lmp->modify->fix[lmp->modify->find_fix(kId)]);
+}
+
+// The host counts the time of this process's runs. A minimizer's iterations are steps of no length.
+void FixTimeBpm::init() {
+  if (!begun_ && update->atime > 0.0) {
+    count_.before = update->atime;
+    count_.first = static_cast<double>(update->ntimestep);
+  }
+  const double length = update->whichflag == 2 ? 0.0 : update->dt;
+  if (begun_)
+    count_.set_length(static_cast<double>(update->ntimestep), length);
+  else
+    count_.length = length;
+  begun_ = true;
+}
+
+void FixTimeBpm::reset_dt() {
+  count_.set_length(static_cast<double>(update->ntimestep), update->dt);
+}
+
+void FixTimeBpm::reset_timestep(bigint newstep, bigint oldstep) {
+  count_.renumber(static_cast<double>(oldstep), static_cast<double>(newstep));
+}
+
+double FixTimeBpm::now() const { return count_.at(static_cast<double>(update->ntimestep)); }
+
+void FixTimeBpm::write_restart(FILE *fp) {
+  if (comm->me != 0)
+    return;
+  const int bytes = sizeof count_;
+  fwrite(&bytes, sizeof(int), 1, fp);
+  fwrite(&count_, sizeof count_, 1, fp);
+}
+
+void FixTimeBpm::restart(char *buf) {
+  memcpy(&count_, buf, sizeof count_);
+  begun_ = true;
+}

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Which contacts follow another law than Hertz, by pairs of atom types, and what of a contact
+// others ask for: force, area, energy. Used by `model hertz_effects`, the energy ledger, the
+// collapse of CBD and the check of the time step. The laws, and the properties that the script
+// gives them (peratomtypepair, units micro; one that is missing is 0 everywhere), are those of
+// registry/contact_law.h; a pair of types may have one of them. A contact's history holds its
+// law's State, at most kMemory numbers.
+#ifndef CALENDEM_CONTACT_EFFECTS_H
+#define CALENDEM_CONTACT_EFFECTS_H
+
+#include "physics/contact_pair.h"
+#include "pointers.h"
+#include "registry/contact_law.h"
+#include <vector>
+
+class PropertyRegistry;
+
+namespace LAMMPS_NS {
+
+/// A contact as the laws see it.
+struct EffectContact {
+  int itype, jtype;
+  double effective_radius, overlap, radius; ///< [um]; the last of the smaller sphere
+
+  static EffectContact of_spheres(int itype, int jtype, double Ri, double Rj, double overlap) {
+    return {itype, jtype, calendem::effective_radius(Ri, Rj), overlap, Ri < Rj ? Ri : Rj};
+  }
+  static EffectContact at_wall(int type, int wall_type, double R, double overlap) {
+    return {type, wall_type, R, overlap, R};
+  }
+};
+
+class ContactEffects {
+public:
+  static constexpr const char *kModel = "hertz_effects";
+  /// History values of a contact.
+  static constexpr int kMemory = static_cast<int>(calendem::AllLaws::kMostMemory);
+
+  /// True if the pair style's normal model is `hertz_effects`.
+  static bool in_use(class LAMMPS *lmp);
+
+  /// Reads the properties; stops with a message if the script's values cannot be used.
+  void connect(PropertyRegistry &registry, const char *caller);
+
+  /// The highest type whose properties are known.
+  int types() const { return types_; }
+
+  /// True if contacts of these types follow another law than Hertz.
+  bool act(int itype, int jtype) const { return pair(itype, jtype).law >= 0; }
+
+  /// Elastic force [nN] and stored energy [fJ]; Hertz' without effect or memory (NULL).
+  double force(const EffectContact &c, const double *memory) const {
+    if (!memory || !act(c.itype, c.jtype))
+      return calendem::hertz_force(modulus(c.itype, c.jtype), c.effective_radius, c.overlap);
+    return with_law(
+        c, memory, [&](const auto &law, const auto &state) { return law.force(c.overlap, state); });
+  }
+  double elastic_energy(const EffectContact &c, const double *memory) const {
+    if (!memory || !act(c.itype, c.jtype))
+      return calendem::hertz_energy(modulus(c.itype, c.jtype), c.effective_radius, c.overlap);
+    return with_law(c, memory, [&](const auto &law, const auto &state) {
+      return law.elastic_energy(c.overlap, state);
+    });
+  }
+
+  // Of contacts that an effect acts on, the two for the time step of others too; see
+  // physics/law_interface.h.
+  double contact_radius(const EffectContact &c, const double *memory) const {
+    return with_law(c, memory, [&](const auto &law, const auto &state) {
+      return law.contact_radius(c.overlap, state);
+    });
+  }
+  double stiffness_radius(const EffectContact &c, const double *memory) const {
+    if (!memory || !act(c.itype, c.jtype))
+      return calendem::hertz_contact_radius(c.effective_radius, c.overlap);
+    return with_law(c, memory, [&](const auto &law, const auto &state) {
+      return law.stiffness_radius(c.overlap, state);
+    });
+  }
+  double radius_under(double force, const EffectContact &c) const {
+    if (!act(c.itype, c.jtype))
+      return calendem::hertz_contact_radius(
+          c.effective_radius,
+          calendem::hertz_overlap(modulus(c.itype, c.jtype), c.effective_radius, force));
+    const double none[kMemory] = {};
+    return with_law(c, none,
+                    [&](const auto &law, const auto &) { return law.radius_under(force); });
+  }
+  /// Brings the memory up to the contact's overlap, which `time` [us] ago was `before`; returns the
+  /// work [fJ] that this has taken.
+  double advance(const EffectContact &c, double before, double time, double *memory) const {
+    return with_law(c, memory, [&](const auto &law, auto state) {
+      const double taken = law.advance(before, c.overlap, time, state);
+      calendem::store_state(state, memory);
+      return taken;
+    });
+  }
+  const calendem::ContactLaw &law(int itype, int jtype) const {
+    return *calendem::kContactLaws[pair(itype, jtype).law];
+  }
+
+  double modulus(int itype, int jtype) const { return pair(itype, jtype).material.modulus; }
+  double shear_modulus(int itype, int jtype) const {
+    return pair(itype, jtype).material.shear_modulus;
+  }
+  double damping(int itype, int jtype) const { return pair(itype, jtype).material.damping; }
+  /// Friction is the host's tangential model's business, and not in it.
+  const calendem::ContactMaterial &material(int itype, int jtype) const {
+    return pair(itype, jtype).material;
+  }
+
+private:
+  struct TypePair {
+    int law = -1; ///< in ContactLaws; -1: Hertz
+    calendem::ContactMaterial material = {};
+    calendem::AllLaws::Params params;
+  };
+
+  int types_ = 0;
+  std::vector<TypePair> pairs_; // by both types, from 1
+
+  const TypePair &pair(int i, int j) const { return pairs_[i * (types_ + 1) + j]; }
+  void read(PropertyRegistry &registry, int i, int j, const char *caller);
+  void choose(class LAMMPS *lmp, int law, int i, int j);
+
+  /// f(law, state) with the law of the contact's types: a switch over ContactLaws.
+  template <int n = 0, class F>
+  double with_law(const EffectContact &c, const double *memory, F f) const {
+    using Law = std::tuple_element_t<n, calendem::ContactLaws>;
+    const TypePair &p = pair(c.itype, c.jtype);
+    if constexpr (n + 1 < std::tuple_size_v<calendem::ContactLaws>)
+      if (p.law != n)
+        return with_law<n + 1>(c, memory, f);
+    return f(Law({p.material.modulus, c.effective_radius, c.radius, p.material.cohesion},
+                 std::get<n>(p.params)),
+             calendem::load_state<typename Law::State>(memory));
+  }
+};
+
+} // namespace LAMMPS_NS
+
+#endif
