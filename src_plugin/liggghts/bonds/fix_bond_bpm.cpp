@@ -57,13 +57,9 @@ FixBondBpm::~FixBondBpm() {
 void FixBondBpm::post_create() {
   restarted_state_.remember(modify, this);
   const char *words[] = {kHistoriesId, "all", "contacthistory/bpm"};
-  modify->add_fix(3, const_cast<char **>(words));
+  if (modify->find_fix(kHistoriesId) < 0) // it outlives this fix, to keep its place
+    modify->add_fix(3, const_cast<char **>(words));
   time_ = FixTimeBpm::of(lmp);
-}
-
-void FixBondBpm::pre_delete(bool unfix) {
-  if (unfix)
-    modify->delete_fix(kHistoriesId);
 }
 
 int FixBondBpm::setmask() {

@@ -55,7 +55,6 @@ public:
   ~FixBondBpm();
   int setmask();
   void post_create();
-  void pre_delete(bool);
   int modify_param(int narg, char **arg);
   void init();
   void setup_pre_exchange();

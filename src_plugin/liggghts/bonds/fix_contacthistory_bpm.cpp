@@ -18,6 +18,9 @@ int FixContacthistoryBpm::setmask() { return PRE_EXCHANGE | END_OF_STEP; }
 
 // The host keeps what it has saved in pages of a size, and frees them when another is asked for.
 void FixContacthistoryBpm::init() {
+  pairs_ = NULL; // after 'unfix' of fix bond/bpm there is nothing to return
+  if (modify->n_fixes_style_strict("bond/bpm") == 0)
+    return;
   pairs_ = &BondEvents::find(lmp, "fix contacthistory/bpm")->pairs();
   const int host = modify->find_fix("contacthistory");
   if (host >= 0 && host < modify->find_fix(id))
@@ -39,10 +42,13 @@ FixContactHistory *FixContacthistoryBpm::of_host() const {
 }
 
 void FixContacthistoryBpm::setup_pre_exchange() { pre_exchange(); }
-void FixContacthistoryBpm::pre_exchange() { pairs_->release_histories(); }
+void FixContacthistoryBpm::pre_exchange() {
+  if (pairs_)
+    pairs_->release_histories();
+}
 
 void FixContacthistoryBpm::end_of_step() {
-  if (neighbor->ago != 0 || !output->restart_requested(update->ntimestep))
+  if (!pairs_ || neighbor->ago != 0 || !output->restart_requested(update->ntimestep))
     return; // such a step always rebuilds the lists
   pairs_->store_histories();
   if (of_host())
@@ -50,6 +56,8 @@ void FixContacthistoryBpm::end_of_step() {
 }
 
 void FixContacthistoryBpm::post_run() {
+  if (!pairs_)
+    return;
   pairs_->release_histories();
   if (of_host())
     of_host()->setup_pre_exchange();

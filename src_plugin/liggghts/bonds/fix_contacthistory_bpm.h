@@ -4,7 +4,7 @@
 // Made by fix bond/bpm. The plugin's loop over pairs keeps histories while it runs; this returns
 // them to the host's lists before anything saves them or changes atoms. The host calls fixes whose
 // style begins with `contacthistory` before all others, in the order of their making, and makes its
-// own with the first run: this one stands before it. At the end of a run it has them saved as well,
+// own with the first run: this one stands before it, and stays when fix bond/bpm is given anew. At the end of a run it has them saved as well,
 // since commands between runs put new atoms into the places of ghosts; and again in a step of
 // `restart N`, for which the host has saved them before the step's forces: its file would heal the
 // bonds that broke in that step.

@@ -80,6 +80,9 @@ const std::vector<HostUse> kUses = {
     {"run ... pre no", "", "", "run 50 pre no post no\nrun 50 pre no\n"},
     {"run ... every", "", "", "run 60 every 20 \"print 'bonds $(f_bonds[2])'\"\n"},
     {"reset_timestep", "", "", "reset_timestep 0\n"},
+    {"unfix", "", "",
+     "unfix bonds\nfix bonds all bond/bpm bodies bodies.map youngs_modulus 2e8 nu 0.3 tensile 1e9 "
+     "shear 1e9\n"},
 };
 
 const double kRadius = 0.8;

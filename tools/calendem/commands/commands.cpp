@@ -12,7 +12,7 @@ namespace calendem {
 namespace {
 
 constexpr const char *kMade =
-    "# Made from src_plugin/registry by `calendem registry`; not to be edited.\n";
+    "# Made by `calendem registry`; not to be edited.\n";
 
 const Key &key_named(const std::string &name) {
   return *std::find_if(case_keys().begin(), case_keys().end(),
