@@ -16,7 +16,7 @@
 #ifndef CALENDEM_PHYSICS_HERTZ_MINDLIN_H
 #define CALENDEM_PHYSICS_HERTZ_MINDLIN_H
 
-#include "pair_motion.h"
+#include "relative_motion.h"
 
 namespace calendem {
 

@@ -30,8 +30,8 @@
 #ifndef CALENDEM_PHYSICS_PARALLEL_BOND_H
 #define CALENDEM_PHYSICS_PARALLEL_BOND_H
 
-#include "pair_motion.h"
 #include "pi.h"
+#include "relative_motion.h"
 #include "vector3.h"
 
 namespace calendem {

@@ -56,6 +56,7 @@ commands_exist() {
   local program verb help option
   { commands | grep -oE '(build/bin/calendem [a-z]+|tools/[a-z-]+)( [^|;&#]*)?' || true; } |
     while read -r program verb rest; do
+      [ ! -d "$program" ] || continue # a folder among the words of a command
       case $program in
         tools/*) help=$("$program" --help) rest="$verb $rest" ;;
         *) help=$("$bin/calendem" "$verb" --help 2>&1) || { echo "no verb: $program $verb"; continue; } ;;

@@ -11,8 +11,7 @@ namespace calendem {
 
 namespace {
 
-constexpr const char *kMade =
-    "# Made by `calendem registry`; not to be edited.\n";
+constexpr const char *kMade = "# Made by `calendem registry`; not to be edited.\n";
 
 const Key &key_named(const std::string &name) {
   return *std::find_if(case_keys().begin(), case_keys().end(),

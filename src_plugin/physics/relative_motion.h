@@ -3,8 +3,8 @@
 //   d = x_i - x_j,  v = v_i - v_j,  n = d/r from j to i
 // Source: none, a definition. Verified by tests/unit/physics/bond_pair_test.cpp and
 // tests/unit/physics/contact_pair_test.cpp.
-#ifndef CALENDEM_PHYSICS_PAIR_MOTION_H
-#define CALENDEM_PHYSICS_PAIR_MOTION_H
+#ifndef CALENDEM_PHYSICS_RELATIVE_MOTION_H
+#define CALENDEM_PHYSICS_RELATIVE_MOTION_H
 
 #include "vector3.h"
 
