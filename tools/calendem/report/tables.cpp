@@ -90,7 +90,10 @@ json porosity_row(const std::vector<Run> &runs, const MeasuredPorosity &point) {
 
 json loaded_row(const std::vector<Run> &runs, double pressure) {
   return row(runs, "Total porosity under load, %", pressure, kNaN, kNaN, [=](const Run &run) {
-    return kPercent * at_first_crossing(run.curve, pressure, "porosity_total");
+    const double most = max_pressure(run); // of the rows: the largest may lie between two
+    const bool same = std::abs(most - pressure) <= kSamePressure * pressure;
+    return kPercent * at_first_crossing(run.curve, same ? std::min(pressure, most) : pressure,
+                                        "porosity_total");
   });
 }
 
