@@ -10,7 +10,7 @@ if [ "$(id -u)" -eq 0 ]; then export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_
 fail() { echo "FAILED: $*" >&2; exit 1; }
 loop_time() { sed -n 's/^Loop time of \([0-9.e+-]*\) on.*/\1/p' "$1" | tail -n 1; }
 heavy() { [ "${CALENDEM_HEAVY:-0}" = 1 ] || { echo "skipped: benchmark.$case runs with tools/test --all"; exit 77; }; }
-electrode() { "$bin/calendem" pack "$scripts/cases/demo/electrode.toml" -o "$work/electrode" --force >"$work/pack.log"; }
+electrode() { "$bin/calendem" pack "$scripts/cases/studies/electrode.toml" -o "$work/electrode" --force >"$work/pack.log"; }
 press() { # RANKS LOG VAR...: the demo's electrode, compressed from the packing for some steps
   local ranks=$1 log=$2
   shift 2

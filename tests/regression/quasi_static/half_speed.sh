@@ -10,7 +10,7 @@ fail() { echo "FAILED: $*" >&2; exit 1; }
 rms() { awk -v above=5 -v window=0.5 -f "$here/rms_difference.awk" "$work/full/curve.csv" "$work/$1/curve.csv"; }
 
 mkdir -p "$work"
-"$bin/calendem" pack "$scripts/cases/demo/electrode.toml" -o "$work/electrode" --force
+"$bin/calendem" pack "$scripts/cases/studies/electrode.toml" -o "$work/electrode" --force
 rm -rf "$work/moved_electrode"
 cp -r "$work/electrode" "$work/moved_electrode"
 awk '/^Atoms/ { atoms = 1 } atoms && $1 == 1 && NF == 7 { $5 = sprintf("%.17g", $5 + 1e-12) } { print }' \

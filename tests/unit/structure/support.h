@@ -3,9 +3,9 @@
 #ifndef CALENDEM_TESTS_UNIT_STRUCTURE_SUPPORT_H
 #define CALENDEM_TESTS_UNIT_STRUCTURE_SUPPORT_H
 
-#include "base/messages.h"
 #include "electrode/structure/label_image.h"
 #include "physics/pi.h"
+#include "support/refusal.h"
 #include "support/test_folder.h"
 #include <fstream>
 #include <iterator>
@@ -30,23 +30,6 @@ inline void add_sphere(calendem::LabelImage &image, const Eigen::Vector3d &centr
       for (int i = 0; i < image.n[0]; ++i)
         if ((Eigen::Vector3d(i + 0.5, j + 0.5, k + 0.5) - centre).norm() < radius)
           image.label[image.index(i, j, k)] = label;
-}
-
-/// The message of the Failure(2) that `call` ends with; empty, and a failed test, without one.
-template <class Call> std::string refusal(Call call) {
-  try {
-    call();
-  } catch (const calendem::Failure &e) {
-    EXPECT_EQ(e.exit_status(), calendem::kBadInput) << e.what();
-    return e.what();
-  }
-  ADD_FAILURE() << "nothing was refused";
-  return "";
-}
-
-inline void expect_parts(const std::string &text, const std::vector<std::string> &parts) {
-  for (const std::string &part : parts)
-    EXPECT_NE(text.find(part), std::string::npos) << "no '" << part << "' in\n" << text;
 }
 
 /// Where label images and data files of other software are.

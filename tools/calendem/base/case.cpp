@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/case.h"
+#include "base/recipe.h"
+#include "effects/effects_of_temperature.h"
 #include "physics/hertz_contact.h"
 #include <algorithm>
 #include <cmath>
@@ -30,9 +32,23 @@ bool sound(const Settings &s, const std::vector<std::string> &keys) {
   return std::all_of(keys.begin(), keys.end(), [&](const std::string &k) { return s.sound({k}); });
 }
 
+/// What a value is multiplied by where the rolls are warm.
+double softening(const Settings &s, const std::string &key) {
+  return softens(key) ? CbdSoftening::factor(s.number(kTemperature)) : 1.0;
+}
+
+/// For messages on what is softened; empty at room temperature.
+std::string at_temperature(const Settings &s) {
+  const double factor = CbdSoftening::factor(s.number(kTemperature));
+  return factor == 1.0 ? ""
+                       : fmt::format(" At {} = {} moduli and limits of CBD are {:.2f} of these.",
+                                     kTemperature, s.text(kTemperature), factor);
+}
+
 PhasePair pair_of(const Settings &s, Phase a, Phase b) {
   const auto of = [&](Phase phase, const char *key) {
-    return s.number(fmt::format("material.{}.{}", name_of(phase), key));
+    const std::string name = fmt::format("material.{}.{}", name_of(phase), key);
+    return s.number(name) * softening(s, name);
   };
   PhasePair pair = {0.0, effective_modulus(1e6 * of(a, "youngs_modulus_GPa"), of(a, "poisson"),
                                            1e6 * of(b, "youngs_modulus_GPa"), of(b, "poisson"))};
@@ -44,7 +60,7 @@ PhasePair pair_of(const Settings &s, Phase a, Phase b) {
 // AM against CBD is allowed more: the paper's own values give 0.07.
 void check_collapse(const Settings &s, Phase first, Phase second, double limit,
                     Mistakes &mistakes) {
-  if (!sound(s, keys_of(first)) || !sound(s, keys_of(second)))
+  if (!sound(s, keys_of(first)) || !sound(s, keys_of(second)) || !s.sound({kTemperature}))
     return;
   const std::string a = name_of(first), b = name_of(second);
   const std::string at_a = "material." + a + ".", at_b = "material." + b + ".";
@@ -55,13 +71,14 @@ void check_collapse(const Settings &s, Phase first, Phase second, double limit,
         std::max(s.line(at_a + "ced_J_m3"), s.line(at_b + "ced_J_m3")),
         fmt::format("cohesion would collapse the packing: it pulls {} spheres into each other by "
                     "{:.3g} of their radius, at most {} is allowed. The overlap scales as "
-                    "(CED/E)^2: lower ced_J_m3 ({}) or raise youngs_modulus_GPa ({}).",
+                    "(CED/E)^2: lower ced_J_m3 ({}) or raise youngs_modulus_GPa ({}).{}",
                     a == b ? a : a + " and " + b, overlap, limit,
                     a == b ? s.text(at_a + "ced_J_m3")
                            : s.text(at_a + "ced_J_m3") + " and " + s.text(at_b + "ced_J_m3"),
                     a == b ? s.text(at_a + "youngs_modulus_GPa")
                            : s.text(at_a + "youngs_modulus_GPa") + " and " +
-                                 s.text(at_b + "youngs_modulus_GPa")));
+                                 s.text(at_b + "youngs_modulus_GPa"),
+                    at_temperature(s)));
 }
 
 // What cohesion and modulus of the phases leave to the strength of a contact law between them.
@@ -70,12 +87,15 @@ void check_contact(const Settings &s, const Effect &e, Phase a, Phase b, Mistake
   std::vector<std::string> names;
   for (const Key &setting : e.settings)
     names.push_back(setting.name);
-  if (!sound(s, names) || !sound(s, keys_of(a)) || !sound(s, keys_of(b)))
+  if (!sound(s, names) || !sound(s, keys_of(a)) || !sound(s, keys_of(b)) ||
+      !s.sound({kTemperature}))
     return;
-  const double factor = script_units(key.unit), value = factor * s.number(key.name);
+  const double factor = script_units(key.unit) * softening(s, key.name),
+               value = factor * s.number(key.name);
   PropertyValues values = {};
   for (std::size_t k = 0; k < e.settings.size(); ++k)
-    values.at(k) = script_units(e.settings[k].unit) * s.number(e.settings[k].name);
+    values.at(k) = script_units(e.settings[k].unit) * softening(s, e.settings[k].name) *
+                   s.number(e.settings[k].name);
   const ContactLimits limits = e.contact.law->limits(pair_of(s, a, b), values);
   if (value <= 0.0 || (value >= limits.least && value <= limits.most))
     return;
@@ -83,11 +103,11 @@ void check_contact(const Settings &s, const Effect &e, Phase a, Phase b, Mistake
   const std::string unit = key.unit == "fraction" ? "" : " " + key.unit;
   mistakes.add(s.line(key.name),
                fmt::format("{} is {}{}, too {} for {} and {} spheres: {}. Give 0 (off) or {} "
-                           "{:.3g}{}.",
+                           "{:.3g}{}.{}",
                            key.name, s.text(key.name), unit, low ? "low" : "high",
                            name_of(std::min(a, b)), name_of(std::max(a, b)), limits.why,
                            low ? "at least" : "at most",
-                           (low ? limits.least : limits.most) / factor, unit));
+                           (low ? limits.least : limits.most) / factor, unit, at_temperature(s)));
 }
 
 // A property that may be only some part of the effective modulus.
@@ -283,18 +303,27 @@ void check_case(const Settings &s, Mistakes &mistakes) {
   check_window(s, mistakes);
 }
 
-Settings read_case(const std::string &file) {
+namespace {
+
+Settings read_case_of(const std::string &file, const ReferenceMaterial *known) {
   namespace fs = std::filesystem;
   Mistakes mistakes(file);
   Settings s = read_toml(file, FileKind::Case, case_keys(), mistakes);
+  const fs::path electrode =
+      (fs::absolute(file).parent_path() / s.text("electrode")).lexically_normal();
+  take_values(known ? *known : material_of_electrode(electrode.string()), case_keys(), s);
   check_case(s, mistakes);
   mistakes.stop_if_any();
-  const fs::path electrode = s.text("electrode");
-  s.set("electrode",
-        (electrode.is_absolute() ? electrode : fs::absolute(file).parent_path() / electrode)
-            .lexically_normal()
-            .string());
+  s.set("electrode", electrode.string());
   return s;
+}
+
+} // namespace
+
+Settings read_case(const std::string &file) { return read_case_of(file, nullptr); }
+
+Settings read_case(const std::string &file, const Recipe &recipe) {
+  return read_case_of(file, &recipe.material);
 }
 
 } // namespace calendem

@@ -9,6 +9,8 @@
 
 namespace calendem {
 
+struct Recipe;
+
 /// Most that the platen may move in the averaging window [um]: on release a tenth of a micrometre
 /// is little against the way on which the pressure falls.
 inline constexpr double kAverageTravel = 0.1;
@@ -23,8 +25,10 @@ PressInstruments instruments_of(const Settings &settings);
 void check_case(const Settings &settings, Mistakes &mistakes);
 
 /// Throws Failure(2) with every mistake of the file. `electrode` is made absolute, relative to the
-/// file.
+/// file. What the file does not give is what the electrode's material has.
 Settings read_case(const std::string &file);
+/// Of a case whose electrode is yet to be made, by this recipe.
+Settings read_case(const std::string &file, const Recipe &recipe);
 
 } // namespace calendem
 

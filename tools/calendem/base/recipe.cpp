@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/recipe.h"
+#include "base/particle_sizes.h"
 #include "effects/effects.h"
 #include <algorithm>
 #include <cmath>
@@ -20,6 +21,10 @@ std::vector<Key> own_keys() {
   return {
       {"name", "", "electrode", 0, 0, "", "name for reports", "", true},
       {"seed", "", "1", 0, 4e9, "", "seed of all random numbers", "", false, true},
+      {"material", "", "xu2023", 0, 0, "",
+       "what the electrode is made of: a name of input_scripts/materials, or the path of a file, "
+       "relative to this one",
+       "", true},
       {kAmWeight, "", "96", kLeastAm, 100, "%",
        "active material in the dry coating; if not given, the remainder of carbon and binder"},
       {kCarbonWeight, "", "2", 0, 50, "%", "carbon black"},
@@ -64,7 +69,7 @@ std::vector<Key> own_keys() {
 
 const std::vector<Key> &recipe_keys() {
   static const std::vector<Key> keys = [] {
-    std::vector<Key> all = own_keys();
+    std::vector<Key> all = with_volume_percentiles(own_keys());
     add_settings_of_effects(true, all);
     all.insert(all.end(), structure_keys().begin(), structure_keys().end());
     return all;
@@ -187,6 +192,21 @@ ShapeSource read_shapes(const Settings &s, const std::string &file, Mistakes &mi
   return out;
 }
 
+ReferenceMaterial take_material(Settings &s, const std::string &file, const std::vector<Key> &keys,
+                                Mistakes &mistakes) {
+  if (!s.sound({"material"}))
+    return {};
+  try {
+    const ReferenceMaterial material = read_material(material_path(s.text("material"), file));
+    take_values(material, keys, s);
+    return material;
+  } catch (const Failure &f) {
+    s.note("material", s.line("material"), true);
+    mistakes.add(s.line("material"), fmt::format("material: {}", f.what()));
+    return {};
+  }
+}
+
 Recipe recipe_of(const Settings &s) {
   Recipe r;
   r.settings = s;
@@ -236,8 +256,11 @@ Recipe read_recipe(const std::string &file) {
   Settings s = read_toml(file, FileKind::Recipe, recipe_keys(), mistakes);
   if (s.line(kAmWeight) == 0)
     s.leave(kAmWeight, {kCarbonWeight, kBinderWeight});
+  const ReferenceMaterial material = take_material(s, file, recipe_keys(), mistakes);
+  take_sizes_by_volume(s, recipe_keys(), mistakes);
   Recipe r = recipe_of(s);
   r.file = file;
+  r.material = material;
   r.shapes = read_shapes(s, file, mistakes);
   r.structure = read_structure_source(s, file, mistakes);
   check_recipe(s, r, mistakes);

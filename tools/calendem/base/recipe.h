@@ -3,6 +3,7 @@
 #ifndef CALENDEM_BASE_RECIPE_H
 #define CALENDEM_BASE_RECIPE_H
 
+#include "base/material.h"
 #include "base/toml_reader.h"
 #include "physics/cbd_gradient.h"
 #include <cstdint>
@@ -60,6 +61,7 @@ struct Recipe {
   unsigned long seed;
   ShapeSource shapes;
   StructureSource structure;
+  ReferenceMaterial material;
 
   double area() const { return cell_x * cell_y; }
   double am_column() const;        ///< solid AM per area [um]
@@ -81,7 +83,11 @@ int most_ranks(double lx, double ly, double diameter);
 /// The [shapes] section; paths are relative to `file`.
 ShapeSource read_shapes(const Settings &settings, const std::string &file, Mistakes &mistakes);
 
-/// The recipe's numbers, without shapes and structure; what they contradict.
+/// The material of the file's settings, whose values they take.
+ReferenceMaterial take_material(Settings &settings, const std::string &file,
+                                const std::vector<Key> &keys, Mistakes &mistakes);
+
+/// The recipe's numbers, without shapes, structure and material; what they contradict.
 Recipe recipe_of(const Settings &settings);
 void check_recipe(const Settings &settings, const Recipe &recipe, Mistakes &mistakes);
 

@@ -117,7 +117,11 @@ const std::vector<Described> &kinds() {
        {"experiment", "condition"}},
       {FileKind::Study, "a study", "study", {"study", "vary"}},
       {FileKind::Bank, "a bank", "bank", {"bank", "full_cell", "numerics"}},
-      {FileKind::Round, "a withheld round", "withheld make", {"round"}}};
+      {FileKind::Round, "a withheld round", "withheld make", {"round"}},
+      {FileKind::Material,
+       "a material",
+       "validate, or its path to the key 'material' of a recipe",
+       {"also_called", "calibrated_on", "base", "material", "bond"}}};
   return all;
 }
 
@@ -125,11 +129,13 @@ bool has(const Described &d, std::string_view table) {
   return std::find(d.tables.begin(), d.tables.end(), table) != d.tables.end();
 }
 
-/// Tables and keys of the file that identify its kind.
+/// Tables and keys of the file that identify its kind. A recipe names its material, which in a case
+/// is a table.
 std::vector<std::string> identifying_keys(const toml::table &root) {
   std::vector<std::string> out;
   for (const auto &[key, node] : root)
-    if (std::any_of(kinds().begin(), kinds().end(),
+    if (!(key.str() == "material" && node.is_string()) &&
+        std::any_of(kinds().begin(), kinds().end(),
                     [name = key.str()](const Described &d) { return has(d, name); }))
       out.emplace_back(key.str());
   return out;
@@ -156,8 +162,6 @@ TomlFile parse_toml(const std::string &file, FileKind wanted, Mistakes &mistakes
   return out;
 }
 
-namespace {
-
 std::optional<std::string> wrong_value(const Key &key, const toml::node &node) {
   if (wants_text(key) && node.is_string())
     return wrong_text(key, **node.as_string());
@@ -167,6 +171,12 @@ std::optional<std::string> wrong_value(const Key &key, const toml::node &node) {
                      wants_text(key) ? "text in quotes" : "number without quotes", key.meaning,
                      shown(node));
 }
+
+std::string value_text(const toml::node &node) {
+  return node.is_string() ? **node.as_string() : fmt::format("{}", *node.value<double>());
+}
+
+namespace {
 
 /// The tables that the keys stand in: "material", "material.am", ...
 std::vector<std::string> tables_of(const std::vector<Key> &keys) {
@@ -213,8 +223,7 @@ private:
     if (wrong)
       mistakes_.add(line_of(node), *wrong);
     else
-      out_.set(key.name,
-               node.is_string() ? **node.as_string() : fmt::format("{}", *node.value<double>()));
+      out_.set(key.name, value_text(node));
   }
 
   // The keys of a misspelt table are checked as those of the table that was meant.
@@ -293,28 +302,32 @@ std::string path_of(const Settings &s, const std::string &key, const std::string
              : (std::filesystem::absolute(file).parent_path() / given).lexically_normal().string();
 }
 
+void fill_in(const std::vector<Key> &keys, Settings &out) {
+  for (const Key &key : keys)
+    if (out.all().count(key.name))
+      continue;
+    else if (!key.same_as.empty())
+      out.follow(key.name, key.same_as);
+    else {
+      const bool is_number = !key.fallback.empty() && !wants_text(key);
+      out.set(key.name, is_number ? fmt::format("{}", std::stod(key.fallback)) : key.fallback);
+    }
+}
+
 Settings read_toml(const std::string &file, FileKind kind, const std::vector<Key> &keys,
                    Mistakes &mistakes) {
   Settings out;
   const TomlFile parsed = parse_toml(file, kind, mistakes);
   Reader(keys, out, mistakes).walk("", parsed.root);
   for (const Key &key : keys) {
-    if (out.all().count(key.name))
-      continue;
-    if (!key.same_as.empty()) {
-      out.follow(key.name, key.same_as);
-      continue;
-    }
-    const bool is_number = !key.fallback.empty() && !wants_text(key);
-    out.set(key.name, is_number ? fmt::format("{}", std::stod(key.fallback)) : key.fallback);
-    if (!key.fallback.empty())
-      continue;
-    if (out.line(key.name) > 0) // given, but wrong
+    if (out.all().count(key.name) || !key.fallback.empty() || !key.same_as.empty() ||
+        out.line(key.name) > 0) // given, be it wrong
       continue;
     if (parsed.whole && !parsed.root.empty())
       mistakes.add(0, fmt::format("key '{}' is missing ({}).", key.name, key.meaning));
     out.note(key.name, 0, true);
   }
+  fill_in(keys, out);
   return out;
 }
 

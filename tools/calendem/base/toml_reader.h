@@ -30,7 +30,7 @@ inline int line_of(const toml::node &node) { return static_cast<int>(node.source
 /// A value as a message shows it: `"text"`, `3.5`, `a table`.
 std::string shown(const toml::node &node);
 
-enum class FileKind { Recipe, Film, Tomogram, Case, Experiment, Study, Bank, Round };
+enum class FileKind { Recipe, Film, Tomogram, Case, Experiment, Study, Bank, Round, Material };
 
 /// As parse_toml. Throws Failure(2) if the file's tables are those of another kind.
 TomlFile parse_toml(const std::string &file, FileKind wanted, Mistakes &mistakes);
@@ -69,6 +69,13 @@ private:
 /// All mistakes go to `mistakes`; what could be read is returned, defaults filled in.
 Settings read_toml(const std::string &file, FileKind kind, const std::vector<Key> &keys,
                    Mistakes &mistakes);
+
+/// What is wrong with a value for this key, and the value as Settings hold it.
+std::optional<std::string> wrong_value(const Key &key, const toml::node &node);
+std::string value_text(const toml::node &node);
+
+/// Sets the keys that have no value yet to their fallback, or lets them follow another.
+void fill_in(const std::vector<Key> &keys, Settings &settings);
 
 /// The path that a key gives, relative to the file it stands in, as an absolute one; empty for
 /// "none".

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What measured films say of the material.
+#include "base/material_notes.h"
 #include "base/output_folder.h"
 #include "base/provenance.h"
 #include "base/shown.h"
@@ -112,6 +113,7 @@ void run_calibrate(const CalibrateOptions &o) {
   std::vector<Recipe> recipes;
   for (const std::string &file : o.experiments) {
     const Experiment experiment = read_experiment(file);
+    stop_if_of_other_material(experiment.recipe);
     add_experiment(experiment, bank, c, not_said);
     recipes.push_back(experiment.recipe);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/commands.h"
 #include "base/registry.h"
+#include "effects/effects_of_temperature.h"
 #include "effects/settings.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -119,8 +120,9 @@ std::string matrix(const LawInScript &l, std::size_t property) {
 /// "${nmc_yield_GPa}*1e6"
 std::string in_script_units(const Key &key) {
   const double factor = script_units(key.unit);
-  const std::string value = fmt::format("${{{}}}", key.variable);
-  return factor == 1.0 ? value : fmt::format("{}*1e{:.0f}", value, std::log10(factor));
+  const std::string value = fmt::format("${{{}}}", key.variable),
+                    softened = softens(key.name) ? "*${cbd_soft}" : "";
+  return (factor == 1.0 ? value : fmt::format("{}*1e{:.0f}", value, std::log10(factor))) + softened;
 }
 
 std::string law_in_script(const LawInScript &l, int number) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/gap_file.h"
+#include "base/material_notes.h"
 #include "base/output_folder.h"
 #include "base/provenance.h"
 #include "commands/commands.h"
@@ -174,6 +175,8 @@ void run(DiagnoseOptions o) {
   std::vector<std::string> first = other_samples(experiment);
   if (!another.empty())
     first.push_back(another);
+  for (const std::string &text : notes_of(experiment.recipe))
+    first.push_back(text);
   for (const std::string &note : first) {
     d.data.not_said.insert(d.data.not_said.begin(), note);
     fmt::print("note: {}\n", note);

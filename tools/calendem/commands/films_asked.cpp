@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/films_asked.h"
+#include "base/material_notes.h"
 #include "base/provenance.h"
 #include "base/recipe.h"
 #include "base/shown.h"
@@ -134,6 +135,17 @@ int material_of(const FilmOptions &o, const std::vector<std::string> &names) {
 
 } // namespace
 
+namespace {
+
+/// A recipe of its material: else the answer would be another's.
+Recipe recipe_to_answer_for(const std::string &file) {
+  Recipe recipe = read_recipe(file);
+  stop_if_of_other_material(recipe);
+  return recipe;
+}
+
+} // namespace
+
 AskedFilms of_model(const FilmOptions &o) {
   AskedFilms out = {read_model(o.model), 0, {}, {}};
   const std::vector<double> &bank = out.model.bank.spec().pressures;
@@ -146,7 +158,7 @@ AskedFilms of_model(const FilmOptions &o) {
 AskedFilms asked(const FilmOptions &o) {
   AskedFilms out = of_model(o);
   for (const std::string &file : o.recipes) {
-    out.films.push_back(out.model.bank.film_of(read_recipe(file)));
+    out.films.push_back(out.model.bank.film_of(recipe_to_answer_for(file)));
     out.films.back().material = out.material;
   }
   out.films = varied(out.films, o.vary, out.model.bank);
@@ -169,7 +181,7 @@ AskedFilms asked_to_run(const FilmOptions &o) {
     throw Failure(kBadInput, "--press-percent with --runs needs the slope between pressures: give "
                              "two or more to --pressure, or leave it out.");
   for (const std::string &file : o.recipes) {
-    out.films.push_back(out.model.bank.described(read_recipe(file)));
+    out.films.push_back(out.model.bank.described(recipe_to_answer_for(file)));
     out.films.back().material = out.material;
   }
   return out;

@@ -174,6 +174,43 @@ std::string experiment_page() {
           rows(crushed_keys()));
 }
 
+std::string material_section(const std::string &name) {
+  const ReferenceMaterial m = read_material(material_path(name, ""));
+  std::string out = fmt::format(
+      "\n## `{}`\n\n{}{}{}; {}.\n\n| key | value | source |\n|---|---|---|\n", name, m.name,
+      m.also_called.empty() ? "" : ", also called ", fmt::join(m.also_called, ", "),
+      m.calibrated() ? fmt::format("calibrated on: {}", fmt::join(m.calibrated_on, "; "))
+                     : "**not calibrated**");
+  for (const bool of_recipe : {true, false})
+    for (const Key &key : of_recipe ? recipe_keys() : case_keys())
+      if (const auto at = m.values.find(key.name); at != m.values.end())
+        out += fmt::format(
+            "| `{}` | {} | {} |\n", key.name,
+            typeset(at->second.text +
+                    (at->second.sd > 0.0 ? fmt::format(" +- {:g}", at->second.sd) : "") +
+                    (key.unit.empty() ? "" : " " + key.unit)),
+            in_cell(typeset(at->second.source)));
+  return out;
+}
+
+std::string materials_page() {
+  std::string sections;
+  for (const std::string &name : known_materials())
+    sections += material_section(name);
+  return page(
+      "Materials",
+      "A [recipe](recipe.md) names what its electrode is made of by the key `material`: one "
+      "of these, or the path of a file of\nyour own. Its values stand between the keys' "
+      "defaults and what recipe and case give; each has its source. `pack` keeps\nthem in "
+      "`electrode.json`, and writes what the input scripts need into `electrode.in`.\n\n"
+      "A file has `name`, `also_called`, `calibrated_on` (lists; an empty one: not "
+      "calibrated), may take the values of another\nby `base = \"nmc111\"`, and gives keys "
+      "of the [case](case.md) (`material`, `bond`, effects of contacts and bonds) and "
+      "of the\nrecipe (densities, primaries, irregularity, nanoporosity) as `{ value = 0.15, "
+      "sd = 0.05, source = \"doi:...\" }`.\n`calendem validate` checks it.",
+      sections);
+}
+
 std::string unit_of(const Effect &e) {
   const std::string unit = key_of(e).unit;
   return unit.empty() ? "" : " " + unit;
@@ -235,7 +272,8 @@ std::vector<GeneratedFile> reference_pages() {
           {folder + "film.md", film_page()},
           {folder + "tomogram.md", tomogram_page()},
           {folder + "experiment.md", experiment_page()},
-          {folder + "effects.md", effects_page()}};
+          {folder + "effects.md", effects_page()},
+          {folder + "materials.md", materials_page()}};
 }
 
 } // namespace calendem

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/case.h"
 #include "base/experiment.h"
+#include "base/material_notes.h"
+#include "base/particle_sizes.h"
 #include "base/toml_reader.h"
 #include "commands/commands.h"
 #include "diagnose/bank/bank_table.h"
@@ -11,6 +13,7 @@
 #include "withheld/truths.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace calendem {
@@ -42,6 +45,8 @@ FileKind kind_of(const std::string &file) {
     return FileKind::Bank;
   if (root.contains("round"))
     return FileKind::Round;
+  if (root.contains("also_called") || root.contains("calibrated_on"))
+    return FileKind::Material;
   FileKind best = FileKind::Recipe;
   int most = keys_known(root, "", recipe_keys());
   const auto consider = [&](FileKind kind, const std::vector<Key> &keys) {
@@ -54,6 +59,15 @@ FileKind kind_of(const std::string &file) {
   consider(FileKind::Tomogram, tomogram_keys());
   consider(FileKind::Film, film_keys());
   return best;
+}
+
+/// And prints what its user should know.
+std::string recipe_in_words(const Recipe &recipe) {
+  read_input(recipe);
+  for (const std::string &text : notes_of(recipe))
+    fmt::print("note: {}: {}\n", recipe.file, text);
+  const std::string sizes = sizes_in_words(recipe);
+  return sizes.empty() ? "recipe" : "recipe; " + sizes;
 }
 
 std::string name_after_check(const std::string &file) {
@@ -80,9 +94,13 @@ std::string name_after_check(const std::string &file) {
   case FileKind::Film:
     read_film_recipe(file);
     return "recipe of a film";
+  case FileKind::Material: {
+    const ReferenceMaterial m = read_material(std::filesystem::absolute(file).string());
+    return fmt::format("material of {} values, {}", m.values.size(),
+                       m.calibrated() ? "calibrated" : "not calibrated");
+  }
   default:
-    read_input(read_recipe(file));
-    return "recipe";
+    return recipe_in_words(read_recipe(file));
   }
 }
 

@@ -30,7 +30,7 @@ Study study_of(const BankTable &table, const std::vector<RerunModel> &models,
     const BankPressing *how = find_pressing(spec, to.pressing);
     ways.push_back(to_pressure(to.pressure, how ? how->settings : Pressing()));
   }
-  const PressingColumns pressed = columns_of(ways, spec.case_file);
+  const PressingColumns pressed = columns_of(ways, spec);
   study.columns.insert(study.columns.end(), pressed.names.begin(), pressed.names.end());
   std::vector<std::vector<std::string>> rows;
   for (const RerunModel &m : models)

@@ -2,6 +2,7 @@
 #include "effects/effects.h"
 #include "effects/effects_of_bonds.h"
 #include "effects/effects_of_contacts.h"
+#include "effects/effects_of_temperature.h"
 #include "effects/effects_of_the_coating.h"
 #include "effects/effects_of_the_press.h"
 
@@ -10,8 +11,8 @@ namespace calendem {
 const std::vector<Effect> &effects() {
   static const std::vector<Effect> table = [] {
     std::vector<Effect> all = effects_of_contacts();
-    for (const std::vector<Effect> &more :
-         {effects_of_bonds(), effects_of_the_coating(), effects_of_the_press()})
+    for (const std::vector<Effect> &more : {effects_of_bonds(), effects_of_the_coating(),
+                                            effects_of_temperature(), effects_of_the_press()})
       all.insert(all.end(), more.begin(), more.end());
     return all;
   }();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/tomogram.h"
+#include "base/particle_sizes.h"
 #include "electrode/pack/body.h"
 #include "physics/pi.h"
 #include <algorithm>
@@ -207,7 +208,7 @@ std::string truth_table(const std::vector<TrueParticle> &truth) {
 }
 
 const std::vector<Key> &tomogram_keys() {
-  static const std::vector<Key> keys = {
+  static const std::vector<Key> keys = with_volume_percentiles({
       {"seed", "", "1", 0, 4e9, "", "seed of all random numbers", "", false, true},
       {"image.voxel_um", "", "0.3", 0.005, 5, "um", "side of a voxel"},
       {"image.x_um", "", "30", 1, 1000, "um", "side of the image along x"},
@@ -229,13 +230,14 @@ const std::vector<Key> &tomogram_keys() {
        "diameter of a pore, as a fraction of the particle's"},
       {"border.noise", "", "0.05", 0, 0.5, "",
        "fraction of the voxels at a surface that change sides"},
-  };
+  });
   return keys;
 }
 
 TomogramSpec read_tomogram_spec(const std::string &file) {
   Mistakes mistakes(file);
-  const Settings s = read_toml(file, FileKind::Tomogram, tomogram_keys(), mistakes);
+  Settings s = read_toml(file, FileKind::Tomogram, tomogram_keys(), mistakes);
+  take_sizes_by_volume(s, tomogram_keys(), mistakes);
   mistakes.stop_if_any();
   TomogramSpec t;
   t.seed = static_cast<unsigned long>(s.number("seed"));

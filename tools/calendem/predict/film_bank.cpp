@@ -91,7 +91,7 @@ FilmBank::FilmBank(const BankTable &table)
     crushing_.emplace(spec_.crushing_file);
   if (const double within = spec_.nanoporosity_within; within > 0.0) {
     check_nanoporosity();
-    floor_nanoporosity_ = read_case(spec_.case_file).number(kFloor);
+    floor_nanoporosity_ = read_case(spec_.case_file, recipe_).number(kFloor);
     material_.push_back({kNanoporosity, {inference::Prior::uniform, -within, within}});
   }
   learn(table);

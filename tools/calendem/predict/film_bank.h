@@ -49,6 +49,7 @@ struct Film {
   int material = 0;           ///< place in Draw::materials
   double nanoporosity = 0.5;  ///< of its recipe's CBD, 0-1
   bool of_bank = true;        ///< of the bank's kind: its parameters say all about it
+  std::string remark;         ///< of its recipe's material; empty: none
 };
 
 struct Acting {
@@ -92,6 +93,7 @@ public:
   Film film_of(const Recipe &recipe) const;
   /// The same of any electrode: what the bank's parameters are for it.
   Film described(const Recipe &recipe) const;
+  const Recipe &recipe() const { return recipe_; } ///< the bank's
   /// In what a recipe is another electrode than the bank's, in words.
   std::vector<std::string> differences(const Recipe &recipe) const;
   /// Its thickness without pores [um].
@@ -123,7 +125,7 @@ private:
     std::vector<std::vector<double>> off; ///< what each run is off by, at each pressure
   };
   BankSpec spec_;
-  Recipe recipe_; ///< the bank's
+  Recipe recipe_;
   std::vector<inference::Parameter> material_, effects_;
   std::vector<BankParameter> film_;
   std::vector<bool> of_film_; ///< of the bank's parameters

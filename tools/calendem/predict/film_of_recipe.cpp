@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Which films a bank has, and what its parameters are for them.
+#include "base/material_notes.h"
 #include "base/messages.h"
 #include "base/shown.h"
 #include "predict/film_bank.h"
@@ -77,6 +78,7 @@ Film FilmBank::described(const Recipe &recipe) const {
   out.loading = volumes.loading;
   out.nanoporosity = recipe.nanoporosity;
   out.of_bank = differences(recipe).empty();
+  out.remark = not_calibrated(recipe.material);
   for (const BankParameter &p : film_) {
     double sum = 0.0;
     for (const std::string &key : p.keys) {
@@ -204,6 +206,8 @@ FilmBank::Alike FilmBank::alike(const Film &film, double nanoporosity) const {
 
 std::vector<std::string> FilmBank::beyond(const Film &film) const {
   std::vector<std::string> out;
+  if (!film.remark.empty())
+    out.push_back(film.remark);
   const std::vector<double> recipe =
       spec_.nanoporosity_within > 0.0 ? alike(film, film.nanoporosity).film.recipe : film.recipe;
   for (std::size_t k = 0; k < film_.size(); ++k)

@@ -318,8 +318,19 @@ public:
   void keep(const std::vector<Key> &keys) {
     for (const Key &key : keys)
       if (of_bank_.line(key.name) > 0)
-        add_text(key.name,
-                 wants_text(key) ? Json(of_bank_.text(key.name)).dump() : of_bank_.text(key.name));
+        keep(key);
+  }
+  /// All that the material of an electrode could give otherwise: an effect that is off too.
+  void keep_material() {
+    const auto switches = [](const Key &key) {
+      return std::any_of(effects().begin(), effects().end(), [&](const Effect &e) {
+        return !e.settings.empty() && e.settings.front().name == key.name;
+      });
+    };
+    for (const Key &key : case_keys())
+      if (describes_material(key, false) && of_bank_.followed_by(key.name).empty() &&
+          (key.name.rfind("effects.", 0) != 0 || switches(key) || of_bank_.line(key.name) > 0))
+        keep(key);
   }
   std::string text() const {
     std::string out;
@@ -333,6 +344,10 @@ private:
   std::map<std::string, std::string> tables_;
   std::set<std::string> there_;
 
+  void keep(const Key &key) {
+    const std::string &value = of_bank_.text(key.name);
+    add_text(key.name, wants_text(key) ? Json(value).dump() : value);
+  }
   void add_text(const std::string &key, const std::string &value) {
     if (!there_.insert(key).second)
       return;
@@ -354,7 +369,7 @@ std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_t
     if (effects_of(d.materials[of_those]) == effects)
       of.push_back(&d);
   const auto middle = [&](const auto &value) { return middle_of(of, value); };
-  CaseLines lines(read_case(bank.spec().case_file));
+  CaseLines lines(read_case(bank.spec().case_file, bank.recipe()));
   std::size_t material = 0;
   for (const BankParameter &p : bank.spec().parameters)
     if (p.keys.front().rfind("case.", 0) == 0) {
@@ -379,9 +394,7 @@ std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_t
     if (!effect.in_recipe)
       lines.keep(effect.settings);
   }
-  for (const Key &key : case_keys())
-    if (key.name.rfind("material.", 0) == 0 || key.name.rfind("bond.", 0) == 0)
-      lines.keep({key});
+  lines.keep_material();
   std::string out = fmt::format(
       "{}{} ({}, {:.0f} %): the middle of its draws, each\n"
       "# parameter by itself. Put the folder of your electrode here.\nelectrode = \"electrode\"\n",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/report.h"
+#include "base/material_notes.h"
 #include "base/provenance.h"
 #include "measure/run_directory.h"
 #include "report/page.h"
@@ -32,8 +33,10 @@ RunPart part_of(Run &run) {
   part.unfinished = run.unfinished;
   part.headline = headline_of(run);
   part.facts = facts_of(run.summary, {"provenance", "contact_range"});
-  part.electrode = facts_of(run.electrode, {"provenance", "recipe", kRecipeGiven,
-                                            "sphericity_histogram", "identity", "sources"});
+  part.electrode =
+      facts_of(run.electrode, {"provenance", "recipe", kRecipeGiven, "sphericity_histogram",
+                               "identity", "sources", "material", kMaterialNotes});
+  part.material = material_table(run);
   part.structure = structure_table(run);
   part.validity = validity_table(run);
   part.provenance = facts_of(run.summary.value("provenance", json::object()), {});
@@ -72,6 +75,7 @@ json to_json(const RunPart &run) {
           {"headline", run.headline},
           {"facts", run.facts},
           {"electrode", run.electrode},
+          {"material", run.material},
           {"structure", run.structure},
           {"validity", run.validity},
           {"provenance", run.provenance},

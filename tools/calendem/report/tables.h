@@ -28,6 +28,10 @@ std::string comparison_text(const nlohmann::json &comparison);
 /// are in `left_out` are not listed.
 nlohmann::json facts_of(const nlohmann::json &object, const std::vector<std::string> &left_out);
 
+/// {name, status, rows: [{name, text, unit, source}]}: what the run's material is, and where each
+/// value comes from; null for an electrode that names no material.
+nlohmann::json material_table(const Run &run);
+
 struct MeasuredPorosity {
   double pressure_MPa;
   double porosity_percent; ///< total, after relaxation

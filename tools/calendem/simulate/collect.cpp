@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "simulate/collect.h"
 #include "base/case.h"
+#include "base/material_notes.h"
 #include "base/provenance.h"
+#include "base/run_folder.h"
 #include "physics/nanopore_collapse.h"
 #include "simulate/rolling.h"
 #include <algorithm>
@@ -296,7 +298,10 @@ nlohmann::json provenance(const std::string &folder, const Rows &rows, const Set
   return s;
 }
 
-void warn(const nlohmann::json &s) {
+void warn(const nlohmann::json &s, const std::string &folder) {
+  for (const std::string &warning :
+       warnings_of_electrode(RunFolder(folder).object("electrode.json")))
+    fmt::print(stderr, "warning: {}\n", warning);
   for (const std::string &warning :
        {ledger_warning(s["energy_fJ"]), speed_warning(s["quasi_static"]),
         range_warning(s["contact_range"])})
@@ -354,7 +359,7 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
     s["roll"]["rehearsals"] = rehearsals_in(folder);
   s["energy_fJ"] = energy_ledger(rows, top);
   write_file(folder + "/summary.json", s.dump(2) + "\n");
-  warn(s);
+  warn(s, folder);
   return s;
 }
 

@@ -284,6 +284,8 @@ nlohmann::json description(const std::vector<std::string> &folders, const std::v
 nlohmann::json electrode_of(const std::vector<Cell> &cells, const nlohmann::json &sample) {
   nlohmann::json j = {{"sample", sample},
                       {"recipe", cells[0].electrode.value("recipe", nlohmann::json::object())}};
+  if (cells[0].electrode.contains("material"))
+    j["material"] = cells[0].electrode["material"];
   j["loading_mg_cm2"] = mean(cells, [](const Cell &c) { return c.loading; });
   j["recipe"]["coating.loading_mg_cm2"] = fmt::format("{:.6g}", j["loading_mg_cm2"].get<double>());
   return j;

@@ -2,6 +2,7 @@
 #include "simulate/study_file.h"
 #include "base/case.h"
 #include "base/csv_table.h"
+#include "base/particle_sizes.h"
 #include "base/provenance.h"
 #include "base/table_reader.h"
 #include "base/toml_reader.h"
@@ -32,7 +33,7 @@ const Key *find_key(const std::string &name) {
   const std::string bare = name.substr(name.find('.') + 1);
   const auto at =
       std::find_if(keys.begin(), keys.end(), [&](const Key &k) { return k.name == bare; });
-  return at == keys.end() || bare == "electrode" ? nullptr : &*at;
+  return at == keys.end() || bare == "electrode" || bare == "material" ? nullptr : &*at;
 }
 
 std::string unknown_key(const std::string &name) {
@@ -41,7 +42,8 @@ std::string unknown_key(const std::string &name) {
     if (k.name != "electrode")
       all.push_back("case." + k.name);
   for (const Key &k : recipe_keys())
-    all.push_back("recipe." + k.name);
+    if (k.name != "material")
+      all.push_back("recipe." + k.name);
   return fmt::format("'{}' is not a key that can be varied. Did you mean '{}'?", name,
                      closest(name, all));
 }
@@ -185,6 +187,9 @@ private:
 
 /// Paths in the recipe are relative to its file; the study writes it elsewhere.
 void make_paths_absolute(Settings &s, const std::string &file) {
+  if (const std::string given = s.text("material");
+      material_path(given, file) != material_path(given, ""))
+    s.set("material", material_path(given, file));
   for (const char *key : {"shapes.image", "shapes.library", "structure.file", "structure.body_map"})
     if (s.text(key) != "none")
       s.set(key, path_of(s, key, file));
@@ -203,9 +208,11 @@ StudyRun make_run(const Study &study, const Recipe &recipe, const Settings &sett
       mistakes.add(0, *wrong);
     (name[0] == 'r' ? changed : run.settings).set(bare, values[k]);
   }
+  take_sizes_by_volume(changed, recipe_keys(), mistakes);
   run.recipe = recipe_of(changed);
   run.recipe.shapes = recipe.shapes;
   run.recipe.structure = recipe.structure;
+  run.recipe.material = recipe.material;
   check_recipe(changed, run.recipe, mistakes);
   check_case(run.settings, mistakes);
   return run;
@@ -279,7 +286,7 @@ std::string differences(const Study &study, const std::vector<std::string> &row,
 void add_runs(Study &out, const std::vector<std::vector<std::string>> &rows, Mistakes &mistakes) {
   Recipe recipe = read_recipe(out.recipe_file);
   make_paths_absolute(recipe.settings, out.recipe_file);
-  const Settings settings = read_case(out.case_file);
+  const Settings settings = read_case(out.case_file, recipe);
   int wrong = 0;
   for (const auto &row : rows) {
     Mistakes of_run(fmt::format("run {}", out.runs.size() + 1));

@@ -129,8 +129,9 @@ std::map<std::string, std::string> changed_keys(const Round &round, const Truth 
 }
 
 Usual usual_values(const Round &round, const std::vector<Truth> &truths) {
-  const Settings recipe = read_recipe(round.bank.recipe_file).settings;
-  const Settings settings = read_case(round.bank.case_file);
+  const Recipe of_bank = read_recipe(round.bank.recipe_file);
+  const Settings &recipe = of_bank.settings;
+  const Settings settings = read_case(round.bank.case_file, of_bank);
   Usual out;
   const auto add = [&](const std::string &key) {
     const std::size_t dot = key.find('.') + 1;

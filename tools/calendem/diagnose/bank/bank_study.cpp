@@ -107,8 +107,8 @@ Pressing to_pressure(double pressure, const Pressing &settings) {
   return out;
 }
 
-PressingColumns columns_of(const std::vector<Pressing> &pressings, const std::string &case_file) {
-  const Settings of_case = read_case(case_file);
+PressingColumns columns_of(const std::vector<Pressing> &pressings, const BankSpec &spec) {
+  const Settings of_case = read_case(spec.case_file, read_recipe(spec.recipe_file));
   std::map<std::string, std::string> usual; // of the keys that any of them has
   for (const Pressing &pressing : pressings)
     for (const auto &[key, value] : pressing)
@@ -175,7 +175,7 @@ Study pressed_study(const BankSpec &spec, const std::vector<PressedPoint> &runs)
   std::vector<Pressing> pressings;
   for (const PressedPoint &run : runs)
     pressings.push_back(run.pressing);
-  const PressingColumns pressed = columns_of(pressings, spec.case_file);
+  const PressingColumns pressed = columns_of(pressings, spec);
   study.columns.insert(study.columns.end(), pressed.names.begin(), pressed.names.end());
   std::vector<std::vector<std::string>> rows;
   for (std::size_t k = 0; k < runs.size(); ++k) {

@@ -43,12 +43,12 @@ struct PressedPoint {
 Pressing to_pressure(double pressure, const Pressing &settings = {});
 
 /// Columns of a study, and for each way of pressing a row of their values: all keys that any of them
-/// has. A key that one lacks is that of the case.
+/// has. A key that one lacks is that of the case on the material of the recipe.
 struct PressingColumns {
   std::vector<std::string> names;
   std::vector<std::vector<std::string>> rows;
 };
-PressingColumns columns_of(const std::vector<Pressing> &pressings, const std::string &case_file);
+PressingColumns columns_of(const std::vector<Pressing> &pressings, const BankSpec &spec);
 
 /// All points in all of these ways, by point.
 std::vector<PressedPoint> pressed(const std::vector<BankPoint> &points,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/material_notes.h"
 #include "base/provenance.h"
 #include "electrode/pack/body.h"
 #include "electrode/pack/electrode_files.h"
@@ -119,8 +120,8 @@ void add_bodies(nlohmann::json &j, const FinishedPacking &f) {
   j["bodies_of_one_primary"] = single;
   j["note_small_bodies"] = "bodies below 3 um are made of 1-7 primaries, those below one lattice "
                            "cell of one; their volume is rounded to whole cells, the total is kept";
-  j["largest_equivalent_diameter_allowed_um"] = f.recipe.largest_body();
-  j["volume_fraction_cut_off_by_size_limit"] = law.volume_above(f.recipe.largest_body());
+  j[kLargestAllowed] = f.recipe.largest_body();
+  j[kCutOff] = law.volume_above(f.recipe.largest_body());
   j["largest_width_um"] = widest;
   j["shapes_redrawn_for_width"] = redrawn;
   j["sphericity_mean"] = sphericity;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/pack/electrode_files.h"
+#include "effects/settings.h"
 #include "physics/pi.h"
 #include <algorithm>
 #include <fmt/format.h>
@@ -46,12 +47,18 @@ std::string body_map(const std::vector<Particle> &particles) {
 
 std::string script_variables(const Recipe &r, double thickness) {
   const double solid = r.area() * (r.am_column() + r.cbd_solid_column());
+  std::string material = fmt::format("# its material, {}; -var NAME VALUE is stronger\n",
+                                     r.material.given() ? r.material.name : "of the defaults");
+  for (const Key &key : case_keys())
+    if (const auto at = r.material.values.find(key.name);
+        at != r.material.values.end() && !key.variable.empty())
+      material += fmt::format("variable {} index {}\n", key.variable, at->second.text);
   return fmt::format(
       "# what the input scripts need to know of this electrode\n"
       "variable thickness_um equal {:.10g}\nvariable area_um2 equal {:.10g}\n"
       "variable solid_volume_um3 equal {:.10g}\nvariable primary_diameter_um equal {}\n"
-      "variable lattice_um equal {}\nvariable cbd_diameter_um equal {}\n",
-      thickness, r.area(), solid, r.primary_diameter, r.lattice, r.cbd_diameter);
+      "variable lattice_um equal {}\nvariable cbd_diameter_um equal {}\n{}",
+      thickness, r.area(), solid, r.primary_diameter, r.lattice, r.cbd_diameter, material);
 }
 
 std::string bodies_table(const std::vector<Body> &bodies, const std::vector<Pose> &poses,

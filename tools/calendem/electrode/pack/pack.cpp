@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/pack/pack.h"
 #include "base/liggghts_job.h"
+#include "base/material_notes.h"
 #include "base/output_folder.h"
+#include "base/particle_sizes.h"
 #include "base/provenance.h"
 #include "base/run_folder.h"
 #include "electrode/pack/electrode_files.h"
@@ -21,9 +23,6 @@ namespace calendem {
 namespace fs = std::filesystem;
 namespace {
 
-const char *const kLargest = "largest_equivalent_diameter_allowed_um";
-const char *const kCutOff = "volume_fraction_cut_off_by_size_limit";
-
 void show_progress(const PackOptions &o, const Recipe &r, std::string &shown) {
   const LastRow row = last_row(o.folder + "/packing.csv");
   const std::string text =
@@ -35,7 +34,7 @@ void show_progress(const PackOptions &o, const Recipe &r, std::string &shown) {
 }
 
 void densify(const PackOptions &o, const Recipe &r) {
-  const FinalMaterial m;
+  const FinalMaterial m(r.material);
   LiggghtsJob job;
   job.program = o.liggghts;
   job.ranks = o.ranks;
@@ -87,7 +86,7 @@ nlohmann::json finish(const PackInput &in, Start &start, const std::string &fold
   const std::vector<Body> &bodies = start.made.bodies;
   std::vector<Particle> &particles = start.placed.loose.particles;
   read_positions(folder + "/packed.dump", particles);
-  const PackingState state = examine(recipe, bodies, particles);
+  const PackingState state = examine(recipe, bodies, particles, FinalMaterial(recipe.material));
   const std::vector<Pose> poses = find_poses(recipe, bodies, particles);
   const double height = std::max(recipe.thickness(), state.highest_um) + 1.0;
   write_file(folder + "/electrode.data", data_file(recipe, particles, height));
@@ -168,23 +167,9 @@ std::string packing_identity(const Recipe &recipe, const std::string &tools) {
   std::string text = tools;
   for (const auto &[key, value] : settings_of(recipe))
     text += fmt::format("{}={}\n", key, value);
+  text += recipe.material.hash();
   return hash_of_text(text + hash_of_sources(recipe));
 }
-
-namespace {
-
-/// Most of the recipe's particles do not fit the cell: smaller ones stand for them.
-void warn_of_sizes(const nlohmann::json &electrode) {
-  constexpr double kWarned = 0.5;
-  const double cut = electrode.value(kCutOff, 0.0);
-  if (cut > kWarned)
-    fmt::print(
-        "pack: {:.0f} % of the volume of the recipe's particles is in particles wider than this "
-        "cell can hold ({:.1f} um); smaller ones take its place. A larger cell holds more.\n",
-        100.0 * cut, electrode.value(kLargest, 0.0));
-}
-
-} // namespace
 
 void pack_electrode(const Recipe &as_given, PackOptions o) {
   o.folder = fs::absolute(o.folder).lexically_normal().string(); // LIGGGHTS runs in that folder
@@ -200,6 +185,8 @@ void pack_electrode(const Recipe &as_given, PackOptions o) {
     stop_if_of_another_recipe(o.folder, as_given);
   const auto begin = std::chrono::steady_clock::now();
   const PackInput in = read_input(as_given);
+  if (const std::string sizes = sizes_in_words(in.recipe); !sizes.empty())
+    fmt::print("pack: {}\n", sizes);
   check_machine(in.recipe, o);
   make_output_folder(o.folder);
   const FolderLock lock(o.folder);
@@ -218,7 +205,10 @@ void pack_electrode(const Recipe &as_given, PackOptions o) {
              j["loading_mg_cm2"].get<double>(), 100 * j["porosity_total"].get<double>(),
              j["platen_pressure_MPa"].get<double>(), j["largest_body_force_nN"].get<double>(),
              j["wall_clock_s"].get<double>());
-  warn_of_sizes(j);
+  j["material"] = to_json(in.recipe.material);
+  j[kMaterialNotes] = notes_of(in.recipe);
+  for (const std::string &warning : warnings_of_electrode(j))
+    fmt::print(stderr, "warning: {}\n", warning);
   try {
     check(j, in.recipe, o.folder);
   } catch (const Failure &) {
@@ -268,7 +258,7 @@ Start make_all_bodies(const PackInput &in, const std::string &folder) {
   out.shapes = describe_shapes(r, library, out.made.bodies);
   if (r.shapes.measured_sizes && !r.structure.given()) {
     const double limit = largest_diameter(r, library);
-    out.shapes[kLargest] = limit;
+    out.shapes[kLargestAllowed] = limit;
     out.shapes[kCutOff] = library.volume_above(limit);
   }
   return out;
@@ -298,7 +288,7 @@ void add_origin(nlohmann::json &electrode, const PackInput &in, const Start &sta
                 const std::vector<Pose> &poses) {
   const Recipe &r = in.recipe;
   nlohmann::json shapes = start.shapes;
-  for (const char *key : {kLargest, kCutOff})
+  for (const char *key : {kLargestAllowed, kCutOff})
     if (shapes.contains(key)) {
       electrode[key] = shapes[key];
       shapes.erase(key);
@@ -311,7 +301,7 @@ void add_origin(nlohmann::json &electrode, const PackInput &in, const Start &sta
     electrode["shapes"] = shapes;
   if (!r.structure.given())
     return;
-  for (const char *key : {kLargest, kCutOff}) // a structure comes through whole
+  for (const char *key : {kLargestAllowed, kCutOff}) // a structure comes through whole
     electrode.erase(key);
   electrode["structure"] = describe_structure(r, in.structure, start.made, start.placed, poses,
                                               start.placed.loose.particles);

@@ -174,9 +174,16 @@ void note_pairs(PackingState &s, const Body &b, const Particle *first, const Rec
 
 } // namespace
 
-double case_default(const std::string &key) {
-  const auto is = [&](const Key &k) { return k.name == key; };
-  return std::stod(std::find_if(case_keys().begin(), case_keys().end(), is)->fallback);
+FinalMaterial::FinalMaterial(const ReferenceMaterial &material) {
+  Settings s;
+  take_values(material, case_keys(), s);
+  fill_in(case_keys(), s);
+  E_am_GPa = s.number("material.am.youngs_modulus_GPa");
+  E_cbd_GPa = s.number("material.cbd.youngs_modulus_GPa");
+  nu_am = s.number("material.am.poisson");
+  nu_cbd = s.number("material.cbd.poisson");
+  ced_am_J_m3 = s.number("material.am.ced_J_m3");
+  ced_cbd_J_m3 = s.number("material.cbd.ced_J_m3");
 }
 
 PackingState examine(const Recipe &recipe, const std::vector<Body> &bodies,

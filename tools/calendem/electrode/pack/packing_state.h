@@ -94,17 +94,11 @@ private:
   }
 };
 
-/// What a setting of the case is unless given.
-double case_default(const std::string &key);
-
-/// Stiffness and cohesion at which a packing is relaxed and its forces are judged: a case's unless
-/// given. Handed to in.pack as variables.
+/// Stiffness and cohesion at which a packing is relaxed and its forces are judged: the material's, of
+/// what it does not say a case's. Handed to in.pack as variables.
 struct FinalMaterial {
-  double E_am_GPa = case_default("material.am.youngs_modulus_GPa");
-  double E_cbd_GPa = case_default("material.cbd.youngs_modulus_GPa");
-  double nu_am = case_default("material.am.poisson"), nu_cbd = case_default("material.cbd.poisson");
-  double ced_am_J_m3 = case_default("material.am.ced_J_m3");
-  double ced_cbd_J_m3 = case_default("material.cbd.ced_J_m3");
+  explicit FinalMaterial(const ReferenceMaterial &material = {});
+  double E_am_GPa, E_cbd_GPa, nu_am, nu_cbd, ced_am_J_m3, ced_cbd_J_m3;
 };
 
 /// Overlaps of touching pairs over the radius of the CBD sphere.
@@ -128,7 +122,8 @@ struct PackingState {
 };
 
 PackingState examine(const Recipe &recipe, const std::vector<Body> &bodies,
-                     const std::vector<Particle> &particles, const FinalMaterial &material = {});
+                     const std::vector<Particle> &particles,
+                     const FinalMaterial &material = FinalMaterial());
 
 /// Bonds of the lattice: index pairs of one body's particles that touch, periodic in x and y.
 std::vector<std::pair<int, int>> bonds_by_distance(const std::vector<Particle> &particles,

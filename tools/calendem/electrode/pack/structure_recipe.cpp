@@ -65,6 +65,7 @@ Recipe with(const Recipe &recipe, const Settings &settings) {
   r.file = recipe.file;
   r.shapes = recipe.shapes;
   r.structure = recipe.structure;
+  r.material = recipe.material;
   return r;
 }
 

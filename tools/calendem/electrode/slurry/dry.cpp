@@ -2,6 +2,7 @@
 #include "electrode/slurry/dry.h"
 #include "base/liggghts_job.h"
 #include "base/output_folder.h"
+#include "base/particle_sizes.h"
 #include "base/provenance.h"
 #include "electrode/pack/electrode_files.h"
 #include "electrode/pack/measured_bodies.h"
@@ -252,9 +253,12 @@ double FilmRecipe::wet_density() const {
 
 FilmRecipe read_film_recipe(const std::string &file) {
   Mistakes mistakes(file);
-  const Settings s = read_toml(file, FileKind::Film, film_keys(), mistakes);
+  Settings s = read_toml(file, FileKind::Film, film_keys(), mistakes);
+  const ReferenceMaterial material = take_material(s, file, film_keys(), mistakes);
+  take_sizes_by_volume(s, film_keys(), mistakes);
   FilmRecipe f;
   f.recipe = recipe_of(s);
+  f.recipe.material = material;
   f.recipe.file = file;
   f.recipe.shapes = read_shapes(s, file, mistakes);
   check_recipe(s, f.recipe, mistakes);
