@@ -55,11 +55,11 @@ FixBondBpm::~FixBondBpm() {
 }
 
 void FixBondBpm::post_create() {
-  restarted_state_.remember(modify, this);
   const char *words[] = {kHistoriesId, "all", "contacthistory/bpm"};
   if (modify->find_fix(kHistoriesId) < 0) // it outlives this fix, to keep its place
     modify->add_fix(3, const_cast<char **>(words));
   time_ = FixTimeBpm::of(lmp);
+  time_->claim_state(this);
 }
 
 int FixBondBpm::setmask() {
@@ -84,7 +84,7 @@ int FixBondBpm::modify_param(int narg, char **arg) {
 }
 
 void FixBondBpm::init() {
-  restarted_state_.stop_if_lost(modify, error, this);
+  time_->stop_if_state_is_lost(this);
   refuse_minimizer();
   grid_.choose();
   ledger_ = WorkLedger::find(lmp);

@@ -41,7 +41,6 @@ FixStyle(bond/bpm, FixBondBpm)
 #include "fix.h"
 #include "position_grid.h"
 #include "sphere_bridges.h"
-#include "state_in_restart.h"
 #include "surface_insets.h"
 #include <algorithm>
 #include <string>
@@ -135,7 +134,6 @@ private:
   SphereBridges bridges_;
   BondWatch watch_;
   BreakLog log_;
-  StateInRestart restarted_state_;
   std::string bodies_file_, log_file_, platen_id_;
   class WorkLedger *ledger_ = nullptr; // NULL when none is kept
   class FixTimeBpm *time_ = nullptr;

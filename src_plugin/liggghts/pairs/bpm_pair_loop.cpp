@@ -56,6 +56,9 @@ void BpmPairLoop::connect(int bond_offset, int effects_offset) {
   table_.connect(bonds_, bond_, memory_, spring_);
   bonds_->pairs().set_loop(this);
   known_.find();
+  radii_vary_ = false;
+  for (int k = 0; k < modify->nfix; ++k)
+    radii_vary_ |= modify->fix[k]->rad_mass_vary_flag != 0;
 }
 
 BpmPairLoop::~BpmPairLoop() {
@@ -81,7 +84,7 @@ void BpmPairLoop::check_reference() const {
 
 void BpmPairLoop::prepare() {
   known_.check();
-  if (neighbor->ago == 0)
+  if (neighbor->ago == 0 || radii_vary_)
     choose_units();
 }
 

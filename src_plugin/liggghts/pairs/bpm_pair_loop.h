@@ -43,7 +43,7 @@ public:
   /// Stops the run if what the host's loop is to compute is not in it.
   void check_reference() const;
   /// Before either loop: stops the run if an atom has a type whose properties are not known; with
-  /// new lists, chooses units that hold the forces on all atoms.
+  /// new lists or other radii, chooses units that hold the forces on all atoms.
   void prepare();
   void compute_force(class PairGran *pair);
 
@@ -66,6 +66,7 @@ private:
   int types_ = 0;                                 // of the box, and 1
   int bond_ = 0, memory_ = -1, spring_ = -1;      // offsets in the history
   bool contacts_are_read_ = false;                // by a style of the host, in every step
+  bool radii_vary_ = false;                       // by a fix of the host, between two lists
   std::vector<Sphere> spheres_;                   // atoms and ghosts in this step
   std::vector<WholeForce> forces_;                // on them
   calendem::FixedPoint force_unit_, torque_unit_; // of these [nN], [nN um]
