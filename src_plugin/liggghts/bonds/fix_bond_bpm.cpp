@@ -313,44 +313,14 @@ double FixBondBpm::compute_vector(int n) {
   log_.gather();
   const BreakTotals &totals = log_.totals();
   if (n == 1)
-    return checked_intact();
+    return BondSums(lmp, *this).checked_intact(initial_, totals.broken(), this);
   if (n == 2)
     return totals.broken();
   if (n <= 6)
     return totals.of_mode[n - 2];
   if (n >= 9)
-    return bridge_vector(n - 9);
+    return bridges_.output(n - 9, *this, totals);
   return n == 8 ? totals.energy : BondSums(lmp, *this).strain_energy(kIntact);
-}
-
-double FixBondBpm::checked_intact() {
-  const BondSums sums(lmp, *this);
-  const bigint intact = sums.intact(), broken = log_.totals().broken();
-  char message[256];
-  snprintf(message, sizeof message,
-           "bonds do not add up: " BIGINT_FORMAT " made, " BIGINT_FORMAT " intact, " BIGINT_FORMAT
-           " logged as broken. A bond vanished without a break, or broke on one rank only",
-           initial_, intact, broken);
-  if (intact + broken != initial_ || !sums.copies_agree())
-    error->fix_error(FLERR, this, message);
-  return intact;
-}
-
-double FixBondBpm::bridge_vector(int n) {
-  if (n == 0)
-    bridges_.check_sums(pairs_, log_.totals());
-  if (n < calendem::kBridgeKinds)
-    return bridges_.made(static_cast<BridgeKind>(n));
-  switch (n - calendem::kBridgeKinds) {
-  case calendem::kBridgeKinds:
-    return bridges_.energy_on_collector() + BondSums(lmp, *this).strain_energy(kBridge);
-  case calendem::kBridgeKinds + 1:
-    return log_.totals().bridge_energy;
-  case calendem::kBridgeKinds + 2:
-    return 1.0 - bridge_settings().material.rest;
-  default:
-    return log_.totals().of_bridges[n - calendem::kBridgeKinds];
-  }
 }
 
 // The host calls this for every atom at the first set-up too, after init().

@@ -155,8 +155,6 @@ private:
   void stop_if_overflowed();
   void apply_breaks();
   double platen_pressure() const;
-  double checked_intact();
-  double bridge_vector(int n);
 };
 
 } // namespace LAMMPS_NS
