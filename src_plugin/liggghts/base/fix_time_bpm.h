@@ -51,7 +51,7 @@ public:
   void stop_if_state_is_lost(Fix *fix);
 
 private:
-  /// Of a fix of the plugin, in the restart file.
+  /// What the restart file holds of a fix of the plugin.
   struct SavedState {
     std::string style, id;
     bool taken;

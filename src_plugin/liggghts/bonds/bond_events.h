@@ -47,7 +47,7 @@ public:
   void acts(int i, int j) { count_acting(pairs().decides(i, j)); }
   /// Forces on the atom with that tag are beyond the units of their sum.
   virtual void force_overflows(int tag) = 0;
-  /// Of all spheres so far, restarts included, with those of now [um].
+  /// Radius of the largest sphere so far, restarts included, if the largest now has `now` [um].
   virtual double largest_radius(double now) = 0;
 };
 

@@ -204,7 +204,7 @@ void FixBondBpm::setup(int) {
     bridges_.count_made(pairs_);
 }
 
-// Of all ranks, by what was made and what is known to have broken.
+// Counts those of all ranks, by what was made and what is known to have broken.
 bigint FixBondBpm::acting_pairs() const {
   bigint pairs = initial_ - log_.totals().broken();
   for (const BridgeKind kind : {BridgeKind::AmCbd, BridgeKind::CbdCbd})

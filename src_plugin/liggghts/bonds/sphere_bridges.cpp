@@ -146,7 +146,7 @@ void SphereBridges::check_sums(const BondPairs &pairs, const BreakTotals &broken
   }
 }
 
-// Of all ranks [fJ].
+// Sum over all ranks [fJ].
 double SphereBridges::energy_on_collector() const {
   const double mine = on_collector_ ? on_collector_->strain_energy() : 0.0;
   double all = 0.0;

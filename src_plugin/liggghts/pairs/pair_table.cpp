@@ -14,7 +14,7 @@ using namespace LIGGGHTS::ContactModels;
 
 namespace {
 
-// Of the lists' skin: a wider gap sorts less often and works on more pairs that do not touch.
+// Share of the lists' skin: a wider gap sorts less often and works on more pairs that do not touch.
 constexpr double kGapOfSkin = 1.0 / 5.0;
 
 // Flags that the host's contact objects set: of spheres that are apart, that touch.

@@ -33,7 +33,7 @@ struct VectorRow {
   }
 };
 
-/// Of a pair of atom types.
+/// Material of a pair of atom types.
 using PairMaterial = calendem::ContactMaterial;
 
 /// Pairs that stay together for many steps, and what is remembered of them from step to step.

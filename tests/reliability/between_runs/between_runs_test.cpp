@@ -12,7 +12,7 @@ namespace {
 
 constexpr double R = 0.795, kLength = 1.28;
 
-// Of the error that ended the run.
+// True if the error that ended the run has these words.
 bool says(const CaseRun &run, const std::string &words) {
   const std::string log = run.why();
   const size_t error = log.find("ERROR: ");
@@ -145,7 +145,7 @@ TEST(BetweenRuns, ARestartUnderAnotherIdIsRefused) {
   }
 }
 
-// Of the record of fix bond/bpm the first value tells the version; the next one, 1, that bonds are made.
+// The first value of fix bond/bpm's record tells the version; the next one, 1, that bonds are made.
 TEST(BetweenRuns, ARestartOfAnotherVersionIsRefused) {
   const CaseRun first = hold("write_restart half.restart\n");
   std::string file = first.text("half.restart");
