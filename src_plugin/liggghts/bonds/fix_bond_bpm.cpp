@@ -177,7 +177,8 @@ double FixBondBpm::meeting_distance(int i, int j) const {
 }
 
 void FixBondBpm::create(int i, int j, double r, BondHistory &bond) const {
-  if (bond.state() != kNeverBonded || !atoms_.in_one(i, j))
+  const double farthest = settings_.reach * (atom->radius[i] + atom->radius[j]);
+  if (bond.state() != kNeverBonded || !atoms_.in_one(i, j) || r >= farthest)
     return;
   const int body = atoms_.body(i);
   bond.create(r,

@@ -41,14 +41,14 @@ bool PairTable::is_near(int i, int j, double gap) const {
   return distance_squared(i, j) < reach * reach;
 }
 
-// Bridges as far as histories reach.
+// As far as histories reach.
 void PairTable::make_bonds(int i, int j, BondHistory &history) const {
   const double r = std::sqrt(distance_squared(i, j));
   const double reach = neighbor->contactDistanceFactor * (atom->radius[i] + atom->radius[j]);
-  if (is_near(i, j, 0.0))
-    bonds_->create(i, j, r, history);
-  if (r < reach)
-    bonds_->bridge(i, j, r, history);
+  if (r >= reach)
+    return;
+  bonds_->create(i, j, r, history);
+  bonds_->bridge(i, j, r, history);
 }
 
 void PairTable::adopt_lists(PairGran *pair) {

@@ -77,8 +77,10 @@ public:
     if (!s.contact_history)
       return;
     BondHistory bond(s.contact_history + offset_);
-    if (bonds_->creating())
+    if (bonds_->creating()) {
+      bonds_->create(s.i, s.j, std::sqrt(s.rsq), bond);
       bonds_->bridge(s.i, s.j, std::sqrt(s.rsq), bond);
+    }
     if (bond.state() == kBrokenTouching && s.computeflag && s.shearupdate)
       bonds_->separate(s.i, s.j, bond);
   }
