@@ -78,3 +78,10 @@ TEST(PairMotion, EffectiveMassIsThatOfTwoBodies) {
   EXPECT_EQ(at_rest.r, 2.0);
   EXPECT_EQ(at_rest.n.y, -1.0);
 }
+
+TEST(PairMotion, KeepsTheOrderOfItsSpheres) {
+  const PairMotion m = pair_motion({0.0, 0.0, 2.0}, 2.0, {1.0, 0.0, 0.0}, {0.0, 3.0, 0.0}, {});
+  EXPECT_EQ(m.v.x, 1.0);
+  EXPECT_EQ(m.spin_i.y, 3.0);
+  EXPECT_EQ(norm(m.spin_j), 0.0);
+}
