@@ -176,7 +176,7 @@ double FixBondBpm::meeting_distance(int i, int j) const {
   return insets_.meeting_distance(settings_, atoms_.in_one(i, j), i, j);
 }
 
-void FixBondBpm::create(int i, int j, double r, BondHistory &bond) const {
+void FixBondBpm::make_bond(int i, int j, double r, BondHistory &bond) const {
   const double farthest = settings_.reach * (atom->radius[i] + atom->radius[j]);
   if (bond.state() != kNeverBonded || !atoms_.in_one(i, j) || r >= farthest)
     return;
@@ -185,7 +185,7 @@ void FixBondBpm::create(int i, int j, double r, BondHistory &bond) const {
               settings_.strengths.factor({atom->tag[i], atom->tag[j], body, map_.diameter(body)}));
 }
 
-void FixBondBpm::separate(int i, int j, BondHistory &bond) const {
+void FixBondBpm::mark_separated(int i, int j, BondHistory &bond) const {
   bond.set_state(kBrokenSeparated);
   bond.meet_at(meeting_distance(i, j));
 }
@@ -287,7 +287,7 @@ void FixBondBpm::apply_breaks() {
     if (of_body)
       b.bond.set_state(kBrokenTouching);
     else
-      separate(b.i, b.j, b.bond);
+      mark_separated(b.i, b.j, b.bond);
     b.bond.set_loads({});
     if (of_body)
       atoms_.count_break(b.i);

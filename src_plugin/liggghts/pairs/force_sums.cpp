@@ -64,7 +64,7 @@ void ForceSums::report_overflow(const PairTile &t, const PairStep &s) {
   for (int p = 0; p < t.size; ++p)
     for (const auto &of : s.whole)
       if (!calendem::SumCheck::can_be_added(static_cast<double>(static_cast<long long>(of[p][3]))))
-        bonds_->force_overflows(atom->tag[t.i[p]]);
+        bonds_->report_overflow(atom->tag[t.i[p]]);
 }
 
 void ForceSums::add_to_atoms(PairGran *pair) {
@@ -72,7 +72,7 @@ void ForceSums::add_to_atoms(PairGran *pair) {
     const double relax = pair->relax(i);
     const WholeForce &sum = sums_[i];
     if (!calendem::SumCheck::fits(sum.force) || !calendem::SumCheck::fits(sum.torque))
-      bonds_->force_overflows(atom->tag[i]);
+      bonds_->report_overflow(atom->tag[i]);
     for (int k = 0; k < 3; ++k) {
       atom->f[i][k] += relax * force_unit_.value(static_cast<long long>(sum.force[k]));
       atom->torque[i][k] += relax * torque_unit_.value(static_cast<long long>(sum.torque[k]));

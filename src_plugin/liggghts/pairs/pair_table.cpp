@@ -47,8 +47,8 @@ void PairTable::make_bonds(int i, int j, BondHistory &history) const {
   const double reach = neighbor->contactDistanceFactor * (atom->radius[i] + atom->radius[j]);
   if (r >= reach)
     return;
-  bonds_->create(i, j, r, history);
-  bonds_->bridge(i, j, r, history);
+  bonds_->make_bond(i, j, r, history);
+  bonds_->make_bridge(i, j, r, history);
 }
 
 void PairTable::adopt_lists(PairGran *pair) {
@@ -231,7 +231,7 @@ void PairTable::drop_bond(Bonds &list, int broken) {
 
 void PairTable::mark_separated(ContactTile &t, int p) {
   BondHistory history = bond(t.history[p]);
-  bonds_->separate(t.i[p], t.j[p], history);
+  bonds_->mark_separated(t.i[p], t.j[p], history);
   t.separating[p] = 0.0;
   update_reference(t, p);
 }
