@@ -4,6 +4,7 @@
 #include "fix_property_global.h"
 #include "force.h"
 #include "global_properties.h"
+#include "known_types.h"
 #include "modify.h"
 #include "pair_gran.h"
 #include "property_registry.h"
@@ -58,7 +59,9 @@ void ContactEffects::connect(PropertyRegistry &registry, const char *caller) {
   registry.registerProperty("Yeff", &MODEL_PARAMS::createYeff);
   registry.registerProperty("Geff", &MODEL_PARAMS::createGeff);
   registry.registerProperty("betaeff", &MODEL_PARAMS::createBetaEff);
-  types_ = registry.max_type();
+  KnownTypes known(registry.getLAMMPS());
+  known.find();
+  types_ = known.highest();
   pairs_.assign((types_ + 1) * (types_ + 1), TypePair());
   for (int i = 1; i <= types_; ++i)
     for (int j = 1; j <= types_; ++j)

@@ -63,7 +63,7 @@ public:
     });
   }
 
-  // Of contacts that an effect acts on, the two for the time step of others too; see
+  // Contacts that an effect acts on; the two for the time step take others too. See
   // physics/law_interface.h.
   double contact_radius(const EffectContact &c, const double *memory) const {
     return with_law(c, memory, [&](const auto &law, const auto &state) {

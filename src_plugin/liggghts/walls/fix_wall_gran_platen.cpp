@@ -203,8 +203,8 @@ int FixWallGranPlaten::setmask() { return FixWallGran::setmask() | INITIAL_INTEG
 
 void FixWallGranPlaten::post_create() {
   FixWallGran::post_create();
-  restarted_state_.remember(modify, this);
   time_ = FixTimeBpm::of(lmp);
+  time_->claim_state(this);
   if (bridges_)
     bridges_->add_storage(style);
 }
@@ -216,7 +216,7 @@ void FixWallGranPlaten::pre_delete(bool unfix) {
 }
 
 void FixWallGranPlaten::init() {
-  restarted_state_.stop_if_lost(modify, error, this);
+  time_->stop_if_state_is_lost(this);
   FixWallGran::init();
   if (bridges_)
     bridges_->init(modify->find_fix(id));

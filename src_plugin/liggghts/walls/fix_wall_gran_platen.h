@@ -34,7 +34,6 @@ FixStyle(wall/gran/platen, FixWallGranPlaten)
 #include "physics/fixed_point.h"
 #include "physics/moving_average.h"
 #include "physics/platen_motion.h"
-#include "state_in_restart.h"
 #include "wall_bridges.h"
 #include <memory>
 #include <string>
@@ -106,7 +105,6 @@ private:
   bool moved_;
   double sliding_;
   class FixTimeBpm *time_ = nullptr;
-  StateInRestart restarted_state_;
   int memory_offset_; // -1: another model
   std::unique_ptr<WallBridges> bridges_;
 

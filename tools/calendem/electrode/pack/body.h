@@ -35,7 +35,7 @@ SizeLaw measured_law(const Recipe &recipe);
 /// that even a small cell has the right mix.
 std::vector<double> draw_diameters(const Recipe &recipe, double volume, Random &random);
 
-/// The same from any law, given as its quantile function [um].
+/// Sizes from any law, given as its quantile function [um].
 using Quantile = std::function<double(double)>;
 std::vector<double> draw_diameters(const Quantile &law, double volume, Random &random);
 
@@ -97,7 +97,7 @@ double width_of(const std::vector<Eigen::Vector3d> &centres, double diameter);
 /// One body of exactly `count` primaries, not wider than the recipe's limit: shapes that are wider
 /// are drawn again, the hundredth is cut off. Throws Failure(2) where even that has no room.
 Body make_body(const Recipe &recipe, int count, Random &random, const DrawHull &draw);
-/// The same with a generated Shape of the recipe's irregularity.
+/// Makes it with a generated Shape of the recipe's irregularity.
 Body make_body(const Recipe &recipe, int count, Random &random);
 
 /// Primaries per body by the recipe's law of sizes, largest first.

@@ -76,7 +76,7 @@ Eigen::Quaterniond frame_of(const std::vector<Eigen::Vector3d> &x, double touchi
   return Eigen::Quaterniond(R);
 }
 
-// Of the union of the primaries and their cells of the lattice, its surface smoothed.
+// Sphericity of the union of the primaries and their cells of the lattice, its surface smoothed.
 double sphericity_of(const Recipe &r, const Body &b) {
   if (b.primaries.size() == 1)
     return 1.0;

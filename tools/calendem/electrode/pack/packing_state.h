@@ -67,7 +67,7 @@ public:
         }
     return false;
   }
-  /// The same for a body whose centre is at `at` and whose primaries have this radius.
+  /// As hits() for a body whose centre is at `at` and whose primaries have this radius.
   bool hits(const Body &body, const Eigen::Vector3d &at, double radius) const {
     return std::any_of(body.primaries.begin(), body.primaries.end(),
                        [&](const Eigen::Vector3d &p) { return hits(at + p, radius); });
