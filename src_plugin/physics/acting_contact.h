@@ -6,7 +6,8 @@
 //   overlap  d = max(0, R_i + R_j - r - d_0)      for Hertz and the laws that take its place
 //   distance r' = r + d_0                         for cohesion, whose lens ends at r' = R_i + R_j
 // All in um. Whoever takes a force, an energy, a stiffness or a pressure from an overlap takes it
-// from here. Source: none, a definition. Verified by tests/verification/acting_contact.
+// from here. Source: none, a definition. Verified by
+// tests/unit/physics/acting_contact_test.cpp and tests/verification/acting_contact.
 #ifndef CALENDEM_PHYSICS_ACTING_CONTACT_H
 #define CALENDEM_PHYSICS_ACTING_CONTACT_H
 

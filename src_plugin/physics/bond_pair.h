@@ -16,6 +16,11 @@
 
 namespace calendem {
 
+/// Primaries of a body are bonded up to this multiple of the sum of their radii. A tessellation of
+/// a sphere of a "magic" number of grains has a middle one whose neighbours all lie just beyond 1,
+/// and a cubic lattice has its diagonal ones beyond it.
+constexpr double kBondReach = 1.04;
+
 struct BondPair {
   BondSection section;
   BondStiffness stiffness;

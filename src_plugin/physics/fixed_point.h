@@ -32,8 +32,8 @@ struct FixedPoint {
 struct SumCheck {
   static constexpr double kMost = 0x1p63; ///< that a term or a sum can be, in its units
 
-  /// Of a term, to be added as a whole number if it can be: not of what is no number, or far too
-  /// large. A component that is a little too large does not fit the sum.
+  /// The check of a term, to be added as a whole number if it can be: not that of what is no
+  /// number, or far too large. A component that is a little too large does not fit the sum.
   static double of(double x, double y, double z) { return 0x1p-24 * (x + 0x1p7 * y + 0x1p14 * z); }
   static bool can_be_added(double check) { return std::fabs(check) < 0x1p55; }
   static bool fits(const unsigned long long (&sum)[4]) { ///< the check is the last

@@ -20,7 +20,7 @@
 
 namespace calendem {
 
-/// Of a pair of materials.
+/// Constants of a pair of materials.
 struct ContactMaterial {
   double modulus;        ///< E* [kPa]
   double shear_modulus;  ///< G* [kPa]

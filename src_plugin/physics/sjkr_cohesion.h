@@ -33,7 +33,7 @@ inline double sjkr_force(double cohesion_energy_density, double r, double radius
   return cohesion_energy_density * lens_area(r, radius_i, radius_j);
 }
 
-/// The same at a flat wall, `r` from the centre.
+/// Pull of a flat wall, `r` from the centre.
 inline double sjkr_wall_force(double cohesion_energy_density, double r, double radius) {
   return r < radius ? cohesion_energy_density * kPi * (radius - r) * (radius + r) : 0.0;
 }

@@ -31,8 +31,8 @@ int FixBalanceZ::setmask() { return PRE_EXCHANGE; }
 
 double FixBalanceZ::compute_scalar() { return imbalance_; }
 
-// Of the cell as it will be when the faces are set: where it ends at the highest particle, that one
-// may have moved.
+// The height is that of the cell as it will be when the faces are set: where it ends at the highest
+// particle, that one may have moved.
 double FixBalanceZ::height() const {
   if (domain->boundary[2][1] < 2)
     return domain->prd[2];

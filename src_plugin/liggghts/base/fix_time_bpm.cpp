@@ -10,7 +10,9 @@ using namespace LAMMPS_NS;
 
 namespace {
 const char *const kId = "simulated_time";
-}
+const char *const kStylesWithState[] = {"bond/bpm", "wall/gran/platen", "energy/bpm",
+                                        "cbd/collapse", "elongation"};
+} // namespace
 
 FixTimeBpm::FixTimeBpm(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), begun_(false) {
   if (narg != 3 || strcmp(id, kId) != 0)
@@ -26,6 +28,36 @@ FixTimeBpm *FixTimeBpm::of(LAMMPS *lmp) {
     lmp->modify->add_fix(3, const_cast<char **>(words));
   }
   return static_cast<FixTimeBpm *>(lmp->modify->fix[lmp->modify->find_fix(kId)]);
+}
+
+void FixTimeBpm::post_create() {
+  for (const char *of : kStylesWithState)
+    for (int n = 0; n < modify->n_restart_data_global_style(of); ++n)
+      saved_.push_back({of, modify->id_restart_data_global_style(of, n), false});
+}
+
+void FixTimeBpm::claim_state(Fix *fix) {
+  if (!modify->have_restart_data(fix)) {
+    beginners_.insert(fix->id);
+    return;
+  }
+  for (SavedState &state : saved_)
+    state.taken |= state.style == fix->style && state.id == fix->id;
+}
+
+void FixTimeBpm::stop_if_state_is_lost(Fix *fix) {
+  if (beginners_.erase(fix->id) == 0)
+    return;
+  for (const SavedState &state : saved_) {
+    if (state.taken || state.style != fix->style)
+      continue;
+    const std::string message = "the restart file holds the state of this style under the ID '" +
+                                state.id + "', which no fix of the script took before the first " +
+                                "run: it would be lost, and '" + fix->id +
+                                "' begin anew. Name the fix '" + state.id +
+                                "' and define it before that run, or begin from a data file";
+    error->fix_error(FLERR, fix, message.c_str());
+  }
 }
 
 // The host counts the time of this process's runs. A minimizer's iterations are steps of no length.

@@ -17,12 +17,12 @@ public:
   /// Messages name the fix `owner`.
   BodyMap(class LAMMPS *lmp, class Fix *owner) : Pointers(lmp), owner_(owner) {}
 
-  /// Of the atoms that are there; all ranks call.
+  /// Reads the bodies of the atoms that are there; all ranks call.
   void read(const std::string &file);
   /// 0: none. Before read() all have none.
   int of_tag(int tag) const { return static_cast<size_t>(tag) < of_tag_.size() ? of_tag_[tag] : 0; }
   int highest() const;
-  /// Of the sphere of its primaries' volume [um].
+  /// Diameter of the sphere of its primaries' volume [um].
   double diameter(int body) const { return diameter_.at(body); }
 
 private:

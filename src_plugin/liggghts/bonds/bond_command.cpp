@@ -39,6 +39,7 @@ bool BondCommand::read_number(const std::string &key, const char *value) {
       {"tensile", {&settings.strength.tensile, kPositive}},
       {"shear", {&settings.strength.shear, kPositive}},
       {"weibull", {&settings.strengths.weibull_modulus, kNotNegative}},
+      {"reach", {&settings.reach, between(1.0, kContactDistanceFactor)}},
       {"contact_diameter", {&settings.contact_diameter, kPositive}},
       {"surface_inset", {&settings.surface_inset, kNotNegative}},
       {"inset_fading", {&settings.inset_fading, kFraction}}};
@@ -82,7 +83,7 @@ int BondCommand::read_keyword(int narg, char **arg) {
         "unknown setting '" + key + " " + arg[1] +
         "'; known: bodies FILE, youngs_modulus, nu, radius_ratio, tensile, shear, criterion "
         "signed|unsigned|as_printed, damping, weibull MODULUS SEED, breakable yes|no, log FILE, "
-        "pressure FIX, contact_diameter, surface_inset, inset_fading";
+        "pressure FIX, reach, contact_diameter, surface_inset, inset_fading";
     for (const calendem::BondStrengthLaw &law : calendem::bond_strength_laws())
       message += std::string(", ") + law.keyword;
     error->fix_error(FLERR, owner_, message.c_str());

@@ -29,13 +29,13 @@ public:
   /// True while binder bridges shrink, in this step or the next one.
   virtual bool shrinks() const = 0;
 
-  /// True in the set-up in which bonds are made: create() and bridge() then make the pair's, if it
-  /// is to have one, at the distance r [um].
+  /// True in the set-up in which bonds are made: make_bond() and make_bridge() then make the
+  /// pair's, if it is to have one, at the distance r [um].
   virtual bool creating() const = 0;
-  virtual void create(int i, int j, double r, BondHistory &bond) const = 0;
-  virtual void bridge(int i, int j, double r, BondHistory &bond) const = 0;
+  virtual void make_bond(int i, int j, double r, BondHistory &bond) const = 0;
+  virtual void make_bridge(int i, int j, double r, BondHistory &bond) const = 0;
   /// The spheres of a broken pair have separated.
-  virtual void separate(int i, int j, BondHistory &bond) const = 0;
+  virtual void mark_separated(int i, int j, BondHistory &bond) const = 0;
 
   /// This copy of a bond fails in this step; it acts until the step's last force.
   virtual void record_break(int i, int j, BondHistory bond, const calendem::BondPair &,
@@ -44,10 +44,10 @@ public:
   virtual void check_stretch(double stretch) = 0;
   /// Bonds and bridges that this rank decides and that have acted in this step.
   virtual void count_acting(bigint bonds) = 0;
-  void acts(int i, int j) { count_acting(pairs().decides(i, j)); }
+  void count_acting_pair(int i, int j) { count_acting(pairs().decides(i, j)); }
   /// Forces on the atom with that tag are beyond the units of their sum.
-  virtual void force_overflows(int tag) = 0;
-  /// Of all spheres so far, restarts included, with those of now [um].
+  virtual void report_overflow(int tag) = 0;
+  /// Radius of the largest sphere so far, restarts included, if the largest now has `now` [um].
   virtual double largest_radius(double now) = 0;
 };
 

@@ -62,13 +62,13 @@ public:
   template <class Visit> void for_each_neighbor(Visit visit) const;
   /// Calls visit(i, j, history) for every intact bond, each once over all ranks.
   template <class Visit> void for_each_intact(Visit visit) const;
-  /// The same for every copy on this rank: each local atom meets all its bonds.
+  /// Calls it for every copy on this rank: each local atom meets all its bonds.
   template <class Visit> void for_each_copy(Visit visit) const;
-  /// The same with bridges between spheres.
+  /// Calls it for bridges between spheres as well.
   template <class Visit> void for_each_acting_copy(Visit visit) const;
   /// Calls visit(i, j, r, history) for every pair whose spheres overlap, each once over all ranks.
   template <class Visit> void for_each_touching(Visit visit) const;
-  /// The same for every copy on this rank.
+  /// Calls it for every copy on this rank.
   template <class Visit> void for_each_touching_copy(Visit visit) const;
 
 private:

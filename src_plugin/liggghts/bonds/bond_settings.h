@@ -3,7 +3,7 @@
 #ifndef CALENDEM_BOND_SETTINGS_H
 #define CALENDEM_BOND_SETTINGS_H
 
-#include "physics/bond_failure.h"
+#include "physics/bond_pair.h"
 #include "registry/bond_strengths.h"
 
 namespace LAMMPS_NS {
@@ -20,9 +20,10 @@ struct BondSettings {
   calendem::FailureCriterion criterion = calendem::FailureCriterion::Signed;
   calendem::BondStrengths strengths; ///< from bond to bond
   bool breakable = true;
-  double contact_diameter = 1.0; ///< of a body's primaries that meet, over the sum of radii
-  double surface_inset = 0.0;    ///< how far inside a primary its surface is for others [um]
-  double inset_fading = 0.0;     ///< part of it that goes as the primary's bonds break
+  double reach = calendem::kBondReach; ///< of a bond when it is made, over the sum of radii
+  double contact_diameter = 1.0;       ///< of a body's primaries that meet, over the sum of radii
+  double surface_inset = 0.0;          ///< how far inside a primary its surface is for others [um]
+  double inset_fading = 0.0;           ///< part of it that goes as the primary's bonds break
 
   calendem::BondStrength strength_of(double factor) const {
     return {factor * strength.tensile, factor * strength.shear};

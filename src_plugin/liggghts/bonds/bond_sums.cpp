@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "bond_sums.h"
+#include "error.h"
+#include "fix.h"
 #include "mpi_liggghts.h"
 #include <algorithm>
 
@@ -10,6 +12,18 @@ bigint BondSums::intact() const {
   bonds_.pairs().for_each_intact([&mine](int, int, const BondHistory &) { ++mine; });
   MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   return all;
+}
+
+bigint BondSums::checked_intact(bigint made, bigint broken, Fix *owner) const {
+  const bigint found = intact();
+  char message[256];
+  snprintf(message, sizeof message,
+           "bonds do not add up: " BIGINT_FORMAT " made, " BIGINT_FORMAT " intact, " BIGINT_FORMAT
+           " logged as broken. A bond vanished without a break, or broke on one rank only",
+           made, found, broken);
+  if (found + broken != made || !copies_agree())
+    error->fix_error(FLERR, owner, message);
+  return found;
 }
 
 bool BondSums::copies_agree() const {

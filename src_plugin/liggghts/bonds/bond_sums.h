@@ -12,7 +12,10 @@ public:
   BondSums(class LAMMPS *lmp, BondEvents &bonds) : Pointers(lmp), bonds_(bonds) {}
 
   bigint intact() const;
-  /// Of every pair on two ranks, or across a periodic side, both copies are intact or none.
+  /// As intact(); stops the run, with a message that names the fix `owner`, unless made = intact +
+  /// broken and copies agree.
+  bigint checked_intact(bigint made, bigint broken, class Fix *owner) const;
+  /// True if of every pair on two ranks, or across a periodic side, both copies are intact or none.
   bool copies_agree() const;
   /// Strain energy [fJ] of what is in that state: kIntact, or kBridge between spheres.
   double strain_energy(BondState state) const;

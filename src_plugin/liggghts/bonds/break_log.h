@@ -25,7 +25,7 @@ struct BreakEvent {
   bool of_bridge() const { return body < 0.0; }
 };
 
-/// Of all that has been gathered.
+/// Counts and energies of all breaks that have been gathered.
 struct BreakTotals {
   bigint of_mode[5] = {}; ///< by calendem::BreakMode
   double energy = 0.0;    ///< released by breaks [fJ]

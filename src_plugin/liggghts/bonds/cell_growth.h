@@ -11,10 +11,10 @@ class CellGrowth {
 public:
   virtual ~CellGrowth() {}
 
-  /// That of the run, NULL where the cell keeps its sides.
+  /// The one of the run, NULL where the cell keeps its sides.
   static CellGrowth *find(class LAMMPS *lmp);
 
-  /// Of the latest step.
+  /// How far the latest step has gone.
   virtual const calendem::ElongationStep &step() const = 0;
   /// By how much the cell will grow at most, over its side now.
   virtual double growth_to_come() const = 0;

@@ -55,11 +55,11 @@ FixBondBpm::~FixBondBpm() {
 }
 
 void FixBondBpm::post_create() {
-  restarted_state_.remember(modify, this);
   const char *words[] = {kHistoriesId, "all", "contacthistory/bpm"};
   if (modify->find_fix(kHistoriesId) < 0) // it outlives this fix, to keep its place
     modify->add_fix(3, const_cast<char **>(words));
   time_ = FixTimeBpm::of(lmp);
+  time_->claim_state(this);
 }
 
 int FixBondBpm::setmask() {
@@ -84,7 +84,7 @@ int FixBondBpm::modify_param(int narg, char **arg) {
 }
 
 void FixBondBpm::init() {
-  restarted_state_.stop_if_lost(modify, error, this);
+  time_->stop_if_state_is_lost(this);
   refuse_minimizer();
   grid_.choose();
   ledger_ = WorkLedger::find(lmp);
@@ -176,15 +176,16 @@ double FixBondBpm::meeting_distance(int i, int j) const {
   return insets_.meeting_distance(settings_, atoms_.in_one(i, j), i, j);
 }
 
-void FixBondBpm::create(int i, int j, double r, BondHistory &bond) const {
-  if (bond.state() != kNeverBonded || !atoms_.in_one(i, j))
+void FixBondBpm::make_bond(int i, int j, double r, BondHistory &bond) const {
+  const double farthest = settings_.reach * (atom->radius[i] + atom->radius[j]);
+  if (bond.state() != kNeverBonded || !atoms_.in_one(i, j) || r >= farthest)
     return;
   const int body = atoms_.body(i);
   bond.create(r,
               settings_.strengths.factor({atom->tag[i], atom->tag[j], body, map_.diameter(body)}));
 }
 
-void FixBondBpm::separate(int i, int j, BondHistory &bond) const {
+void FixBondBpm::mark_separated(int i, int j, BondHistory &bond) const {
   bond.set_state(kBrokenSeparated);
   bond.meet_at(meeting_distance(i, j));
 }
@@ -204,7 +205,7 @@ void FixBondBpm::setup(int) {
     bridges_.count_made(pairs_);
 }
 
-// Of all ranks, by what was made and what is known to have broken.
+// Counts those of all ranks, by what was made and what is known to have broken.
 bigint FixBondBpm::acting_pairs() const {
   bigint pairs = initial_ - log_.totals().broken();
   for (const BridgeKind kind : {BridgeKind::AmCbd, BridgeKind::CbdCbd})
@@ -286,7 +287,7 @@ void FixBondBpm::apply_breaks() {
     if (of_body)
       b.bond.set_state(kBrokenTouching);
     else
-      separate(b.i, b.j, b.bond);
+      mark_separated(b.i, b.j, b.bond);
     b.bond.set_loads({});
     if (of_body)
       atoms_.count_break(b.i);
@@ -313,44 +314,14 @@ double FixBondBpm::compute_vector(int n) {
   log_.gather();
   const BreakTotals &totals = log_.totals();
   if (n == 1)
-    return checked_intact();
+    return BondSums(lmp, *this).checked_intact(initial_, totals.broken(), this);
   if (n == 2)
     return totals.broken();
   if (n <= 6)
     return totals.of_mode[n - 2];
   if (n >= 9)
-    return bridge_vector(n - 9);
+    return bridges_.output(n - 9, *this, totals);
   return n == 8 ? totals.energy : BondSums(lmp, *this).strain_energy(kIntact);
-}
-
-double FixBondBpm::checked_intact() {
-  const BondSums sums(lmp, *this);
-  const bigint intact = sums.intact(), broken = log_.totals().broken();
-  char message[256];
-  snprintf(message, sizeof message,
-           "bonds do not add up: " BIGINT_FORMAT " made, " BIGINT_FORMAT " intact, " BIGINT_FORMAT
-           " logged as broken. A bond vanished without a break, or broke on one rank only",
-           initial_, intact, broken);
-  if (intact + broken != initial_ || !sums.copies_agree())
-    error->fix_error(FLERR, this, message);
-  return intact;
-}
-
-double FixBondBpm::bridge_vector(int n) {
-  if (n == 0)
-    bridges_.check_sums(pairs_, log_.totals());
-  if (n < calendem::kBridgeKinds)
-    return bridges_.made(static_cast<BridgeKind>(n));
-  switch (n - calendem::kBridgeKinds) {
-  case calendem::kBridgeKinds:
-    return bridges_.energy_on_collector() + BondSums(lmp, *this).strain_energy(kBridge);
-  case calendem::kBridgeKinds + 1:
-    return log_.totals().bridge_energy;
-  case calendem::kBridgeKinds + 2:
-    return 1.0 - bridge_settings().material.rest;
-  default:
-    return log_.totals().of_bridges[n - calendem::kBridgeKinds];
-  }
 }
 
 // The host calls this for every atom at the first set-up too, after init().

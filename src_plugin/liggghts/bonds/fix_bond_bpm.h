@@ -41,7 +41,6 @@ FixStyle(bond/bpm, FixBondBpm)
 #include "fix.h"
 #include "position_grid.h"
 #include "sphere_bridges.h"
-#include "state_in_restart.h"
 #include "surface_insets.h"
 #include <algorithm>
 #include <string>
@@ -90,14 +89,16 @@ public:
   const BondSettings &bridge_settings() const { return bridges_.settings(); }
   bool shrinks() const { return bridges_.shrinks(); }
   bool creating() const { return creating_; }
-  void create(int i, int j, double r, BondHistory &bond) const;
-  void bridge(int i, int j, double r, BondHistory &bond) const { bridges_.make(i, j, r, bond); }
-  void separate(int i, int j, BondHistory &bond) const;
+  void make_bond(int i, int j, double r, BondHistory &bond) const;
+  void make_bridge(int i, int j, double r, BondHistory &bond) const {
+    bridges_.make(i, j, r, bond);
+  }
+  void mark_separated(int i, int j, BondHistory &bond) const;
   void record_break(int i, int j, BondHistory bond, const calendem::BondPair &,
                     const calendem::BondLoads &);
   void check_stretch(double stretch) { watch_.check_stretch(stretch); }
   void count_acting(bigint bonds) { watch_.count_acting(bonds); }
-  void force_overflows(int tag) { overflowed_ = tag; }
+  void report_overflow(int tag) { overflowed_ = tag; }
   double largest_radius(double now) { return largest_radius_ = std::max(largest_radius_, now); }
 
   const PositionGrid &grid() const { return grid_; }
@@ -135,7 +136,6 @@ private:
   SphereBridges bridges_;
   BondWatch watch_;
   BreakLog log_;
-  StateInRestart restarted_state_;
   std::string bodies_file_, log_file_, platen_id_;
   class WorkLedger *ledger_ = nullptr; // NULL when none is kept
   class FixTimeBpm *time_ = nullptr;
@@ -157,8 +157,6 @@ private:
   void stop_if_overflowed();
   void apply_breaks();
   double platen_pressure() const;
-  double checked_intact();
-  double bridge_vector(int n);
 };
 
 } // namespace LAMMPS_NS

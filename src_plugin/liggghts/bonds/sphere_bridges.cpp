@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "sphere_bridges.h"
+#include "bond_sums.h"
 #include "error.h"
 #include "fix.h"
 #include "material_checks.h"
@@ -145,9 +146,28 @@ void SphereBridges::check_sums(const BondPairs &pairs, const BreakTotals &broken
   }
 }
 
+// Sum over all ranks [fJ].
 double SphereBridges::energy_on_collector() const {
   const double mine = on_collector_ ? on_collector_->strain_energy() : 0.0;
   double all = 0.0;
   MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;
+}
+
+double SphereBridges::output(int n, BondEvents &bonds, const BreakTotals &broken) const {
+  using calendem::kBridgeKinds;
+  if (n == 0)
+    check_sums(bonds.pairs(), broken);
+  if (n < kBridgeKinds)
+    return made_[n];
+  switch (n - kBridgeKinds) {
+  case kBridgeKinds:
+    return energy_on_collector() + BondSums(lmp, bonds).strain_energy(kBridge);
+  case kBridgeKinds + 1:
+    return broken.bridge_energy;
+  case kBridgeKinds + 2:
+    return 1.0 - settings_.material.rest;
+  default:
+    return broken.of_bridges[n - kBridgeKinds];
+  }
 }

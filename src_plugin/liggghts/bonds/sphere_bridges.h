@@ -60,10 +60,8 @@ public:
   void count_made(const BondPairs &pairs);
   bigint made(calendem::BridgeKind kind) const { return made_[int(kind)]; }
   void set_made(calendem::BridgeKind kind, bigint n) { made_[int(kind)] = n; }
-  /// Stops the run unless made = intact + broken for each kind.
-  void check_sums(const BondPairs &pairs, const BreakTotals &broken) const;
-  /// Of all ranks' bridges on the collector [fJ].
-  double energy_on_collector() const;
+  /// Value n, from 0, of those that fix bond/bpm shows of bridges.
+  double output(int n, class BondEvents &bonds, const BreakTotals &broken) const;
   void restart(double shrunk) { shrunk_ = shrunk; }
 
 private:
@@ -76,6 +74,9 @@ private:
   bigint made_[calendem::kBridgeKinds] = {};
 
   void check_strengths() const;
+  /// Stops the run unless made = intact + broken for each kind.
+  void check_sums(const BondPairs &pairs, const BreakTotals &broken) const;
+  double energy_on_collector() const;
   void count(const BondPairs &pairs, bigint *of_kind) const;
 };
 

@@ -33,7 +33,7 @@ class WorkLedger {
 public:
   virtual ~WorkLedger() {}
 
-  /// That of the run, NULL if none is kept.
+  /// The one of the run, NULL if none is kept.
   static WorkLedger *find(class LAMMPS *lmp);
 
   // per pair; what is added to ghosts is their owner's business
@@ -47,16 +47,16 @@ public:
   }
   void add_friction(int i, const ForceAndTorque &a) { loads_[i].friction = loads_[i].friction + a; }
 
-  /// Of the latest force computation; summed where there is a fix elongation.
+  /// Moments of the latest force computation; summed where there is a fix elongation.
   PairMoments &moments() { return moments_; }
 
   /// What the law of a contact has taken [fJ].
   void add_taken(double work, calendem::WorkTaken term) {
     sums_[term == calendem::WorkTaken::PlasticFlow ? kPlastic : kViscous] += work;
   }
-  /// Of a bridge that shrinks [fJ]: its tension times its length at creation.
+  /// Adds what a shrinking bridge does [fJ]: its tension times its length at creation.
   void add_shrinking(double work) { shrinking_ += work; }
-  // Of a pair: each of its copies calls, one counts.
+  // Each copy of a pair calls these, one counts.
   virtual void add_taken(int i, int j, double work, calendem::WorkTaken term) = 0;
   virtual void add_shrinking(int i, int j, double work) = 0;
   void shrinking_ends(double work) { ended_ += work; }

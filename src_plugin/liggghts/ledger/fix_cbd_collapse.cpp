@@ -5,6 +5,7 @@
 #include "error.h"
 #include "fix_bond_bpm.h"
 #include "fix_energy_bpm.h"
+#include "fix_time_bpm.h"
 #include "fix_wall_gran_platen.h"
 #include "force.h"
 #include "global_properties.h"
@@ -97,10 +98,10 @@ void FixCbdCollapse::check() {
     error->fix_error(FLERR, this, "'floor' must not lie above 'initial'");
 }
 
-void FixCbdCollapse::post_create() { restarted_state_.remember(modify, this); }
+void FixCbdCollapse::post_create() { FixTimeBpm::of(lmp)->claim_state(this); }
 
 void FixCbdCollapse::init() {
-  restarted_state_.stop_if_lost(modify, error, this);
+  FixTimeBpm::of(lmp)->stop_if_state_is_lost(this);
   reset_dt();
   bonds_ = FixBondBpm::find(lmp, "fix cbd/collapse");
   energy_ = FixEnergyBpm::find(lmp);

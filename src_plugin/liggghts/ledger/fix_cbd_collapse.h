@@ -25,7 +25,6 @@ FixStyle(cbd/collapse, FixCbdCollapse)
 #include "physics/fixed_point.h"
 #include "physics/nanopore_collapse.h"
 #include "physics/time_count.h"
-#include "state_in_restart.h"
 #include <string>
 #include <vector>
 
@@ -59,7 +58,6 @@ public:
   void restart(char *);
 
 private:
-  StateInRestart restarted_state_;
   calendem::NanoporeCollapse law_;
   calendem::TimeCount since_; // the last update
   int type_;

@@ -106,7 +106,8 @@ calendem::BondCoefficients FixCheckTimestepBpm::stiffness_of(int ti, int tj, dou
   return calendem::contact_stiffness(effects_.modulus(ti, tj), effects_.shear_modulus(ti, tj), a);
 }
 
-// Of sphere i with the contacts that `pressure` will make with spheres or a wall of type `other`.
+// The bound of sphere i with the contacts that `pressure` will make with spheres or a wall of type
+// `other`.
 double FixCheckTimestepBpm::contact_bound(int i, int other, const Sphere &bonds,
                                           const Sphere &bridges) const {
   const calendem::BondMaterial &material =

@@ -5,6 +5,7 @@
 #include "error.h"
 #include "fix_bond_bpm.h"
 #include "fix_property_atom.h"
+#include "fix_time_bpm.h"
 #include "fix_wall_gran_platen.h"
 #include "force.h"
 #include "global_properties.h"
@@ -40,10 +41,10 @@ FixEnergyBpm *FixEnergyBpm::find(LAMMPS *lmp) {
   return static_cast<FixEnergyBpm *>(lmp->modify->find_fix_style_strict("energy/bpm", 0));
 }
 
-void FixEnergyBpm::post_create() { restarted_state_.remember(modify, this); }
+void FixEnergyBpm::post_create() { FixTimeBpm::of(lmp)->claim_state(this); }
 
 void FixEnergyBpm::init() {
-  restarted_state_.stop_if_lost(modify, error, this);
+  FixTimeBpm::of(lmp)->stop_if_state_is_lost(this);
   if (modify->n_fixes_style_strict("energy/bpm") > 1)
     error->fix_error(FLERR, this, "there may be only one");
   bonds_ = FixBondBpm::find(lmp, "fix energy/bpm");

@@ -30,7 +30,6 @@ FixStyle(energy/bpm, FixEnergyBpm)
 #include "contact_effects.h"
 #include "fix.h"
 #include "physics/web_elongation.h"
-#include "state_in_restart.h"
 #include "work_ledger.h"
 #include <vector>
 
@@ -75,7 +74,6 @@ private:
     double friction; ///< and of the friction along x
   };
 
-  StateInRestart restarted_state_;
   class FixBondBpm *bonds_;
   class CellGrowth *cell_; // NULL: it keeps its sides
   ContactEffects effects_;

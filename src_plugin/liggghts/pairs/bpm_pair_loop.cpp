@@ -29,7 +29,7 @@ Vec3 difference(const double *a, const double *b) {
 } // namespace
 
 BpmPairLoop::BpmPairLoop(LAMMPS *lmp)
-    : Pointers(lmp), known_(lmp), table_(lmp), step_(new PairStep()) {}
+    : Pointers(lmp), known_(lmp), forces_(lmp), table_(lmp), step_(new PairStep()) {}
 
 void BpmPairLoop::connect(int bond_offset, int effects_offset) {
   bonds_ = BondEvents::find(lmp, "pair_style gran");
@@ -53,9 +53,13 @@ void BpmPairLoop::connect(int bond_offset, int effects_offset) {
   if (memory_ >= 0)
     effects_.connect(registry, "pair_style gran");
   contacts_are_read_ = contacts_are_read(*modify);
+  forces_.connect(bonds_);
   table_.connect(bonds_, bond_, memory_, spring_);
   bonds_->pairs().set_loop(this);
   known_.find();
+  radii_vary_ = false;
+  for (int k = 0; k < modify->nfix; ++k)
+    radii_vary_ |= modify->fix[k]->rad_mass_vary_flag != 0;
 }
 
 BpmPairLoop::~BpmPairLoop() {
@@ -81,39 +85,8 @@ void BpmPairLoop::check_reference() const {
 
 void BpmPairLoop::prepare() {
   known_.check();
-  if (neighbor->ago == 0)
-    choose_units();
-}
-
-// Of the spheres that there are, and of those that fixes will insert.
-double BpmPairLoop::largest_radius() const {
-  double mine = 0.0, largest = 0.0;
-  for (int i = 0; i < atom->nlocal; ++i)
-    mine = std::max(mine, atom->radius[i]);
-  for (int k = 0; k < modify->nfix; ++k)
-    for (int type = 1; type <= known_.highest(); ++type)
-      if (modify->fix[k]->use_rad_for_cut_neigh_and_ghost())
-        mine = std::max(mine, modify->fix[k]->max_rad(type));
-  MPI_Allreduce(&mine, &largest, 1, MPI_DOUBLE, MPI_MAX, world);
-  return largest;
-}
-
-// A force of E R^2 would press a sphere into another by its radius; a bond of larger radius bears
-// more. The largest radius that there ever was restarts: a run that goes on has the same units.
-void BpmPairLoop::choose_units() {
-  const double largest = bonds_->largest_radius(largest_radius());
-  const calendem::BondMaterial &bond = bonds_->settings().material,
-                               &bridge = bonds_->bridge_settings().material;
-  const double section = largest * std::max({1.0, bond.radius_ratio, bridge.radius_ratio});
-  double modulus = std::max(bond.youngs_modulus, bridge.youngs_modulus);
-  for (int a = 1; a <= known_.highest(); ++a)
-    for (int b = 1; b <= known_.highest(); ++b)
-      modulus = std::max(modulus, modulus_[a][b]);
-  const double force = modulus * section * section;
-  if (force > 0.0) {
-    force_unit_ = calendem::FixedPoint(force);
-    torque_unit_ = calendem::FixedPoint(force * section);
-  }
+  if (neighbor->ago == 0 || radii_vary_)
+    forces_.choose_units(modulus_, known_.highest());
 }
 
 // Anew in every step: the host's properties may change.
@@ -129,11 +102,8 @@ void BpmPairLoop::copy_materials() {
 // True if radii have changed.
 bool BpmPairLoop::copy_spheres() {
   const int n = atom->nlocal + atom->nghost;
-  if (n > static_cast<int>(spheres_.size())) {
+  if (n > static_cast<int>(spheres_.size()))
     spheres_.resize(n + n / 8);
-    forces_.resize(n + n / 8);
-  }
-  std::fill(forces_.begin(), forces_.begin() + n, WholeForce());
   bool resized = false;
   for (int k = 0; k < n; ++k) {
     Sphere &s = spheres_[k];
@@ -153,32 +123,33 @@ void BpmPairLoop::compute_force(PairGran *pair) {
   virial_ = pair->evflag ? pair : nullptr;
   copy_materials();
   const bool resized = copy_spheres();
-  if (table_.holds())
+  if (table_.holds_histories())
     table_.update(resized);
   else
-    table_.take(pair);
-  table_.touch();
+    table_.adopt_lists(pair);
+  table_.mark_changed();
+  forces_.clear(atom->nlocal + atom->nghost);
   bigint acting = table_.deciding();
   for (int n = 0; n < table_.bonds.tiles(); ++n)
-    acting -= work_off(table_.bonds, n, bonds_->settings());
+    acting -= compute_tile(table_.bonds, n, bonds_->settings());
   for (int n = 0; n < table_.bridges.tiles(); ++n)
-    acting -= work_off(table_.bridges, n, bonds_->bridge_settings());
+    acting -= compute_tile(table_.bridges, n, bonds_->bridge_settings());
   for (int n = 0; n < table_.contacts.tiles(); ++n)
-    work_off(table_.contacts.tile(n));
-  add_forces(pair);
+    compute_tile(table_.contacts.tile(n));
+  forces_.add_to_atoms(pair);
   if (update_)
     bonds_->count_acting(acting);
   if (update->whichflag != 1) // nobody says when lists are built
-    table_.release();
+    table_.release_histories();
   else if (contacts_are_read_)
-    table_.store();
+    table_.store_histories();
 }
 
 // Returns how many of the bonds that this rank decides do not act, as they are stretched beyond the
 // range of histories. Of a bridge the contact stands elsewhere.
-int BpmPairLoop::work_off(PairTable::Bonds &list, int n, const BondSettings &b) {
+int BpmPairLoop::compute_tile(PairTable::Bonds &list, int n, const BondSettings &b) {
   BondTile &tile = list.tile(n);
-  fill(tile);
+  gather_spheres(tile);
   run_bonds(tile, *step_, b.material, b.strength, b.criterion, update_, update->dt);
   const int lost = watch_bonds(list, n, b);
   if (&list == &table_.bonds) {
@@ -196,21 +167,21 @@ int BpmPairLoop::work_off(PairTable::Bonds &list, int n, const BondSettings &b) 
   return lost;
 }
 
-void BpmPairLoop::work_off(ContactTile &tile) {
-  fill(tile);
+void BpmPairLoop::compute_tile(ContactTile &tile) {
+  gather_spheres(tile);
   run_hertz(tile, *step_, materials_.data());
   if (memory_ >= 0)
-    act_effects(tile);
+    apply_effects(tile);
   run_contacts(tile, *step_, materials_.data(), update_, update->dt);
   if (update_)
-    watch_contacts(tile);
+    mark_separated(tile);
   book_moment(tile);
   sum_forces(tile);
   if (ledger_)
     book_contacts(tile);
 }
 
-void BpmPairLoop::fill(const PairTile &t) {
+void BpmPairLoop::gather_spheres(const PairTile &t) {
   const double *x = atom->x[0];
   PairStep &s = *step_;
   for (int p = 0; p < t.size; ++p) {
@@ -239,21 +210,21 @@ void BpmPairLoop::add_gradient(int size) {
 }
 
 // Contacts between types on which an effect acts follow its law instead of Hertz's.
-void BpmPairLoop::act_effects(const ContactTile &t) {
+void BpmPairLoop::apply_effects(const ContactTile &t) {
   PairStep &s = *step_;
   for (int p = 0; p < t.size; ++p) {
     const double overlap = acting_overlap(t, s, p);
     if (overlap == 0.0) {
-      table_.forget_effect(t.history[p]);
+      table_.clear_effect(t.history[p]);
       continue;
     }
     const int a = atom->type[t.i[p]], b = atom->type[t.j[p]];
     if (!effects_.act(a, b) || BondHistory(t.history[p] + bond_).has_reference())
       continue;
-    const EffectContact contact =
-        EffectContact::of_spheres(a, b, s.radius_i[p], s.radius_j[p], overlap);
+    EffectContact contact = EffectContact::of_spheres(a, b, s.radius_i[p], s.radius_j[p], overlap);
     double *memory = t.history[p] + memory_;
     if (update_) {
+      effects_.grow(contact, t.i[p], t.j[p]);
       const Vec3 n = (1.0 / std::sqrt(s.r_squared[p])) * s.d[p];
       const double before = overlap + dot(s.v[p], n) * update->dt;
       const double taken = effects_.advance(contact, before, update->dt, memory);
@@ -299,14 +270,14 @@ int BpmPairLoop::watch_bonds(PairTable::Bonds &list, int n, const BondSettings &
   return lost;
 }
 
-void BpmPairLoop::watch_contacts(ContactTile &t) {
-  long long parting = 0;
+void BpmPairLoop::mark_separated(ContactTile &t) {
+  long long separated = 0;
 #pragma GCC ivdep
   for (int p = 0; p < t.size; ++p)
-    parting += (t.parts[p] != 0.0) & !step_->touches(p);
-  for (int p = 0; parting > 0 && p < t.size; ++p)
-    if (t.parts[p] != 0.0 && !step_->touches(p))
-      table_.part(t, p);
+    separated += (t.separating[p] != 0.0) & !step_->touches(p);
+  for (int p = 0; separated > 0 && p < t.size; ++p)
+    if (t.separating[p] != 0.0 && !step_->touches(p))
+      table_.mark_separated(t, p);
 }
 
 void BpmPairLoop::sum_forces(const PairTile &t) {
@@ -314,55 +285,10 @@ void BpmPairLoop::sum_forces(const PairTile &t) {
   for (int p = 0; virial_ && p < t.size; ++p)
     virial_->ev_tally_xyz(t.i[p], t.j[p], atom->nlocal, 0, 0.0, 0.0, s.force.x[p], s.force.y[p],
                           s.force.z[p], s.d.x[p], s.d.y[p], s.d.z[p]);
-  if (!round_off(t.size, *step_, force_unit_, torque_unit_))
-    report_overflow(t);
-  for (int p = 0; p < t.size; ++p) {
-    WholeForce &on_i = forces_[t.i[p]], &on_j = forces_[t.j[p]];
-    for (int k = 0; k < 4; ++k)
-      on_i.force[k] += step_->whole[0][p][k];
-    for (int k = 0; k < 4; ++k)
-      on_i.torque[k] += step_->whole[1][p][k];
-    for (int k = 0; k < 4; ++k)
-      on_j.force[k] -= step_->whole[0][p][k];
-    for (int k = 0; k < 4; ++k)
-      on_j.torque[k] += step_->whole[2][p][k];
-  }
+  forces_.add_tile(t, *step_);
 }
 
-void BpmPairLoop::report_overflow(const PairTile &t) {
-  for (int p = 0; p < t.size; ++p)
-    for (const auto &of : step_->whole)
-      if (!calendem::SumCheck::can_be_added(static_cast<double>(static_cast<long long>(of[p][3]))))
-        bonds_->force_overflows(atom->tag[t.i[p]]);
-}
-
-void BpmPairLoop::add_forces(PairGran *pair) {
-  for (int i = 0; i < atom->nlocal; ++i) {
-    const double relax = pair->relax(i);
-    const WholeForce &sum = forces_[i];
-    if (!calendem::SumCheck::fits(sum.force) || !calendem::SumCheck::fits(sum.torque))
-      bonds_->force_overflows(atom->tag[i]);
-    for (int k = 0; k < 3; ++k) {
-      atom->f[i][k] += relax * force_unit_.value(static_cast<long long>(sum.force[k]));
-      atom->torque[i][k] += relax * torque_unit_.value(static_cast<long long>(sum.torque[k]));
-    }
-  }
-}
-
-void BpmPairLoop::stop_overflow(int tag) const {
-  const double most = calendem::SumCheck::kMost;
-  char message[400];
-  snprintf(message, sizeof message,
-           "particle %d is under a force or torque of more than the units of its sum hold: %.3g, "
-           "%.3g (in "
-           "the script's units), more than pressing one sphere into another by its radius takes. "
-           "The time "
-           "step is too large, or something moves too fast: lower the timestep or the speed",
-           tag, most * force_unit_.unit, most * torque_unit_.unit);
-  stop_run(lmp, FLERR, message);
-}
-
-// Of a pair with a ghost, each copy has a half.
+// Each copy of a pair with a ghost has a half.
 double BpmPairLoop::moment(const PairTile &t, const VectorRow &force) const {
   double sum = 0.0;
   for (int p = 0; p < t.size; ++p)

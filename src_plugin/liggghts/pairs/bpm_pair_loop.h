@@ -9,6 +9,7 @@
 
 #include "bond_events.h"
 #include "contact_effects.h"
+#include "force_sums.h"
 #include "known_types.h"
 #include "pair_table.h"
 #include "pair_tile.h"
@@ -21,12 +22,6 @@ namespace LAMMPS_NS {
 /// What the laws need of an atom beside its place: one line of the cache.
 struct alignas(64) Sphere {
   double v[3], omega[3], radius, mass;
-};
-
-/// Sums of forces and torques on an atom, in units of a FixedPoint; unsigned, as they may pass
-/// through numbers that are too large on their way. The last of each is a SumCheck.
-struct alignas(64) WholeForce {
-  unsigned long long force[4], torque[4];
 };
 
 class BpmPairLoop : protected Pointers, public PairLoop {
@@ -43,16 +38,15 @@ public:
   /// Stops the run if what the host's loop is to compute is not in it.
   void check_reference() const;
   /// Before either loop: stops the run if an atom has a type whose properties are not known; with
-  /// new lists, chooses units that hold the forces on all atoms.
+  /// new lists or other radii, chooses units that hold the forces on all atoms.
   void prepare();
   void compute_force(class PairGran *pair);
 
-  /// Histories that this holds, back to the host's lists; release() leaves them there.
-  void store_histories() { table_.store(); }
-  void release_histories() { table_.release(); }
+  // PairLoop
+  void store_histories() { table_.store_histories(); }
+  void release_histories() { table_.release_histories(); }
 
-  /// Stops the run: the forces on that atom were beyond the units of their sum.
-  void stop_overflow(int tag) const;
+  void stop_overflow(int tag) const { forces_.stop_overflow(tag); }
 
 private:
   BondEvents *bonds_ = nullptr;
@@ -62,13 +56,13 @@ private:
   double **friction_ = nullptr, **cohesion_ = nullptr;
   double **modulus_ = nullptr, **shear_modulus_ = nullptr, **damping_ = nullptr;
   KnownTypes known_;
-  std::vector<PairMaterial> materials_;           // of known types a, b at a * types_ + b
-  int types_ = 0;                                 // of the box, and 1
-  int bond_ = 0, memory_ = -1, spring_ = -1;      // offsets in the history
-  bool contacts_are_read_ = false;                // by a style of the host, in every step
-  std::vector<Sphere> spheres_;                   // atoms and ghosts in this step
-  std::vector<WholeForce> forces_;                // on them
-  calendem::FixedPoint force_unit_, torque_unit_; // of these [nN], [nN um]
+  std::vector<PairMaterial> materials_;      // of known types a, b at a * types_ + b
+  int types_ = 0;                            // of the box, and 1
+  int bond_ = 0, memory_ = -1, spring_ = -1; // offsets in the history
+  bool contacts_are_read_ = false;           // by a style of the host, in every step
+  bool radii_vary_ = false;                  // by a fix of the host, between two lists
+  std::vector<Sphere> spheres_;              // atoms and ghosts in this step
+  ForceSums forces_;                         // on them
   PairTable table_;
   const std::unique_ptr<PairStep> step_;
   bool update_ = true;           // histories advance: not during set-up
@@ -76,20 +70,16 @@ private:
 
   void copy_materials();
   bool copy_spheres();
-  void fill(const PairTile &tile);
-  int work_off(PairTable::Bonds &list, int tile, const struct BondSettings &);
-  void work_off(ContactTile &tile);
+  void gather_spheres(const PairTile &tile);
+  int compute_tile(PairTable::Bonds &list, int tile, const struct BondSettings &);
+  void compute_tile(ContactTile &tile);
   int watch_bonds(PairTable::Bonds &list, int tile, const BondSettings &);
-  void watch_contacts(ContactTile &tile);
-  void act_effects(const ContactTile &tile);
+  void mark_separated(ContactTile &tile);
+  void apply_effects(const ContactTile &tile);
   void add_gradient(int size);
   double moment(const PairTile &tile, const VectorRow &force) const;
   void book_moment(const PairTile &tile);
-  double largest_radius() const;
-  void choose_units();
   void sum_forces(const PairTile &tile);
-  void report_overflow(const PairTile &tile);
-  void add_forces(class PairGran *pair);
   void book_bonds(const BondTile &tile);
   void book_shrinking(const BondTile &tile, const calendem::BondMaterial &);
   void book_contacts(const PairTile &tile);

@@ -131,7 +131,7 @@ private:
                                    calendem::load(s.omega_i), calendem::load(s.omega_j), n, r});
     calendem::BondLoads loads = bond.loads();
     if (s.computeflag && s.shearupdate) {
-      bonds_->acts(s.i, s.j);
+      bonds_->count_acting_pair(s.i, s.j);
       pair.advance(loads, update->dt);
       bond.set_loads(loads);
       if (b.breakable && pair.fails(loads, b.strength_of(bond.strength_factor()), b.criterion))

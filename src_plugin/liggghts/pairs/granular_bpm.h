@@ -18,7 +18,7 @@ namespace ContactModels {
 template <int M, int T, int C, int R, int S> struct GranStyle;
 template <typename Style> class ContactModel;
 
-/// The same contact objects under another name, which the host's own loop takes.
+/// Contact objects under another name, which the host's own loop takes.
 template <typename Style> class ReferenceModel : public ContactModel<Style> {
 public:
   using ContactModel<Style>::ContactModel;

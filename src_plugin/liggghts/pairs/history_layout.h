@@ -6,8 +6,8 @@
 
 namespace LAMMPS_NS {
 
-/// Of the first of the tangential model's values, -1 if it has none; an error if the pair style
-/// stores others.
+/// Offset of the first of the tangential model's values, -1 if it has none; an error if the pair
+/// style stores others.
 int friction_history_offset(class LAMMPS *lmp, int bond_offset);
 
 } // namespace LAMMPS_NS

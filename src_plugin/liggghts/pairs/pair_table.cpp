@@ -14,7 +14,7 @@ using namespace LIGGGHTS::ContactModels;
 
 namespace {
 
-// Of the lists' skin: a wider gap sorts less often and works on more pairs that do not touch.
+// Share of the lists' skin: a wider gap sorts less often and works on more pairs that do not touch.
 constexpr double kGapOfSkin = 1.0 / 5.0;
 
 // Flags that the host's contact objects set: of spheres that are apart, that touch.
@@ -41,17 +41,17 @@ bool PairTable::is_near(int i, int j, double gap) const {
   return distance_squared(i, j) < reach * reach;
 }
 
-// Bridges as far as histories reach.
+// As far as histories reach.
 void PairTable::make_bonds(int i, int j, BondHistory &history) const {
   const double r = std::sqrt(distance_squared(i, j));
   const double reach = neighbor->contactDistanceFactor * (atom->radius[i] + atom->radius[j]);
-  if (is_near(i, j, 0.0))
-    bonds_->create(i, j, r, history);
-  if (r < reach)
-    bonds_->bridge(i, j, r, history);
+  if (r >= reach)
+    return;
+  bonds_->make_bond(i, j, r, history);
+  bonds_->make_bridge(i, j, r, history);
 }
 
-void PairTable::take(PairGran *pair) {
+void PairTable::adopt_lists(PairGran *pair) {
   for (Bonds *list : {&bonds, &bridges}) {
     list->clear();
     list->failed.clear();
@@ -67,7 +67,7 @@ void PairTable::take(PairGran *pair) {
     for (int k = 0; k < list->numneigh[i]; ++k) {
       const int j = list->firstneigh[i][k] & NEIGHMASK;
       int *flags = list->listgranhistory->firstneigh[i] + k;
-      take({i, j, list->listgranhistory->firstdouble[i] + dnum * k, flags});
+      sort_pair({i, j, list->listgranhistory->firstdouble[i] + dnum * k, flags});
     }
   }
   remember_positions();
@@ -75,7 +75,7 @@ void PairTable::take(PairGran *pair) {
   stored_ = false;
 }
 
-void PairTable::take(const FarPair &pair) {
+void PairTable::sort_pair(const FarPair &pair) {
   BondHistory history = bond(pair.history);
   if (bonds_->creating())
     make_bonds(pair.i, pair.j, history);
@@ -87,24 +87,24 @@ void PairTable::take(const FarPair &pair) {
   if (state == kBrokenTouching || is_near(pair.i, pair.j, gap_))
     add_contact(pair);
   else
-    leave(pair);
+    make_far(pair);
 }
 
-void PairTable::put(PairTile &t, int p, const FarPair &pair) const {
+void PairTable::place_pair(PairTile &t, int p, const FarPair &pair) const {
   const int i = pair.i, j = pair.j;
   t.i[p] = i;
   t.j[p] = j;
   t.material[p] = atom->type[i] * (atom->ntypes + 1) + atom->type[j];
   t.history[p] = pair.history;
   t.flags[p] = pair.flags;
-  refer(t, p);
+  update_reference(t, p);
   t.displacement.set(p, calendem::load(pair.history + spring_));
 }
 
 void PairTable::add_bond(Bonds &list, const FarPair &pair) {
   const int n = list.add(), p = list.at(n);
   BondTile &t = list.of(n);
-  put(t, p, pair);
+  place_pair(t, p, pair);
   const BondHistory history = bond(pair.history);
   const calendem::BondLoads loads = history.loads();
   t.length[p] = history.length();
@@ -118,12 +118,12 @@ void PairTable::add_bond(Bonds &list, const FarPair &pair) {
 void PairTable::add_contact(const FarPair &pair) {
   const int n = contacts.add(), p = contacts.at(n);
   ContactTile &t = contacts.of(n);
-  put(t, p, pair);
-  t.parts[p] = bond(pair.history).state() == kBrokenTouching ? 1.0 : 0.0;
+  place_pair(t, p, pair);
+  t.separating[p] = bond(pair.history).state() == kBrokenTouching ? 1.0 : 0.0;
 }
 
 // The far pairs that are not far any more.
-void PairTable::sort_far() {
+void PairTable::sort_far_pairs() {
   size_t left = 0;
   for (const FarPair &pair : far_)
     if (is_near(pair.i, pair.j, gap_))
@@ -138,23 +138,23 @@ void PairTable::sort_contacts() {
   for (int n = contacts.pairs() - 1; n >= 0; --n) {
     const ContactTile &t = contacts.of(n);
     const int p = contacts.at(n);
-    if (is_near(t.i[p], t.j[p], gap_) || t.parts[p] != 0.0)
+    if (is_near(t.i[p], t.j[p], gap_) || t.separating[p] != 0.0)
       continue;
-    leave({t.i[p], t.j[p], t.history[p], t.flags[p]});
+    make_far({t.i[p], t.j[p], t.history[p], t.flags[p]});
     contacts.remove(n);
   }
 }
 
-void PairTable::forget_effect(double *history) const {
+void PairTable::clear_effect(double *history) const {
   if (memory_ >= 0)
     std::fill_n(history + memory_, ContactEffects::kMemory, 0.0);
 }
 
-void PairTable::leave(const FarPair &pair) {
+void PairTable::make_far(const FarPair &pair) {
   double *spring = pair.history + spring_;
   if (spring[0] != 0.0 || spring[1] != 0.0 || spring[2] != 0.0) // most are zero
     spring[0] = spring[1] = spring[2] = 0.0;
-  forget_effect(pair.history);
+  clear_effect(pair.history);
   far_.push_back(pair);
 }
 
@@ -164,7 +164,7 @@ void PairTable::remember_positions() {
 }
 
 // True if two spheres may have come nearer by all but a little of the far pairs' gap.
-bool PairTable::moved() const {
+bool PairTable::spheres_moved() const {
   const double *x = atom->x[0], *before = positions_.data();
   const double limit = 0.24 * gap_ * gap_;
   long long beyond = 0;
@@ -176,26 +176,26 @@ bool PairTable::moved() const {
   return beyond > 0;
 }
 
-void PairTable::refer(PairTile &t, int p) const {
+void PairTable::update_reference(PairTile &t, int p) const {
   const double radius_sum = atom->radius[t.i[p]] + atom->radius[t.j[p]];
   t.reference[p] = bond(t.history[p]).reference_overlap(radius_sum);
 }
 
-void PairTable::refer_all() {
+void PairTable::update_references() {
   for (int n = 0; n < bonds.pairs(); ++n)
-    refer(bonds.of(n), bonds.at(n));
+    update_reference(bonds.of(n), bonds.at(n));
   for (int n = 0; n < contacts.pairs(); ++n)
-    refer(contacts.of(n), contacts.at(n));
+    update_reference(contacts.of(n), contacts.at(n));
 }
 
 void PairTable::update(bool resized) {
   drop_broken();
   if (resized)
-    refer_all();
-  if (!resized && !moved())
+    update_references();
+  if (!resized && !spheres_moved())
     return;
   sort_contacts();
-  sort_far();
+  sort_far_pairs();
   remember_positions();
 }
 
@@ -212,12 +212,12 @@ void PairTable::drop_broken() {
     if (!has_broken(*list))
       continue;
     for (size_t k = list->failed.size(); k-- > 0;)
-      drop(*list, list->failed[k]);
+      drop_bond(*list, list->failed[k]);
     list->failed.clear();
   }
 }
 
-void PairTable::drop(Bonds &list, int broken) {
+void PairTable::drop_bond(Bonds &list, int broken) {
   const BondTile &t = list.of(broken);
   const int p = list.at(broken);
   const FarPair pair = {t.i[p], t.j[p], t.history[p], t.flags[p]};
@@ -229,11 +229,11 @@ void PairTable::drop(Bonds &list, int broken) {
   list.remove(broken);
 }
 
-void PairTable::part(ContactTile &t, int p) {
+void PairTable::mark_separated(ContactTile &t, int p) {
   BondHistory history = bond(t.history[p]);
-  bonds_->separate(t.i[p], t.j[p], history);
-  t.parts[p] = 0.0;
-  refer(t, p);
+  bonds_->mark_separated(t.i[p], t.j[p], history);
+  t.separating[p] = 0.0;
+  update_reference(t, p);
 }
 
 void PairTable::store_loads(const BondTile &t, int p) const {
@@ -253,7 +253,7 @@ int PairTable::contact_flags(int i, int j) const {
   return is_near(i, j, 0.0) ? kInContact : kApart;
 }
 
-void PairTable::store() {
+void PairTable::store_histories() {
   if (!holds_ || stored_)
     return;
   drop_broken();
@@ -273,7 +273,7 @@ void PairTable::store() {
   stored_ = true;
 }
 
-void PairTable::release() {
-  store();
+void PairTable::release_histories() {
+  store_histories();
   holds_ = false;
 }

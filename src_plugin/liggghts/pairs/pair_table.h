@@ -2,9 +2,9 @@
 // The pairs of a rank in tiles: intact bonds, other pairs that touch or may soon, and far ones.
 // They are sorted when the host has built its lists and, as far as spheres have come nearer, again
 // between two builds. Loads of bonds and displacements of contacts are kept in the tiles meanwhile;
-// store() writes them, and the contact flags, back to the host's lists, which alone hold all the
-// rest: at the end of a run, before the host saves its histories, whenever something of the plugin
-// reads them, and after each step in which a style of the host could (contact_readers.h).
+// store_histories() writes them, and the contact flags, back to the host's lists, which alone hold
+// all the rest: at the end of a run, before the host saves its histories, whenever something of the
+// plugin reads them, and after each step in which a style of the host could (contact_readers.h).
 #ifndef CALENDEM_PAIR_TABLE_H
 #define CALENDEM_PAIR_TABLE_H
 
@@ -53,19 +53,19 @@ public:
   /// Offsets in a pair's history.
   void connect(BondEvents *bonds, int bond_offset, int effects_offset, int spring_offset);
 
-  /// False before take() and after release().
-  bool holds() const { return holds_; }
+  /// False before adopt_lists() and after release_histories().
+  bool holds_histories() const { return holds_; }
   /// All pairs of the lists; makes the bonds if it is time.
-  void take(class PairGran *pair);
+  void adopt_lists(class PairGran *pair);
   /// To be called before each use: pairs whose bond has broken are contacts, and far ones that have
   /// come near are among them. `resized`: radii have changed.
   void update(bool resized);
   /// Values of the tiles have changed.
-  void touch() { stored_ = false; }
+  void mark_changed() { stored_ = false; }
   /// Writes the tiles' values into the histories.
-  void store();
-  /// And leaves them to the host.
-  void release();
+  void store_histories();
+  /// Writes them, and leaves them to the host.
+  void release_histories();
 
   /// Bonds of one kind, and those that have failed since, in ascending order.
   struct Bonds : TileList<BondTile> {
@@ -76,9 +76,9 @@ public:
   int deciding() const { return deciding_; } ///< bonds and bridges that this rank decides
   void store_loads(const BondTile &tile, int p) const;
   /// Spheres of what was a bond have separated.
-  void part(ContactTile &tile, int p);
+  void mark_separated(ContactTile &tile, int p);
   /// The spheres do not touch: the effect of the contact forgets.
-  void forget_effect(double *history) const;
+  void clear_effect(double *history) const;
 
 private:
   struct FarPair {
@@ -96,22 +96,22 @@ private:
   std::vector<double> positions_; // then
 
   BondHistory bond(double *history) const { return BondHistory(history + bond_); }
-  bool moved() const;
+  bool spheres_moved() const;
   void remember_positions();
-  void sort_far();
+  void sort_far_pairs();
   void sort_contacts();
-  void refer(PairTile &t, int p) const;
-  void refer_all();
+  void update_reference(PairTile &t, int p) const;
+  void update_references();
   bool has_broken(Bonds &list);
   void drop_broken();
-  void drop(Bonds &list, int bond);
+  void drop_bond(Bonds &list, int bond);
   void store_contact(const PairTile &tile, int p) const;
   int contact_flags(int i, int j) const;
   double distance_squared(int i, int j) const;
   bool is_near(int i, int j, double gap) const;
-  void take(const FarPair &pair);
-  void leave(const FarPair &pair);
-  void put(PairTile &tile, int p, const FarPair &pair) const;
+  void sort_pair(const FarPair &pair);
+  void make_far(const FarPair &pair);
+  void place_pair(PairTile &tile, int p, const FarPair &pair) const;
   void make_bonds(int i, int j, BondHistory &history) const;
   void add_bond(Bonds &list, const FarPair &pair);
   void add_contact(const FarPair &pair);

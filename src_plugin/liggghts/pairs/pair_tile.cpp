@@ -202,5 +202,5 @@ void BondTile::copy(int to, const BondTile &t, int from) {
 
 void ContactTile::copy(int to, const ContactTile &t, int from) {
   PairTile::copy(to, t, from);
-  parts[to] = t.parts[from];
+  separating[to] = t.separating[from];
 }

@@ -33,7 +33,7 @@ struct VectorRow {
   }
 };
 
-/// Of a pair of atom types.
+/// Material of a pair of atom types.
 using PairMaterial = calendem::ContactMaterial;
 
 /// Pairs that stay together for many steps, and what is remembered of them from step to step.
@@ -60,7 +60,7 @@ struct BondTile : PairTile {
 
 /// Other pairs, near enough to touch.
 struct ContactTile : PairTile {
-  Row parts; // 1 of a broken bond whose spheres have not separated yet
+  Row separating; // 1: of a broken bond, and the spheres have touched ever since
 
   void copy(int to, const ContactTile &t, int from);
 };
@@ -113,7 +113,8 @@ void run_bonds(BondTile &, PairStep &, const calendem::BondMaterial &,
 /// Contact radius and elastic force by Hertz' law.
 void run_hertz(const PairTile &, PairStep &, const PairMaterial *);
 /// Damping, friction and cohesion over a step. Of bonds the results hold the bonds' actions, the
-/// contacts' are added and cohesion does not act. A contact that does not act forgets.
+/// contacts' are added and cohesion does not act. The history of a contact is
+/// reset while it does not act.
 void run_contacts(BondTile &, PairStep &, const PairMaterial *, bool update, double dt);
 void run_contacts(ContactTile &, PairStep &, const PairMaterial *, bool update, double dt);
 /// Force and torques as whole numbers; as doubles they are gone then. False if one of them is no

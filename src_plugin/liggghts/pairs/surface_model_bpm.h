@@ -64,8 +64,8 @@ public:
   void surfacesIntersect(SurfacesIntersectData &s, ForceData &, ForceData &) {
     BondHistory bond(s.contact_history + offset_);
     if (bonds_->creating()) {
-      bonds_->create(s.i, s.j, s.r, bond);
-      bonds_->bridge(s.i, s.j, s.r, bond);
+      bonds_->make_bond(s.i, s.j, s.r, bond);
+      bonds_->make_bridge(s.i, s.j, s.r, bond);
     }
     contact_kinematics(s);
     s.deltan = bond.contact(s.r, s.radsum).overlap;
@@ -77,10 +77,12 @@ public:
     if (!s.contact_history)
       return;
     BondHistory bond(s.contact_history + offset_);
-    if (bonds_->creating())
-      bonds_->bridge(s.i, s.j, std::sqrt(s.rsq), bond);
+    if (bonds_->creating()) {
+      bonds_->make_bond(s.i, s.j, std::sqrt(s.rsq), bond);
+      bonds_->make_bridge(s.i, s.j, std::sqrt(s.rsq), bond);
+    }
     if (bond.state() == kBrokenTouching && s.computeflag && s.shearupdate)
-      bonds_->separate(s.i, s.j, bond);
+      bonds_->mark_separated(s.i, s.j, bond);
   }
 
   void endSurfacesIntersect(SurfacesIntersectData &, TriMesh *, double *const) {}

@@ -5,6 +5,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_bond_bpm.h"
+#include "fix_time_bpm.h"
 #include "fix_wall_gran_platen.h"
 #include "modify.h"
 #include "physics/fixed_point.h"
@@ -46,10 +47,10 @@ void FixElongation::check_order(const char *style, int place) {
   error->fix_error(FLERR, this, message.c_str());
 }
 
-void FixElongation::post_create() { restarted_state_.remember(modify, this); }
+void FixElongation::post_create() { FixTimeBpm::of(lmp)->claim_state(this); }
 
 void FixElongation::init() {
-  restarted_state_.stop_if_lost(modify, error, this);
+  FixTimeBpm::of(lmp)->stop_if_state_is_lost(this);
   if (modify->n_fixes_style_strict("elongation") > 1)
     error->fix_error(FLERR, this, "there may be only one");
   const int place = modify->find_fix(platen_id_.c_str());

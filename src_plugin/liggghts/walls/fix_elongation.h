@@ -18,7 +18,6 @@ FixStyle(elongation, FixElongation)
 #include "cell_growth.h"
 #include "fix.h"
 #include "physics/web_elongation.h"
-#include "state_in_restart.h"
 #include <string>
 
 namespace LAMMPS_NS {
@@ -40,7 +39,6 @@ public:
   double growth_to_come() const;
 
 private:
-  StateInRestart restarted_state_;
   /// All that restarts. `work` is this rank's share; the sum over ranks restarts.
   struct Record {
     double side = 0.0; ///< at the beginning [um]; 0: not begun

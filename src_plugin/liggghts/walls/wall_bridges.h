@@ -17,7 +17,7 @@ namespace LAMMPS_NS {
 
 class WallBridges : protected Pointers, public CollectorBridges {
 public:
-  /// Of the wall with this ID at height z [um].
+  /// Bridges on the wall with this ID at height z [um].
   WallBridges(class LAMMPS *lmp, const std::string &wall, double z);
 
   void add_storage(const char *caller);
@@ -26,14 +26,15 @@ public:
   void init(int wall);
   /// Before the forces of a set-up: is it the one in which fix bond/bpm makes its bonds?
   void note_creation();
-  /// Then, behind them: the host empties storages until there. `type`: of the wall.
+  /// Makes the bridges; to be called after the set-up, until which the host empties storages.
+  /// `type`: of the wall.
   void create(int type);
   /// Adds the bridges' forces; with `update` they follow the step's motion and may break.
   void act(bool update);
   /// Force along z on atom i in the latest act() [nN].
   double force(int i) const { return force_[i]; }
 
-  /// Of this rank.
+  /// Number of this rank's.
   bigint intact() const;
   double strain_energy() const; ///< [fJ]
   /// Adds the bridge of atom i, if there is one, to what the bound of the time step sums.

@@ -43,7 +43,7 @@ study() { # NAME ROWS CONTROL KEY: a study of rows "material porosity carbon KEY
   "$bin/calendem" study "$1.toml" -o "$1" --jobs "$(nproc)" >"$1.log" 2>&1 || status=$?
   case $status in 0 | 3 | 4) ;; *) tail "$1.log"; fail "study $1" ;; esac # 3: some runs stopped; 4: a packing failed its checks
 }
-# Of study.csv: the porosity after relaxation of each run, percent; - of one that stopped, as where the packing jams: it is
+# Prints from study.csv the porosity after relaxation of each run, percent; - of one that stopped, as where the packing jams: it is
 # no reading, and no hit.
 porosities() {
   awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) if ($k == "porosity_after_relaxation") at = k; next }

@@ -32,7 +32,7 @@ awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
   { p = $at["porosity_after_percent_median"]; if (!(p > 20 && p < 50) || (NR > 2 && p >= last)) exit 1; last = p }' \
   first.csv || fail "own/prediction.csv: more pressure leaves less, below 50 %"
 
-# The same runs choose between the pressures: each is proposed for the porosity that it leaves, within what four draws of
+# These runs choose between the pressures: each is proposed for the porosity that it leaves, within what four draws of
 # the material differ by.
 left() { awk -F, -v row="$1" 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next } NR == row + 1 { print $at["porosity_after_percent_median"] }' first.csv; }
 calendem design model/model.json other.toml --porosity "$(left 1)" --within 4 --pressure 10,60 --runs 4 --jobs 2 -o own | tee own_design.log
@@ -66,7 +66,7 @@ awk '/porosity/ { for (k = 1; k < NF; ++k) if ($k == "porosity") p[++n] = $(k + 
 grep -q "run 4 times in 2 passes under the roll" by_gap.log || fail "the gap was not run"
 grep -q '"passes": 2' by_gap/design.json || fail "design.json does not hold the passes"
 grep -q "Which gap gives" by_gap/design.html || fail "the page does not ask for a gap"
-# The same runs, which are there, as a prediction. No emulator: the bank has not this film.
+# These runs, which are there, make a prediction. No emulator: the bank has not this film.
 calendem predict model/model.json small.toml --gap 14 --runs 4 --passes 2 --jobs 2 -o by_gap >gap_runs.log || { cat gap_runs.log; fail "predict --gap --runs"; }
 grep -q "4 runs, 4 of them done already" gap_runs.log || fail "the roll's runs were made twice"
 grep -q '"runs": 4' by_gap/gap.json || fail "it is not said that runs predict at a gap"

@@ -107,7 +107,7 @@ sed -i '$d' "$work/round/handed_out/$changed/before/p30.csv"
 refused 4 "what was handed out of case $changed is not what its hash says" score
 cp "$work/before.csv" "$work/round/handed_out/$changed/before/p30.csv"
 
-# The same command makes nothing again, and hands out the same.
+# Called again, the command makes nothing, and hands out the same.
 make_round >"$work/again.log"
 grep -q "24 runs, 24 of them done already" "$work/again.log" || fail "runs were made twice"
 diff -r "$work/round/handed_out" "$work/given/copy" || fail "another round was handed out"

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double R = 0.795, kLength = 1.28;
 
-// Of the error that ended the run.
+// True if the error that ended the run has these words.
 bool says(const CaseRun &run, const std::string &words) {
   const std::string log = run.why();
   const size_t error = log.find("ERROR: ");
@@ -145,7 +145,7 @@ TEST(BetweenRuns, ARestartUnderAnotherIdIsRefused) {
   }
 }
 
-// Of the record of fix bond/bpm the first value tells the version; the next one, 1, that bonds are made.
+// The first value of fix bond/bpm's record tells the version; the next one, 1, that bonds are made.
 TEST(BetweenRuns, ARestartOfAnotherVersionIsRefused) {
   const CaseRun first = hold("write_restart half.restart\n");
   std::string file = first.text("half.restart");
@@ -155,6 +155,54 @@ TEST(BetweenRuns, ARestartOfAnotherVersionIsRefused) {
   ASSERT_NE(place, std::string::npos);
   file.replace(place, sizeof older, reinterpret_cast<const char *>(&older), sizeof older);
   EXPECT_TRUE(says(hold("", {{"from", "1"}}, {{"half.restart", file}}), "another version"));
+}
+
+// The host drops the states that nobody has asked for when the first run begins.
+TEST(BetweenRuns, AFixThatComesAfterTheFirstRunOfARestartHasLostItsState) {
+  const std::string wall = "wall/gran/platen model hertz tangential history primitive type 1 ";
+  for (const std::string &style :
+       {std::string("energy/bpm"), std::string("cbd/collapse type 1 yield 0 hardening 1e9"),
+        wall + "zplane -5.0 side bottom motion hold average 0.05"}) {
+    const std::string fix = "fix late all " + style + "\n";
+    Files files = two_pairs();
+    Settings settings = breakable();
+    settings.insert({{"bx", "p"}, {"by", "p"}});
+    files["start.in"] = fix + "run 10\nwrite_restart half.restart\n";
+    const CaseRun first("in.body", settings, 1, files);
+    EXPECT_TRUE(first.finished()) << first.why(); // without a state to lose it may come late
+    settings["restart"] = "1";
+    const CaseRun late("in.body", settings, 1,
+                       {{"half.restart", first.text("half.restart")},
+                        {"bodies.map", first.text("bodies.map")},
+                        {"start.in", fix}});
+    EXPECT_TRUE(says(late, "under the ID 'late', which no fix of the script took")) << late.why();
+    EXPECT_TRUE(says(late, "define it before that run"));
+  }
+}
+
+// The largest sphere is deleted before the restart file is written: a run that goes on from it still
+// rounds forces to the units that follow from that sphere, to the last bit of every force.
+TEST(BetweenRuns, TheLargestSphereOfAllGoesOnThroughARestart) {
+  Files files = files_of({{{0, 0, 0}, R, 0, {0.3, 0.1, 0}},
+                          {{1.57, 0, 0}, R, 0, {-0.3, 0, 0.2}},
+                          {{0, 20, 0}, 10 * R, 0}},
+                         {-20, -6, -20}, {20, 40, 20});
+  files["start.in"] += "run 10\ngroup large id 3\ndelete_atoms group large compress no\nrun 10\n"
+                       "write_restart half.restart\n";
+  Settings settings = breakable();
+  settings["bonded"] = "0";
+  settings["dt"] = "1e-6";
+  const CaseRun run("in.body", settings, 1, files);
+  ASSERT_TRUE(run.finished()) << run.why();
+  settings["restart"] = "1";
+  const CaseRun again("in.body", settings, 1,
+                      {{"half.restart", run.text("half.restart")},
+                       {"bodies.map", run.text("bodies.map")},
+                       {"start.in", "# goes on\n"}});
+  ASSERT_TRUE(again.finished()) << again.why();
+  ASSERT_EQ(run.frames().size(), 3u);
+  EXPECT_GT(std::fabs(run.frames().back()[0].at("fx")), 1e3);
+  EXPECT_EQ(again.text("spheres.dump"), run.text("spheres.dump"));
 }
 
 TEST(BetweenRuns, MinimizeIsRefused) {

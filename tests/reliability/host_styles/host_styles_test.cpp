@@ -80,6 +80,9 @@ const std::vector<HostUse> kUses = {
     {"run ... pre no", "", "", "run 50 pre no post no\nrun 50 pre no\n"},
     {"run ... every", "", "", "run 60 every 20 \"print 'bonds $(f_bonds[2])'\"\n"},
     {"reset_timestep", "", "", "reset_timestep 0\n"},
+    {"pair_style", "pair_style gran model hertz tangential history\npair_coeff * *\nrun 0\n",
+     "pair_style gran model hertz tangential history cohesion bpm surface bpm fused ${fused}\n"
+     "pair_coeff * *\n"},
     {"unfix", "", "",
      "unfix bonds\nfix bonds all bond/bpm bodies bodies.map youngs_modulus 2e8 nu 0.3 tensile 1e9 "
      "shear 1e9\n"},
@@ -189,6 +192,17 @@ TEST(HostStylesOnRanks, FindTheSameContactsOnTwoRanks) {
     compare(CaseRun("in.host", settings_of(u, "on"), 2, halves),
             CaseRun("in.host", settings_of(u, "off"), 2, halves));
   }
+}
+
+// The host has made its own fix of histories before the plugin's, which could not return them in time.
+TEST(HostStylesRefused, ABondFixAfterARunWithoutPairStyleAgain) {
+  HostUse late = {"pair_style", "pair_style gran model hertz tangential history\npair_coeff * *\n"
+                                "run 0\n"};
+  const CaseRun run("in.host", settings_of(late, "on"), 1, files_of_use(late));
+  EXPECT_FALSE(run.finished());
+  EXPECT_NE(run.why().find("ERROR: fix bond/bpm was defined after a run with this pair_style"),
+            std::string::npos)
+      << run.why();
 }
 
 // The page names every use, and the sources of the host that read lists of contacts are those that were

@@ -279,7 +279,7 @@ TEST(GapPage, HoldsItsNumbers) {
 }
 
 } // namespace
-// Of the film pressed twice, the second dwell: 80 and 70 of 100 MPa are its last quarter.
+// A film pressed twice is read in its second dwell: 80 and 70 of 100 MPa are its last quarter.
 TEST(PressureLeft, IsThatOfTheLastQuarterOfTheLastDwell) {
   std::vector<std::string> stage = {"compression", "compression", "dwell",
                                     "relaxation",  "compression", "compression"};

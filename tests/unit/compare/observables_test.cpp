@@ -127,8 +127,8 @@ TEST(Observables, ThePeakOfACoarseCurveCounts) {
   EXPECT_EQ(of_curve(rows)[3].name, "displacement at 112 MPa"); // 75 % of 150
 }
 
-// Of a film that was pressed twice, the first loading and the last release; the turns between are no
-// outliers, and nothing jumps.
+// A film that was pressed twice is read in its first loading and its last release; the turns
+// between are no outliers, and nothing jumps.
 TEST(Observables, OfTwoPressesTheFirstLoadingAndTheLastRelease) {
   std::string rows = "displacement_um,pressure_MPa,stage\n";
   const auto add = [&](double from, double to, int pressure, const std::string &stage) {

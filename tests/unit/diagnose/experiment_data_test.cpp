@@ -59,8 +59,8 @@ TEST(ExperimentData, ConditionsThatTheBankLacksAreReported) {
     EXPECT_TRUE(reported(data, part)) << part;
 }
 
-// The same film at the same pressure, however the platen was told to go there; of a gap alone the bank
-// says nothing.
+// A film at a pressure is one however the platen was told to go there; of a gap alone the bank says
+// nothing.
 TEST(ExperimentData, AFilmPressedToAGapIsThatAtItsPressure) {
   Experiment e = made_experiment(kTruth);
   e.conditions[0].max_pressure_MPa->sd = e.conditions[1].max_pressure_MPa->sd = 1.0;

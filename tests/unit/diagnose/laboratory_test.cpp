@@ -206,7 +206,7 @@ TEST(Laboratory, TwoDiscsThatDifferAreNotSomethingElse) {
   EXPECT_LT(two.gap["which"]["probability"]["unknown"], 0.5) << summary(two);
 }
 
-// The same press before and after its dial was set anew.
+// One press, before and after its dial was set anew.
 TEST(Laboratory, AChangeOfTheDialIsWhatChanged) {
   const Experiment before = Laboratory("before").experiment([](SimulatedRun &) {}),
                    after = Laboratory("after").experiment(shift_zero);

@@ -6,7 +6,7 @@
 namespace calendem::inference {
 namespace {
 
-/// Of what was measured before, and of that plus `by`.
+/// What was measured before, and that plus `by`.
 struct Change {
   Bank bank = synthetic_bank(16, 0.02);
   ObservableVector before = synthetic_experiment("", 0.0, 3, 0.02, 0.05);

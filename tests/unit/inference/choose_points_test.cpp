@@ -115,7 +115,7 @@ double off(const Model &model, const Half &world, int effect) {
   return sum;
 }
 
-// Of an effect that was hardly run most is to be learnt, and none of the base points counts twice.
+// Most is to be learnt of an effect that was hardly run, and none of the base points counts twice.
 // The runs chosen gain more than as many of each effect, and once made they lower what the
 // emulators are off by in truth further.
 TEST(ChoosePoints, GoWhereMostIsToBeLearnt) {

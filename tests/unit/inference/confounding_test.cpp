@@ -125,7 +125,7 @@ TEST(Confounding, RecalibrationAbsorbs) {
   const Problem problem = world.problem(Vector::Zero(2));
   Which w;
   w.base = linearise(problem, Vector::Zero(1));
-  // Of the squared length 1/(1 + 4) is left.
+  // 1/(1 + 4) of the squared length is left.
   EXPECT_NEAR(confounding(problem, w, {}).absorbed[0], 0.8, 1e-9);
   EXPECT_NEAR(beyond_recalibration(w.base, Matrix::Identity(2, 2))(0, 0), 0.0, 1e-8);
   EXPECT_NEAR(beyond_recalibration(w.base, Matrix::Identity(2, 2))(1, 1), 1.0, 1e-8);

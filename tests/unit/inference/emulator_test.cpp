@@ -214,8 +214,8 @@ TEST(Emulators, WhatIsComputedDoesNotScatterOnItsOwn) {
   EXPECT_LT(variance(true), 0.1 * variance(false));
 }
 
-// Of the base model's 12 runs and two effects' 12 each; the third is computed. Mean squares of base
-// runs lie below 1 by what their 12 runs are adapted to, and not far.
+// Residuals are those of the base model's 12 runs and two effects' 12 each; the third is computed.
+// Mean squares of base runs lie below 1 by what their 12 runs are adapted to, and not far.
 TEST(Emulators, ResidualsAreThoseOfAllThatIsSimulated) {
   Bank bank = synthetic_bank(12, 0.05);
   bank.effects[1].computed = true;

@@ -69,7 +69,7 @@ TEST(UnknownPlaces, SharesSumToAtMostOne) {
   EXPECT_NEAR(places, 1.0, 1e-12);
 }
 
-// Of as many worlds each: an effect that departs from the known one by half of its length, at right
+// In as many worlds each, an effect that departs from the known one by half of its length, at right
 // angles to what is known, is rarely called it; its exact copy is.
 TEST(UnknownPlaces, WhatOnlyActsLikeAnEffectIsRarelyNamed) {
   int called = 0, named = 0;

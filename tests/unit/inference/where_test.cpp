@@ -107,7 +107,7 @@ TEST(CovarianceAbout, ScatterThatEffectsAddShrinksWithTheSample) {
             1e-15);
 }
 
-// Of specimens that are means of four and of one, between which nothing scatters together.
+// Specimens are means of four and of one, between which nothing scatters together.
 TEST(CovarianceAbout, ScatterThatEffectsAddIsOfOneSpecimen) {
   Bank bank = synthetic_bank(16, 0.05);
   ObservableVector experiment = synthetic_experiment("", 0.0, 3, 0.05, 0.02);

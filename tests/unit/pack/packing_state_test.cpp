@@ -24,7 +24,7 @@ TEST(Examine, CountsBondsAndTheirStrainAcrossAPeriodicFace) {
   const PackingState s =
       examine(recipe, {two_primaries()}, {primary(1, 1, {14.9, 5, 5}), primary(2, 1, {1.2, 5, 5})});
   EXPECT_EQ(s.bonds, 1);
-  EXPECT_EQ(s.lattice_pairs, 1);
+  EXPECT_EQ(s.pairs_as_made, 1);
   EXPECT_EQ(s.body_bonds, std::vector<int>{1});
   EXPECT_NEAR(s.bond_strain, 0.02 / 1.28, 1e-9);
   EXPECT_EQ(s.body_force_nN, 0.0);
@@ -34,9 +34,10 @@ TEST(Examine, CountsBondsAndTheirStrainAcrossAPeriodicFace) {
 TEST(Examine, MissesABondThatIsTornApart) {
   const Recipe recipe = cell(15.0);
   const PackingState s =
-      examine(recipe, {two_primaries()}, {primary(1, 1, {5, 5, 5}), primary(2, 1, {6.6, 5, 5})});
+      examine(recipe, {two_primaries()}, {primary(1, 1, {5, 5, 5}), primary(2, 1, {6.7, 5, 5})});
   EXPECT_EQ(s.bonds, 0);
-  EXPECT_EQ(s.lattice_pairs, 1);
+  EXPECT_EQ(s.pairs_as_made, 1);
+  EXPECT_EQ(s.pairs_changed, 1);
 }
 
 // Hertz, E* = 200 GPa / (2 * 0.91), R* = 0.3975 um, overlap 0.01 um, less CED times the lens's

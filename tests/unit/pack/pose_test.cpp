@@ -47,7 +47,7 @@ TEST(MeasureEnvelope, ABodyHasTheVolumeOfItsLatticeCells) {
   const Body b = make_body(recipe, 120, random);
   const std::vector<Particle> particles =
       moved(recipe, b, Eigen::Quaterniond::Identity(), {14.0, 7.0, 20.0});
-  const Envelope e = measure_envelope(recipe, particles, find_poses(recipe, {b}, particles));
+  const Envelope e = measure_envelope(recipe, particles);
   EXPECT_NEAR(e.am / b.volume, 1.0, 0.01);
   EXPECT_EQ(e.am, e.total);
 }
@@ -61,7 +61,7 @@ TEST(MeasureEnvelope, CountsOverlapsOnce) {
                          Eigen::Vector3d(1.4 * (k / 2 % 10) + 0.03 * (k / 2), 1.5 * (k / 20),
                                          10.0 + 0.017 * (k / 2)),
                          0});
-  EXPECT_NEAR(measure_envelope(recipe, particles, {}).total / (50.0 * sphere), 1.0, 0.01);
+  EXPECT_NEAR(measure_envelope(recipe, particles).total / (50.0 * sphere), 1.0, 0.01);
 }
 
 } // namespace

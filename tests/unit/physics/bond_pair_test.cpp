@@ -38,12 +38,15 @@ TEST(BondPair, AsksTheLaws) {
   advance(by_law, motion, pair.stiffness, 1e-4);
   EXPECT_EQ(norm(loads.shear - by_law.shear), 0.0);
   const BondDamping damping = pair.damping(kMaterial, kLarge, kSmall, 2.0);
-  EXPECT_EQ(damping.normal,
-            BondDamping(kMaterial, pair.section, pair.stiffness, 2.0, kSmall).normal);
+  const BondDamping of_law(kMaterial, pair.section, pair.stiffness, 2.0, kSmall);
+  EXPECT_EQ(damping.normal, of_law.normal);
+  EXPECT_EQ(damping.twist, of_law.twist);
   EXPECT_EQ(norm(pair.action(loads, damping).torque_j -
                  action(loads, pair.tension, motion, damping).torque_j),
             0.0);
   EXPECT_EQ(norm(pair.action(loads).force - action(loads, pair.tension, motion, {}).force), 0.0);
+  EXPECT_EQ(norm(pair.damping_action(damping).torque_i - damping_action(motion, damping).torque_i),
+            0.0);
   EXPECT_EQ(pair.strain_energy(loads), strain_energy(loads, pair.tension, pair.stiffness));
 }
 
@@ -74,4 +77,11 @@ TEST(PairMotion, EffectiveMassIsThatOfTwoBodies) {
   const PairMotion at_rest = pair_at_rest({0.0, -2.0, 0.0});
   EXPECT_EQ(at_rest.r, 2.0);
   EXPECT_EQ(at_rest.n.y, -1.0);
+}
+
+TEST(PairMotion, KeepsTheOrderOfItsSpheres) {
+  const PairMotion m = pair_motion({0.0, 0.0, 2.0}, 2.0, {1.0, 0.0, 0.0}, {0.0, 3.0, 0.0}, {});
+  EXPECT_EQ(m.v.x, 1.0);
+  EXPECT_EQ(m.spin_i.y, 3.0);
+  EXPECT_EQ(norm(m.spin_j), 0.0);
 }

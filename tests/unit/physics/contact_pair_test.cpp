@@ -56,6 +56,16 @@ TEST(ContactPair, DampingTakesEnergy) {
   }
 }
 
+// Requirement: a contact slips at the friction times the whole normal force, damping included. 4 ulp.
+TEST(ContactPair, SlipsAtTheWholeNormalForce) {
+  const Case c(2);
+  Vec3 displacement = {0.1, -0.2, 0.3}; // far beyond what friction holds
+  const ContactAction a =
+      contact_action(c.pair(), kMaterial, c.resistance, kElastic, true, displacement);
+  EXPECT_GT(std::fabs(a.damping), 1e-3 * kElastic);
+  EXPECT_NEAR(norm(a.friction) / (kMaterial.friction * a.normal), 1.0, 1e-15);
+}
+
 // Requirement: a contact at rest has no damping, one that its law has opened does not slide, one
 // that does not act has no friction; the others are not touched.
 TEST(ContactPair, RestsOpensAndActs) {

@@ -70,7 +70,7 @@ struct Log {
   double mean = 0.0, sd = 0.0;
 };
 
-/// Of the strength's logarithm among the draws.
+/// Moments of the strength's logarithm among the draws.
 Log strength_in(const Calibration &c, std::size_t material = 0) {
   double sum = 0.0, squares = 0.0;
   for (const Draw &d : c.draws) {
@@ -107,7 +107,8 @@ Calibration crushed(const std::vector<Crushed> &particles) {
   return c;
 }
 
-// Of 1000 independent draws the mean would be known to 0.03 sd, the sd to 0.02; three times that is allowed.
+// The mean of 1000 independent draws would be known to 0.03 sd, the sd to 0.02; three times that is
+// allowed.
 TEST(Crushed, OneLoadTellsTheStrengthAsFarAsTheModelGoes) {
   const CrushingLoads &loads = *made_film_bank().crushing();
   const double load = std::exp(loads.log_load(10.0, 600.0)), relative = 0.1;

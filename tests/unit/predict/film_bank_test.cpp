@@ -62,7 +62,7 @@ TEST(FilmBank, ARunThatLacksANumberIsLeftOutOfIt) {
   EXPECT_THROW(FilmBank{table}, Failure);
 }
 
-// Of a point without a run to the highest pressure the others are used; one that lacks another is
+// A point without a run to the highest pressure counts at the others; one that lacks another is
 // left out.
 TEST(FilmBank, APointMayLackTheHighestPressure) {
   const auto variance_without = [](double pressure) {

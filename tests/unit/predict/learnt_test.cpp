@@ -60,7 +60,8 @@ TEST(Lessons, AreThoseOfACalibrationWithoutTheDatum) {
   }
 }
 
-// The same value again teaches less than the first; one that contradicts the others moves parameters.
+// A value that is read again teaches less than the first; one that contradicts the others moves
+// parameters.
 TEST(Lessons, ARepeatTeachesLittle) {
   Calibration c = measured({30.0, 100.0});
   c.data.push_back(c.data[1]);

@@ -18,7 +18,7 @@ using namespace calendem;
 
 const std::string kShippedBank = CALENDEM_CASES "/bank/bank.toml";
 
-/// Of the shipped bank's first 48 base points, three to a packing, and its first 16 runs of
+/// Takes the shipped bank's first 48 base points, three to a packing, and its first 16 runs of
 /// friction, one to a packing, those of packings 1 to `packings`.
 RehearsalOptions part_of_shipped(int packings, const std::filesystem::path &folder) {
   BankTable table = read_bank_table(read_bank_spec(kShippedBank), CALENDEM_CASES "/bank/bank.csv");
@@ -147,7 +147,7 @@ TEST(Rehearsal, TwoAtATimeNeedTwoFolders) {
   expect_refused(o, "another run is writing");
 }
 
-// Of two nulls one is claimed; of three effects two are above their limit and one of these is named
+// One of two nulls is claimed; of three effects two are above their limit and one of these is named
 // first; of the two claimed one is right.
 TEST(Rehearsal, TheSummaryCounts) {
   std::vector<Rehearsed> cases(5);

@@ -227,6 +227,9 @@ TEST(VerificationBinderBridges, ValuesOutOfRangeStop) {
   const std::pair<Settings, const char *> cases[] = {
       {{{"cbd", "2e4"}}, "stretch too far before they break"},
       {{{"gap", "0.06"}}, "'bridges: gap' is '0.06'; it must be a number between 0 and 0.05"},
+      {{{"gap", "-0.01"}}, "'bridges: gap' is '-0.01'; it must be a number between 0 and 0.05"},
+      {{{"ratio", "inf"}}, "'inf'; it must be a finite number > 0"},
+      {{{"ratio", "1x"}}, "'1x'; it must be a finite number > 0"},
       {{{"ratio", "0"}}, "must be a finite number > 0"}};
   for (const auto &[settings, words] : cases) {
     const CaseRun run = move(kJoined[1], 0.0, 0.0, settings);

@@ -169,7 +169,7 @@ TEST(VerificationNanoporeCollapse, BetweenPlates) {
   EXPECT_LT(by.open / by.most, 1e-3);
 }
 
-// The same sphere, its nanoporosity imposed by the platen's largest pressure.
+// The sphere's nanoporosity is imposed by the platen's largest pressure.
 TEST(VerificationNanoporeCollapse, ImposedByThePlaten) {
   const double until = 2e3;
   const NanoporeCollapse law = {0.5, 0.27, 0.0, 1.0, kTime};

@@ -47,8 +47,8 @@ double resting(double distance, double aside) {
   return height;
 }
 
-// Of a row that has slid by `way`, over the spheres of the other; the one below it at first was
-// bonded.
+// Height of a row that has slid by `way`, over the spheres of the other; the one below it at first
+// was bonded.
 double height(double way, double first, double later) {
   double highest = 0.0;
   for (int n = -1; n <= 4; ++n)
@@ -124,7 +124,7 @@ TEST(VerificationSlip, RowsOfTwoBodiesMeetAtTheSumOfRadii) {
   expect_closed_form(run, 2.0 * R, 2.0 * R);
 }
 
-// Of another body, and of none, as CBD; the body's own meet as before.
+// Others are of another body, or of none, as CBD; the body's own meet as before.
 TEST(VerificationSlip, SurfacesLieInsideThePrimariesForOthers) {
   constexpr double kInset = 0.12;
   Settings s = settings(kLattice);

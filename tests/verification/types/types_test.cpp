@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Requirements: README.md of this folder.
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "spheres.h"
@@ -8,8 +10,8 @@ using namespace calendem;
 
 namespace {
 
-// Properties of that many types, all the same material.
-std::string materials(int types) {
+// Properties of that many types, all the same material but for the last one's modulus.
+std::string materials(int types, const std::string &last_modulus) {
   std::ostringstream text;
   const auto give = [&](const char *id, const char *name, const char *value, bool of_pairs) {
     text << "fix " << id << " all property/global " << name
@@ -18,7 +20,10 @@ std::string materials(int types) {
       text << " " << value;
     text << "\n";
   };
-  give("youngs", "youngsModulus", "${Ey}", false);
+  text << "fix youngs all property/global youngsModulus peratomtype";
+  for (int n = 1; n < types; ++n)
+    text << " ${Ey}";
+  text << " " << last_modulus << "\n";
   give("poisson", "poissonsRatio", "${nu}", false);
   give("restit", "coefficientRestitution", "${restitution}", true);
   give("frict", "coefficientFriction", "${friction}", true);
@@ -27,14 +32,15 @@ std::string materials(int types) {
 }
 
 // A bonded pair that falls onto a wall, and a sphere that meets it.
-CaseRun fall(int types, Settings settings, const std::string &more = "") {
+CaseRun fall(int types, Settings settings, const std::string &more = "",
+             const std::string &last_modulus = "${Ey}") {
   Files files = files_of({{{3.0, 3.0, 0.9}, 0.795, 1, {0.3, 0.0, -2.0}},
                           {{4.3, 3.0, 0.9}, 0.795, 1, {0.3, 0.0, -2.0}},
                           {{5.92, 3.2, 0.9}, 0.795, 0, {-1.0, 0.0, -2.0}}},
                          {0, 0, 0}, {8, 8, 8});
   std::string &data = files["atoms.data"];
   data.replace(data.find("1 atom types"), 1, std::to_string(types));
-  files["materials.in"] = materials(types);
+  files["materials.in"] = materials(types, last_modulus);
   files["more.in"] = more + "\n";
   return CaseRun("types/in.types", settings, 1, files);
 }
@@ -80,6 +86,23 @@ TEST(VerificationTypes, ATypeThatComesLaterIsKnownAtTheNextSetUp) {
               std::string::npos)
         << unknown.why();
   }
+}
+
+// The wall's type is known, and of another material. Both loops: rounding of sums.
+TEST(VerificationTypes, ATypeMayChangeBetweenRunsThatAreNotSetUp) {
+  const std::string modulus = "1e7", go_on = "run 100 pre no";
+  std::vector<std::vector<Row>> ends;
+  for (const char *fused : {"on", "off"})
+    for (const std::string change : {"", "set atom 3 type 2\n"}) {
+      const CaseRun run = fall(2, {{"fused", fused}, {"wall", "2"}}, change + go_on, modulus);
+      ASSERT_TRUE(run.finished()) << run.why();
+      ends.push_back(run.frames().back());
+    }
+  for (size_t sphere = 0; sphere < 3; ++sphere)
+    for (const auto &[column, value] : ends[3][sphere])
+      EXPECT_NEAR(ends[1][sphere].at(column), value, 1e-9) << sphere << " " << column;
+  EXPECT_GT(std::fabs(ends[1][1].at("vx") - ends[0][1].at("vx")),
+            1e-3); // of the pair that it meets
 }
 
 TEST(VerificationTypes, ATypeThatIsInsertedIsKnown) {

@@ -100,6 +100,31 @@ TEST(VerificationUnits, SpheresInsertedIntoAnEmptyBox) {
   EXPECT_LT(most, 1e-9);
 }
 
+// Between two builds of the lists, from forces of at most 2 E R^2 = 1.6e5 nN to 7e5 nN; inside the box
+// and across a periodic side.
+TEST(VerificationUnits, SpheresThatGrowBetweenTwoBuildsOfLists) {
+  for (const double x : {0.5, 4.5}) {
+    Files files = files_of({{{-x, 0, 0}, 0.02, 0}, {{x, 0, 0}, 0.02, 0}}, {-5, -4, -4}, {5, 4, 4});
+    files["start.in"] +=
+        "variable d equal 0.04+0.01*(step*(step<100)+100*(step>=100))\nunfix integrate\n"
+        "fix grow all adapt 1 atom diameter v_d\n";
+    const CaseRun run("in.body",
+                      {{"bx", "p"},
+                       {"ced", "0"},
+                       {"bonded", "0"},
+                       {"skin", "1.2"},
+                       {"steps", "110"},
+                       {"every", "10"}},
+                      1, files);
+    ASSERT_TRUE(run.finished()) << run.why();
+    const double force = hertz_load(0.26, 0.04); // effective radius of two of 0.52 um
+    EXPECT_GT(force, 2.0 * kModulus * 0.02 * 0.02);
+    const std::vector<Row> end = run.frames().back();
+    EXPECT_NEAR(end[0].at("fx") / force, x < 1.0 ? -1.0 : 1.0, 1e-12);
+    EXPECT_NEAR(end[1].at("fx") / force, x < 1.0 ? 1.0 : -1.0, 1e-12);
+  }
+}
+
 TEST(VerificationUnits, SpheresInsertedAmongSmallerOnes) {
   const double most = difference({{"small", "2e-5"}});
   std::printf("among smaller ones: the loops differ by %.1e\n", most);

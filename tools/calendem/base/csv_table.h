@@ -24,7 +24,7 @@ public:
   const std::vector<std::string> &header() const { return header_; }
   std::size_t rows() const { return rows_.size(); }
   const std::vector<int> &bad_lines() const { return bad_lines_; }
-  /// Of a row, in the text (from 1).
+  /// Line of a row in the text, from 1.
   int line_of(std::size_t row) const { return lines_[row]; }
   int last_line() const { return last_line_; }
   /// What is wrong and what to do where two columns have one of these names, or any; empty: nothing.

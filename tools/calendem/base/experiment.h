@@ -67,10 +67,10 @@ struct Experiment {
 /// Throws Failure(2) with every mistake of the file and of the recipe that it names.
 Experiment read_experiment(const std::string &file);
 
-/// Of the coating alone, from a thickness or a mass that may include the foil.
+/// Thickness of the coating alone, from a thickness or a mass that may include the foil.
 double coating_thickness_um(const Experiment &e, const Measured &thickness);
 double coating_loading_mg_cm2(const Experiment &e, const Measured &mass);
-/// Of the coating without pores, with the recipe's composition and densities.
+/// Thickness of the coating without pores, with the recipe's composition and densities.
 double solid_thickness_um(const Experiment &e, double loading_mg_cm2);
 
 double sample_area_cm2(const Experiment &e);

@@ -159,8 +159,9 @@ std::string ReferenceMaterial::hash() const {
 
 bool describes_material(const Key &key, bool of_recipe) {
   static const char *const kOfRecipe[] = {
-      "density.am_g_cm3",     "density.cbd_solid_g_cm3", "particles.primary_diameter_um",
-      "particles.lattice_um", "particles.irregularity",  "cbd.nanoporosity_percent"};
+      "density.am_g_cm3",        "density.cbd_solid_g_cm3", "particles.primary_diameter_um",
+      "particles.lattice_um",    "particles.grains",        "particles.irregularity",
+      "cbd.nanoporosity_percent"};
   const std::string &name = key.name;
   if (of_recipe)
     return std::find(std::begin(kOfRecipe), std::end(kOfRecipe), name) != std::end(kOfRecipe);

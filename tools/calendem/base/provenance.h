@@ -18,7 +18,7 @@ std::string base64(const unsigned char *bytes, std::size_t count);
 std::string hash_of_file(const std::string &file);
 std::string hash_of_text(const std::string &text);
 
-/// Of all files below `folder`, by name and bytes, in the order of their names.
+/// Hash of all files below `folder`, by name and bytes, in the order of their names.
 std::string hash_of_folder(const std::string &folder);
 
 /// True if that JSON file exists and its "identity" is this one.

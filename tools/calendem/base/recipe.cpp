@@ -2,6 +2,7 @@
 #include "base/recipe.h"
 #include "base/particle_sizes.h"
 #include "effects/effects.h"
+#include "physics/bond_pair.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -46,8 +47,11 @@ std::vector<Key> own_keys() {
       {"particles.irregularity", "", "0.1", 0, 0.3, "",
        "relative rms roughness of the particles' radius"},
       {"particles.primary_diameter_um", "", "1.59", 0.1, 10, "um", "diameter of a primary"},
+      {"particles.grains", "", "lattice", 0, 0, "",
+       "primaries of a particle: cells of a centroidal Voronoi tessellation, or a cubic lattice",
+       "voronoi|lattice"},
       {"particles.lattice_um", "", "1.28", 0.1, 10, "um",
-       "spacing of the cubic lattice of primaries"},
+       "cube root of a primary's share of the particle's volume; spacing of the lattice"},
       {"cbd.nanoporosity_percent", "", "50", 0, 80, "%", "pores inside a CBD sphere"},
       {"cbd.diameter_um", "", "1.316", 0.1, 10, "um", "diameter of a CBD sphere"},
       {"cell.x_um", "", "15", 5, 1000, "um", "periodic side of the cell"},
@@ -84,6 +88,7 @@ double Recipe::cbd_solid_column() const {
 double Recipe::thickness() const {
   return (am_column() + cbd_solid_column()) / (1.0 - porosity_total);
 }
+double Recipe::bond_distance() const { return kBondReach * primary_diameter; }
 double Recipe::widest_body() const { return max_width_fraction * std::min(cell_x, cell_y); }
 double Recipe::largest_body() const {
   return std::min(max_diameter, (widest_body() - primary_diameter) / (1.0 + 0.5 * irregularity));
@@ -119,13 +124,13 @@ void check_spheres(const Settings &s, const Recipe &r, Mistakes &mistakes) {
                              "{:.4g} for {} of the sphere's volume, or 0.",
                              nano, 100.0 * nano, nano));
   if (s.sound({"particles.lattice_um", "particles.primary_diameter_um"}) &&
-      (r.lattice >= r.primary_diameter || r.primary_diameter >= std::sqrt(2.0) * r.lattice))
+      (r.lattice >= r.primary_diameter || r.bond_distance() >= std::sqrt(2.0) * r.lattice))
     mistakes.add(
         s.line("particles.primary_diameter_um"),
-        fmt::format("particles.primary_diameter_um = {} must lie between 1 and 1.414 times "
-                    "lattice_um = {}, so that primaries touch along the lattice's axes "
+        fmt::format("particles.primary_diameter_um = {} must lie between 1 and {:.4g} times "
+                    "lattice_um = {}, so that primaries are bonded along the lattice's axes "
                     "only.",
-                    r.primary_diameter, r.lattice));
+                    r.primary_diameter, std::sqrt(2.0) / kBondReach, r.lattice));
 }
 
 /// The pores inside the CBD are part of the total porosity.
@@ -222,6 +227,7 @@ Recipe recipe_of(const Settings &s) {
   r.max_width_fraction = s.number("particles.max_width_fraction");
   r.irregularity = s.number("particles.irregularity");
   r.primary_diameter = s.number("particles.primary_diameter_um");
+  r.grains = s.text("particles.grains") == "voronoi" ? GrainShape::Voronoi : GrainShape::Lattice;
   r.lattice = s.number("particles.lattice_um");
   r.nanoporosity = s.number("cbd.nanoporosity_percent") / 100.0;
   r.cbd_diameter = s.number("cbd.diameter_um");

@@ -48,13 +48,17 @@ struct ShapeSource {
 };
 
 /// Lengths um, densities g/cm3 (= pg/um3), loading mg/cm2, fractions 0-1.
+/// What a body's primaries are.
+enum class GrainShape { Lattice, Voronoi };
+
 struct Recipe {
   std::string file;
   Settings settings;
   double am_weight, am_density, cbd_solid_density;
   double loading, porosity_total;
   double median, sigma_ln, min_diameter, max_diameter, max_width_fraction, irregularity;
-  double primary_diameter, lattice;
+  GrainShape grains = GrainShape::Lattice;
+  double primary_diameter, lattice; ///< lattice^3: volume that a primary stands for
   double nanoporosity, cbd_diameter;
   CbdGradient cbd_gradient;
   double cell_x, cell_y;
@@ -67,6 +71,7 @@ struct Recipe {
   double am_column() const;        ///< solid AM per area [um]
   double cbd_solid_column() const; ///< solid carbon + binder per area [um]
   double thickness() const;        ///< of the coating [um]
+  double bond_distance() const;    ///< up to which two primaries of a body are bonded [um]
   double widest_body() const;      ///< largest width of a body that the cell allows [um]
   /// The largest equivalent diameter [um]: the distribution's, or that of a body within the width.
   /// It is wider than its equivalent sphere by about a primary and, at the worst, by its

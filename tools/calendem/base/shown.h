@@ -31,7 +31,7 @@ NameAndUnit in_words(const std::string &name);
 /// A unit of our files: "µm" for "um".
 std::string shown_unit(const std::string &unit);
 
-/// That of percent is points; a fraction has none.
+/// Differences of percent are points; a fraction has none.
 std::string unit_of_difference(const std::string &unit);
 std::string shown_difference(double value, const std::string &unit);
 

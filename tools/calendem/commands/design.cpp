@@ -57,7 +57,7 @@ Design design_of(const AskedFilms &a, const FilmOptions &o, const Film &film,
   return d;
 }
 
-/// The same from runs at each of them; under a roll in so many passes.
+/// Designs from runs at each of them; under a roll in so many passes.
 Design design_by_runs(const AskedFilms &a, const FilmOptions &o, std::size_t recipe,
                       const Target &target, int passes) {
   Design d;

@@ -197,7 +197,7 @@ nlohmann::ordered_json provenance(const FilmOptions &o) {
   return out;
 }
 
-/// Of a recipe, by its place in the list.
+/// Runs a recipe, by its place in the list.
 ByRuns run_film(const AskedFilms &a, const FilmOptions &o, std::size_t recipe,
                 const std::vector<double> &pressures) {
   StudyOptions study = o.study;

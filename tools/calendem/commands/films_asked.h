@@ -24,7 +24,7 @@ struct FilmOptions {
 };
 
 void add_film_options(CLI::App &verb, FilmOptions &options);
-/// Of runs of their own; `name`, `what`: of the option that asks for them.
+/// Adds the options of runs of their own; `name`, `what`: of the option that asks for them.
 void add_run_options(CLI::App &verb, int &runs, StudyOptions &study, const char *name,
                      const char *what);
 /// Another option that asks for them, instead of the first.
@@ -56,11 +56,11 @@ AskedFilms asked_to_run(const FilmOptions &options);
 
 nlohmann::ordered_json provenance(const FilmOptions &options);
 
-/// Of a recipe, by its place in the list.
+/// Runs a recipe, by its place in the list.
 ByRuns run_film(const AskedFilms &asked, const FilmOptions &options, std::size_t recipe,
                 const std::vector<double> &pressures);
 
-/// The same at gaps, under a roll.
+/// Runs it at gaps, under a roll.
 GapDraws run_film_at_gaps(const AskedFilms &asked, const FilmOptions &options, std::size_t recipe,
                           const std::vector<double> &gaps, int passes);
 /// Numbers of passes, ascending. Throws Failure(2).

@@ -38,7 +38,8 @@ inline bool pressed_as(const SimulatedRun &run, const Condition &c) {
 std::vector<double> pressures_learnt(const BankTable &table, bool with_effects,
                                      const std::string &pressing = "");
 
-/// Of `pressures` (increasing) the same one, or those next to it on either side; none outside.
+/// The pressure itself if it is one of `pressures` (increasing), or those next to it on either
+/// side; none outside.
 std::vector<double> beside(double pressure, const std::vector<double> &pressures);
 
 /// The conditions named in `wanted` (all if it is empty) whose pressure the bank reaches, by runs to
@@ -58,7 +59,7 @@ struct Further {
   std::vector<CoveredCondition> of;
 };
 
-/// Those that the table can predict: each kind on the covered conditions that lack it, and
+/// Measurements that the table can predict: each kind on the covered conditions that lack it, and
 /// porosities after the bank's other pressures with effects, whose uncertainty is that of the
 /// others. The pressure's error counts as independent of that in what was measured already.
 std::vector<Further> further_measurements(const Experiment &experiment, const BankTable &table,
@@ -113,7 +114,7 @@ inference::Vector mean_of_base(const std::vector<CoveredCondition> &all,
 inference::Vector by_pressure(const std::vector<CoveredCondition> &all,
                               const std::vector<PointRuns> &points);
 
-/// Of the release of every covered curve, if it has eight rows and more: second differences, less
+/// Noise in the release of every covered curve of eight rows and more: second differences, less
 /// their mean over the bank, squared in the covariance of stated errors and bank. There the part
 /// that base parameters and effects move (a linear fit of all points) counts whole, the rest, the
 /// packings' scatter, by 1 / `cells`. Not of the loading: small films yield in steps, far from

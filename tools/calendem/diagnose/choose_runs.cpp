@@ -52,7 +52,7 @@ public:
 
   const std::string &name(int effect) const { return bank_.effects[std::size_t(effect)].name; }
 
-  /// That are learnt from.
+  /// Number of points that are learnt from.
   int points(int effect) const {
     return int(
         std::count_if(bank_.runs.begin(), bank_.runs.end(),

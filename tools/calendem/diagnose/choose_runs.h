@@ -9,7 +9,7 @@ namespace calendem {
 
 struct RunChoice {
   std::vector<ChosenRun> chosen; ///< in the order in which they were chosen
-  /// Of each effect of the bank that is simulated and learnt.
+  /// An effect of the bank that is simulated and learnt.
   struct Effect {
     std::string name;
     int points = 0;      ///< it has

@@ -17,7 +17,7 @@ std::string keys_of(const Json &row) {
 
 namespace {
 
-/// Of a row, with the same decimals; a dash where there is no number.
+/// Values of a row, with the same decimals; a dash where there is no number.
 std::vector<std::string> shown_together(const Json &row, const std::vector<const char *> &names) {
   std::vector<double> numbers;
   for (const char *name : names)

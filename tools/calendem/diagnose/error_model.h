@@ -34,8 +34,8 @@ struct ErrorTerm {
   inference::Matrix columns; ///< observables x independent errors
 };
 
-/// Of the observables of all conditions in order. `points`: those of the bank, whose base model
-/// says what an error of porosity does to each.
+/// Errors of the observables of all conditions in order. `points`: those of the bank, whose base
+/// model says what an error of porosity does to each.
 /// pressure: the press's, common to all. loading, initial porosity, porosity under pressure,
 /// thickness: of a specimen, common to its conditions. Of a condition's curve: the first touch,
 /// common to its points; drift, growing from there to the end of the release. Between the bank's

@@ -13,7 +13,8 @@ using inference::Matrix;
 using inference::Vector;
 namespace {
 
-// Of the value: what an observable without sd counts as good to, so that no covariance is singular.
+// Share of the value: what an observable without sd counts as good to, so that no covariance is
+// singular.
 constexpr double kExact = 1e-3;
 constexpr double kRarely = 0.03; // of the points
 
@@ -91,7 +92,7 @@ bool enough_to_learn(const inference::Bank &bank, const std::vector<bool> &count
   });
 }
 
-/// Of `count` values from `first` on, those that are numbers in every run that has any of them;
+/// Values among `count` from `first` on that are numbers in every run that has any of them;
 /// none, if too few runs have.
 std::vector<int> known_of(const inference::Bank &bank, int first, int count) {
   std::vector<bool> has_any;

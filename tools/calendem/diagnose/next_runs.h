@@ -16,7 +16,7 @@ struct NextRun {
   double sd = 0.0; ///< of the reading
   /// Changed for it: values of "case.…" and "recipe.…" keys. Empty: the run is the usual one.
   std::map<std::string, double> changed;
-  /// Of its run and the usual one of the same model and packing; NaN: it cannot be read.
+  /// Reads it from its run and the usual one of the same model and packing; NaN: it cannot be read.
   double (*read)(const std::string &folder, const std::string &usual_folder);
 };
 

@@ -36,7 +36,7 @@ void add_sample_scatter(const std::vector<inference::Matrix> &models, double cel
 double gap_of(const HeldOut &held_out, const inference::Vector &mean,
               const inference::Vector &scatter, double noises = 1.0);
 
-/// The same from packings (columns, two at least). The interval is of resamples of noise and
+/// Gap from packings (columns, two at least). The interval is of resamples of noise and
 /// packings (t).
 Estimate gap_of_packings(const HeldOut &held_out, const inference::Matrix &simulated);
 

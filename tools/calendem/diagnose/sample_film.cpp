@@ -12,7 +12,7 @@ using inference::Vector;
 
 namespace {
 
-/// Of the base model and of the full cell, by base point and then effect.
+/// Runs of the base model and of the full cell, by base point and then effect.
 std::map<int, std::map<std::string, PointRuns>> runs_of_both(const BankTable &bank) {
   std::map<int, std::map<std::string, PointRuns>> out;
   for (const BankRow &row : bank.rows)
@@ -67,8 +67,8 @@ double film_ratio(const Experiment &experiment, const BankTable &bank) {
 
 namespace {
 
-/// Of one observable: the mean of its changes, and what each is off it, so that the sum of their
-/// squares is the variance of a further one about the mean.
+/// Sets for one observable the mean of its changes, and what each is off it, so that the sum of
+/// their squares is the variance of a further one about the mean.
 void set_change(const std::vector<Vector> &changes, Eigen::Index observable, double &mean,
                 Matrix &off) {
   double sum = 0.0, n = 0.0;

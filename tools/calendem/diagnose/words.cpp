@@ -241,7 +241,7 @@ Words named(const Json &gap) {
   return w;
 }
 
-/// Of the four kinds of answer.
+/// One of the four kinds of answer.
 const char *answer_of(const std::string &claim) {
   return claim == "none"        ? "nothing to see"
          : claim == "unknown"   ? "something else"

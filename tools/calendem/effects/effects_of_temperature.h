@@ -15,8 +15,8 @@ constexpr const char *kTemperature = "effects.cbd_softening.temperature_C";
 inline bool softens(const std::string &key) {
   for (const char *one :
        {"material.cbd.youngs_modulus_GPa", "effects.cbd_plasticity.yield_pressure_GPa",
-        "effects.cbd_plasticity.hardening_GPa", "effects.cbd_collapse.yield_pressure_MPa",
-        "effects.cbd_collapse.hardening_MPa"})
+        "effects.cbd_plasticity.hardening_GPa", "effects.cbd_ductility.hardness_GPa",
+        "effects.cbd_collapse.yield_pressure_MPa", "effects.cbd_collapse.hardening_MPa"})
     if (key == one)
       return true;
   return false;

@@ -42,7 +42,7 @@ VoxelBodies bodies_on_voxels(const PhaseImage &image);
 constexpr double kSimulatedVoxel = 0.15; ///< [um]
 
 struct MeasureOptions {
-  /// Of a simulated structure (kSimulatedVoxel), or in place of an image's own.
+  /// Voxel of a simulated structure (kSimulatedVoxel), or in place of an image's own.
   std::optional<double> voxel_um;
   double slice_um = 1.0;                 ///< of the profiles
   bool tortuosity = true;                ///< takes most of the time

@@ -11,7 +11,7 @@ namespace {
 constexpr int kGrid = 41;
 constexpr double kNearlyAll = 0.99;
 
-/// Of one draw at one gap: the logarithm of its pressure, and other numbers at that pressure.
+/// One draw at one gap: the logarithm of its pressure, and other numbers at that pressure.
 struct Met {
   Guess log_pressure;
   bool below = false, above = false; ///< the bank's pressures
@@ -88,7 +88,7 @@ AtGap at_gap(const GapDraws &d, std::size_t k) {
   return out;
 }
 
-/// Of the film after release, from its springback.
+/// Porosity of the film after release, from its springback.
 Guess porosity_left(const Guess &springback, double gap, double solid) {
   const double thickness = gap * (1.0 + springback.mean),
                slope = solid * gap / (thickness * thickness);

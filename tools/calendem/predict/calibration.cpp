@@ -174,7 +174,7 @@ Predicted predicted_data(const FilmBank &bank, const Calibration &c, const Draw 
   return predicted_data(bank, c, draw, curves);
 }
 
-/// Of measured - predicted.
+/// Covariance of measured - predicted.
 Matrix covariance_of(const Calibration &c, const Predicted &p, const Draw &draw) {
   const auto n = Eigen::Index(c.data.size());
   Matrix out(n, n);
@@ -233,7 +233,7 @@ namespace {
 constexpr double kOuterTenth = 0.8; // of a scaled range, -1 to 1
 constexpr double kFewSamples = 50.0;
 
-/// Of all hypotheses together.
+/// Number for all hypotheses together.
 double effective_samples(const Calibration &c) {
   double squares = 0.0;
   for (const Weighed &w : c.hypotheses)

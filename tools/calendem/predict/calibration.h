@@ -43,7 +43,7 @@ struct Missed {
 };
 
 struct Draw {
-  /// Of each of Calibration::materials, and last of one more that was not measured.
+  /// One for each of Calibration::materials, and last for one more that was not measured.
   std::vector<Material> materials;
   Missed missed;
   /// Correlation between materials of each parameter and amplitude (of its normal score), 0-1, and
@@ -59,7 +59,7 @@ struct Weighed {
   double effective_samples = 0.0;  ///< of those with these effects in the first material
 };
 
-/// Of experiments that name no material, and of one that was not measured.
+/// Names for experiments that name no material, and of one that was not measured.
 inline constexpr const char *kUnnamed = "unnamed", *kOther = "other";
 
 struct Calibration {
@@ -87,7 +87,8 @@ struct CalibrationSettings {
 /// Emulated numbers of films (places in Calibration::films) at the bank's pressures, under one draw.
 using Curves = std::map<std::pair<int, FilmNumber>, std::vector<Guess>>;
 
-/// Of all data together, but for a constant. `known`: of the draw, added to where it lacks a film.
+/// Logarithm of the likelihood of all data together, but for a constant. `known`: of the draw,
+/// added to where it lacks a film.
 double log_likelihood(const FilmBank &bank, const Calibration &calibration, const Draw &draw,
                       Curves &known);
 /// Each datum as all others predict it under a draw, with the errors of measurement and press.

@@ -45,7 +45,7 @@ double covariance_between(const CrushingLoads &loads, const Crushing &a, const C
          (a.material == b.material ? kCrushingModel * kCrushingModel : 0.0);
 }
 
-/// Of the logarithms of the loads that were read.
+/// Covariance of the logarithms of the loads that were read.
 Matrix covariance_of(const CrushingLoads &loads, const std::vector<Crushed> &read) {
   const auto n = Eigen::Index(read.size());
   Matrix out(n, n);

@@ -16,7 +16,7 @@ constexpr double kCrushingModel = 0.3;
 void add_crushed(const Experiment &experiment, const FilmBank &bank, int material, Calibration &to,
                  std::vector<std::string> &not_said);
 
-/// Of the loads that were measured, given the draw, but for a constant.
+/// Logarithm of the likelihood of the loads that were measured, given the draw, but for a constant.
 double log_likelihood_of_crushed(const FilmBank &bank, const Calibration &calibration,
                                  const Draw &draw);
 
@@ -30,8 +30,8 @@ struct Crushing {
   double measured = 0.0, sd = 0.0; ///< [mN]; 0: not measured
 };
 
-/// Of each material, at the bank's diameters and those that were measured: under all draws, given the
-/// loads that were measured. Empty if the bank has no crushed particles.
+/// Crushing of each material, at the bank's diameters and those that were measured: under all
+/// draws, given the loads that were measured. Empty if the bank has no crushed particles.
 std::vector<Crushing> crushing_of(const FilmBank &bank, const Calibration &calibration);
 
 } // namespace calendem

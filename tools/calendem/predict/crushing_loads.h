@@ -22,7 +22,7 @@ public:
   const std::vector<double> &diameters() const { return diameters_; } ///< [um], increasing
   /// ln of the load [mN], mean of all turns.
   double log_load(double diameter_um, double strength_MPa) const;
-  /// Of the errors of two such means: few particles were crushed.
+  /// Covariance of the errors of two such means: few particles were crushed.
   double covariance(double diameter_um, double other_um) const;
 
 private:

@@ -28,12 +28,12 @@ enum class FilmNumber {
 };
 constexpr int kFilmNumbers = 7;
 
-/// Those that the base model has emulators of; the next one, nanoporosity, only collapse has.
+/// Numbers that the base model has emulators of; the next one, nanoporosity, only collapse has.
 constexpr int kByBase = int(FilmNumber::CbdNanoporosity);
 /// Tables of earlier versions lack it.
 bool may_be_missing(FilmNumber number);
 
-/// Of the porosity before calendering, where a bank's films differ in it.
+/// Key of the porosity before calendering, where a bank's films differ in it.
 inline constexpr const char *kPorosityKey = "recipe.coating.porosity_total_percent";
 
 /// A parameter of materials: nanoporosity of their CBD less the recipe's [%].
@@ -74,14 +74,14 @@ public:
   explicit FilmBank(const BankTable &table);
 
   const BankSpec &spec() const { return spec_; }
-  /// Those of the bank whose keys are a case's, and kNanoporosity where the bank does not take it
-  /// for known.
+  /// Parameters of the bank whose keys are a case's, and kNanoporosity where the bank does not take
+  /// it for known.
   const std::vector<inference::Parameter> &material() const { return material_; }
   /// Place in it of the strength of the bonds; -1: it is none of them.
   int strength() const { return strength_; }
   /// None: the bank does not say.
   const std::optional<CrushingLoads> &crushing() const { return crushing_; }
-  /// Of a film's CBD, if it is made of that material, 0-1.
+  /// Nanoporosity of a film's CBD, if it is made of that material, 0-1.
   double nanoporosity(const Film &film, const Material &material) const;
   const std::vector<BankParameter> &film() const { return film_; }
   /// Simulated ones that the bank has runs of.
@@ -91,7 +91,7 @@ public:
   /// Other particles pass where the bank's cell could hardly show the difference: percentiles by
   /// volume within a factor of 1.2 there, of 1.6 in the whole film.
   Film film_of(const Recipe &recipe) const;
-  /// The same of any electrode: what the bank's parameters are for it.
+  /// Describes any electrode: what the bank's parameters are for it.
   Film described(const Recipe &recipe) const;
   const Recipe &recipe() const { return recipe_; } ///< the bank's
   /// In what a recipe is another electrode than the bank's, in words.
@@ -152,7 +152,8 @@ private:
   void learn(const BankTable &table);
   void learn_full_cell(const BankTable &table);
   void forget(FilmNumber number);
-  /// Those of the base model; of the nanoporosity, which only collapse changes, those of collapse.
+  /// Emulators of the base model; for the nanoporosity, which only collapse changes, those of
+  /// collapse.
   const Emulators *emulators_of(FilmNumber number) const;
   double full_cell_share(const Film &film) const;
   /// What one effect changes at one of the bank's pressures.
@@ -177,7 +178,7 @@ std::array<double, 3> sizes_by_volume(const Recipe &recipe, double largest);
 /// The amplitude in the unit of its effect's key.
 double key_value(const FilmBank &bank, const Acting &acting);
 
-/// Of a run.
+/// Value of a run.
 double value_of(FilmNumber number, const SimulatedRun &run);
 
 } // namespace calendem

@@ -25,7 +25,7 @@ std::vector<Scores> scores_of(const FilmBank &bank, const Calibration &c) {
   return out;
 }
 
-/// Of values by weights that sum to 1.
+/// Moments of values by weights that sum to 1.
 struct Moments {
   double mean = 0.0, sd = 0.0;
 };

@@ -314,7 +314,7 @@ public:
   explicit CaseLines(const Settings &of_bank) : of_bank_(of_bank) {}
 
   void add(const std::string &key, double value) { add_text(key, fmt::format("{:.4g}", value)); }
-  /// Those that the bank's case gives.
+  /// Keeps those that the bank's case gives.
   void keep(const std::vector<Key> &keys) {
     for (const Key &key : keys)
       if (of_bank_.line(key.name) > 0)

@@ -10,7 +10,7 @@ namespace calendem {
 
 namespace {
 
-/// Of the packing [%], and of the effect that changes it (0-1).
+/// Keys of the nanoporosity: of the packing [%], and of the effect that changes it (0-1).
 constexpr const char *kNanoporosityKeys[] = {"recipe.cbd.nanoporosity_percent",
                                              "case.effects.cbd_collapse.initial_nanoporosity"};
 
@@ -206,7 +206,7 @@ double emulated(const FilmBank &bank, const Draw &draw, const Film &film, FilmNu
   return bank.at(bank.at_pressures(number, film, draw.of(film)), pressure).mean;
 }
 
-/// The same of the porosity under load.
+/// Emulated porosity under load.
 double emulated_load(const FilmBank &bank, const Draw &draw, const Film &film, double pressure) {
   return 1.0 - (1.0 - emulated(bank, draw, film, FilmNumber::PorosityAfter, pressure)) *
                    (1.0 + emulated(bank, draw, film, FilmNumber::Springback, pressure));

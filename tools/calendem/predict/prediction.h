@@ -40,7 +40,7 @@ struct PredictedFilm {
   int runs = 0;                       ///< of its own at each pressure; 0: by the bank's emulators
 };
 
-/// Of 1 / tortuosity.
+/// Tortuosity from the band of its inverse.
 Band tortuosity_of(const Band &inverse);
 
 /// By draws, then pressures; none of a number that is not known.
@@ -82,7 +82,7 @@ struct Chance {
 /// The data leave materials open; this share of them has the assured probability or more.
 constexpr double kAssured = 0.8;
 
-/// Of each pressure, or gap, to meet the target.
+/// Chance of each pressure, or gap, to meet the target.
 std::vector<Chance> chances_from(const std::vector<double> &settings, const GuessesOf &of,
                                  const Target &target);
 std::vector<Chance> chances(const FilmBank &bank, const Calibration &calibration, const Film &film,
@@ -108,7 +108,7 @@ struct Pressed {
   double before = 0.0, pressure = 0.0, after = 0.0;
 };
 
-/// Of a film, 0-1; the bank's own where it is no parameter.
+/// Porosity of a film, 0-1; the bank's own where it is no parameter.
 double porosity_before(const FilmBank &bank, const Film &film);
 
 /// Both with their constants from least squares.

@@ -39,7 +39,7 @@ Plot.prototype.values = function(of) {
   return d3.extent(out.filter(isNumber));
 };
 
-/// Of an error bar that reaches from a positive value below zero only the positive part counts.
+/// An error bar that reaches from a positive value below zero counts with its positive part only.
 Plot.prototype.domains = function() {
   var chart = this.chart;
   function y(right) {

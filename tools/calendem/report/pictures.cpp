@@ -333,7 +333,7 @@ namespace {
 
 constexpr double kTurn = 2.0 * kPi;
 
-/// Of a cell whose web may elongate.
+/// Side of a cell whose web may elongate.
 double side_of(const Run &run, double as_packed, double time_us) {
   const std::string elongated = "cell_x_um";
   return run.curve.has(elongated) ? run.curve[elongated][row_near(run.curve, time_us)] : as_packed;

@@ -31,7 +31,7 @@ public:
 
   /// Varied columns but for the seed of the packing.
   const std::vector<std::string> &settings() const { return settings_; }
-  /// Those whose values are numbers, two at least.
+  /// Settings whose values are numbers, two at least.
   std::vector<std::string> numeric_settings() const;
   /// Finished runs that share all settings but those in `apart`; in the order of the table.
   std::vector<StudyGroup> groups(const std::vector<std::string> &apart = {}) const;

@@ -122,7 +122,8 @@ std::string ledger_warning(const nlohmann::json &energy);
 nlohmann::json write_bridges(const std::string &folder, const std::vector<RawRow> &rows,
                              const RawRow &top);
 
-/// Of drying.csv, the film before the press, for the summary. Null in a run without drying stress.
+/// Reads drying.csv, the film before the press, for the summary. Null in a run without drying
+/// stress.
 nlohmann::json dried_film(const std::string &folder);
 
 // What the passes under a roll amount to: line load, length of the nip, and the times of the real

@@ -146,6 +146,7 @@ ElectrodeFacts describe_electrode(const nlohmann::json &j) {
   e.bodies = j.at("bodies");
   const nlohmann::json &recipe = j.at("recipe");
   e.lattice = std::stod(recipe.at("particles.lattice_um").get<std::string>());
+  e.facet = j.value("facet_um2", e.lattice * e.lattice);
   for (const char *key : {"particles.primary_diameter_um", "cbd.diameter_um"})
     e.widest = std::max(e.widest, std::stod(recipe.at(key).get<std::string>()));
   if (recipe.contains("cbd.nanoporosity_percent"))

@@ -160,7 +160,7 @@ std::pair<int, int> write_bodies(const std::string &folder, const ElectrodeFacts
                                  const std::string &electrode_folder,
                                  const std::vector<std::pair<long, double>> &frames,
                                  const std::vector<MomentOfRun> &moments, double elongation) {
-  const double face = e.lattice * e.lattice;
+  const double face = e.facet;
   std::map<int, Eigen::Vector3d> first, last;
   if (!frames.empty()) {
     first = positions(fmt::format("{}/vtk/particles_{}.vtp", folder, frames.front().first));

@@ -40,7 +40,7 @@ public:
   void write_table();
 
   std::vector<int> runs_to_make() const;
-  /// Of each packing that is not there and that a run needs, its first run.
+  /// The first run of each packing that is not there and that a run needs.
   std::vector<int> packings_to_make() const;
   int count(const std::string &status) const;
   bool packed(int k) const;

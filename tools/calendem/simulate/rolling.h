@@ -48,7 +48,7 @@ private:
   void set_gap();
 };
 
-/// Those that were not the last, for summary.json.
+/// Rehearsals that were not the last, for summary.json.
 nlohmann::json rehearsals_in(const std::string &folder);
 
 /// What is wrong; "" when the last pass carries what was asked for, or nothing was.

@@ -43,7 +43,8 @@ struct ElectrodeFacts {
   double cbd_envelope = 0.0;
   double am = 0.0;
   double lx = 0.0, ly = 0.0;
-  double lattice = 0.0;
+  double lattice = 0.0;      ///< cube root of a primary's volume [um]
+  double facet = 0.0;        ///< area between two bonded primaries, mean [um2]
   double nanoporosity = 0.0; ///< of CBD, as packed; 0: not known
   double widest = 0.0;       ///< largest diameter of a primary or a CBD sphere [um]
   MeanSphere primary;        ///< of the active material; from the atoms, as `atoms` is

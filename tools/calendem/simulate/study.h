@@ -54,7 +54,7 @@ std::string study_header(const Study &study);
 /// The cells of a finished run's results, each after a comma; empty cells: not known.
 std::string results_of(const std::string &folder, const std::vector<double> &pressures);
 
-/// The same for a run that is not finished.
+/// The cells of a run that is not finished.
 std::string no_results(const std::vector<double> &pressures);
 
 } // namespace calendem

@@ -24,7 +24,7 @@ namespace {
 constexpr const char *kFiles[] = {"gap.json", "gap_without.json", "baselines.json"};
 constexpr const char *kShrink = "shrink.json";
 
-/// Of the names "001", "002", ... in commitment.json.
+/// Takes the names "001", "002", ... in commitment.json.
 std::vector<std::string> ids_of(const std::string &folder) {
   const nlohmann::json j =
       nlohmann::json::parse(bytes_of(folder + "/commitment.json"), nullptr, false);
@@ -166,7 +166,7 @@ private:
     less["without"] = name;
   }
 
-  /// Of all that the answer to a case depends on.
+  /// Hash of all that the answer to a case depends on.
   std::string identity_of(const std::string &id) const {
     return sha256(of_bank_ + sha256_of_case(o_.handed_out + "/" + id) + version());
   }

@@ -256,7 +256,7 @@ private:
   }
 };
 
-/// Of the k-th specimen at each pressure, from 0.
+/// Name of the k-th specimen at each pressure, from 0.
 std::string id_of(double pressure, std::size_t k) {
   return k == 0 ? fmt::format("p{:g}", pressure) : fmt::format("p{:g}_{}", pressure, k + 1);
 }

@@ -75,7 +75,7 @@ std::string interval(const std::vector<Rehearsed> &cases,
 
 using Choice = std::function<bool(const Rehearsed &)>;
 
-/// Of the cases that `among` chooses, the share that `hit` chooses too.
+/// Share of the cases that `among` chooses which `hit` chooses too.
 std::string share(const std::vector<Rehearsed> &cases, const Choice &among, const Choice &hit) {
   return interval(cases, [&](const std::vector<int> &drawn) {
     double hits = 0.0, trials = 0.0;
@@ -88,7 +88,7 @@ std::string share(const std::vector<Rehearsed> &cases, const Choice &among, cons
   });
 }
 
-/// Of the base parameters' intervals.
+/// Share of the base parameters' intervals that hold.
 std::string held(const std::vector<Rehearsed> &cases, const Choice &among) {
   return interval(cases, [&](const std::vector<int> &drawn) {
     double hits = 0.0, trials = 0.0;

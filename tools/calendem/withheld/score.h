@@ -23,7 +23,7 @@ struct TrueGap {
   std::set<std::string> places;
 };
 
-/// The same specimens with a cause and without it.
+/// Specimens with a cause and without it.
 struct PairedExperiments {
   Experiment with, without;
 };
@@ -116,9 +116,10 @@ double brier_skill_of(const Cases &cases);
 /// its mean probability| in tenths of that probability. Nulls, unknowns and the rest count together as much as their
 /// priors: a probability is right only for the mixture for which it is stated.
 double calibration_error_of(const Cases &cases);
-/// Of the places reported against the true ones, all cases together: 2 common / (reported + true).
+/// F1 of the places reported against the true ones, all cases together: 2 common / (reported +
+/// true).
 double localisation_f1_of(const Cases &cases);
-/// Of the probability given to "unknown", where that is the truth against where it is not.
+/// AUROC of the probability given to "unknown", where that is the truth against where it is not.
 double auroc_of_unknown(const Cases &cases);
 
 /// Signal-to-noise from which the gates of `where` and `which` count, that from which an effect must

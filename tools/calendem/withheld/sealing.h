@@ -11,16 +11,16 @@
 
 namespace calendem {
 
-/// Of the files of a folder (no folders in it), by name and bytes, in the order of their names.
-/// Throws Failure(2) for anything that is no plain file: a link may lead elsewhere.
+/// Hash of the files of a folder (no folders in it), by name and bytes, in the order of their
+/// names. Throws Failure(2) for anything that is no plain file: a link may lead elsewhere.
 std::string sha256_of_files(const std::string &folder);
 
-/// Of what is handed out of a case: its files or, of an intervention, those of its folders before and
-/// after, beside which nothing may lie (Failure(2)).
+/// True if a case hands out folders before and after, beside which nothing may lie (Failure(2));
+/// false if it hands out files.
 bool is_intervention(const std::string &folder);
 std::string sha256_of_case(const std::string &folder);
 
-/// Of a case's samples alone: folders 0, 1, ... with the cause, each beside K_without.
+/// Folders of a case's samples alone: 0, 1, ... with the cause, each beside K_without.
 std::vector<std::string> samples_in(const std::string &folder);
 std::string sha256_of_samples(const std::string &folder);
 

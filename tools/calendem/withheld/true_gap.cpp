@@ -14,8 +14,8 @@ namespace {
 using inference::Matrix;
 using inference::Vector;
 
-/// Of `data`, at the observables of `wanted`. A row of a curve that only `wanted` reaches differs by as
-/// much as the row before it.
+/// Values of `data`, at the observables of `wanted`. A row of a curve that only `wanted` reaches
+/// differs by as much as the row before it.
 Vector values_for(const ExperimentData &wanted, const ExperimentData &data) {
   Vector out(wanted.experiment.values.size());
   double difference = 0.0; // of the row before

@@ -30,7 +30,8 @@ struct Truth {
       0; ///< truths of one set share samples, press and base parameters; in random order
 };
 
-/// The same samples under the same press without effects and hidden changes of the physics.
+/// Samples as those of `truth`, under the same press without effects and hidden changes of the
+/// physics.
 Truth without_cause(Truth truth);
 bool has_cause(const Truth &truth);
 /// What is run beside a truth, if anything: the samples before an intervention; in a round of paired
@@ -49,8 +50,8 @@ std::string right_answer(const Truth &truth, const BankSpec &bank);
 /// the nulls, in turn; numerics and understated errors are the truth's own.
 std::vector<Truth> draw_truths(const Round &round, const std::string &secret);
 
-/// The same set after set, so that a round that was stopped has whole sets; only the first so many, 0: all. Throws
-/// Failure(2) if that is asked of a round without sets.
+/// Truths set after set, so that a round that was stopped has whole sets; only the first so many,
+/// 0: all. Throws Failure(2) if that is asked of a round without sets.
 std::vector<Truth> truths_of_sets(const Round &round, const std::string &secret, int sets);
 
 /// The runs of a truth, and of all: for each repeat and sample, one per pressure of the bank. Throws Failure(2) where

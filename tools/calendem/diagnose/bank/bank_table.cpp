@@ -120,7 +120,7 @@ BankRow row_at(const BankSpec &spec, const Columns &t, std::size_t k, const std:
   return row;
 }
 
-/// Of each row the way in which it is pressed, which must be one of the bank's.
+/// How each row is pressed, which must be one of the bank's.
 std::vector<std::string> pressings_of(const BankSpec &spec, const CsvTable &t, Mistakes &mistakes) {
   if (!t.has("pressing"))
     return std::vector<std::string>(t.rows());

@@ -78,7 +78,7 @@ struct BankTable {
   std::vector<BankRow> rows; ///< those of the full cell too
 };
 
-/// Those of the bank's runs that none of the rows is. Throws Failure(2) if a row has the place of
+/// Runs of the bank that none of the rows is. Throws Failure(2) if a row has the place of
 /// one, but other parameters: it is another bank's.
 std::vector<PressedPoint> runs_beside(const BankSpec &spec, std::vector<PressedPoint> runs,
                                       const std::vector<BankRow> &rows);

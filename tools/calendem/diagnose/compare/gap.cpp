@@ -125,7 +125,7 @@ void say(Gap &gap) {
         "bounds. Pack the recipe with other seeds (at least 5) and run them too.");
 }
 
-/// The same change measured and simulated between conditions: free of a common offset.
+/// A change measured and simulated between conditions: free of a common offset.
 void say_changes(Gap &gap) {
   for (std::size_t a = 0; a < gap.rows.size(); ++a)
     for (std::size_t b = 0; b < gap.rows.size(); ++b) {

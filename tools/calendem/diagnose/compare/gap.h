@@ -36,7 +36,7 @@ struct SimulatedRun {
   double pressure_left = NAN;
   std::string way; ///< how often, how fast and how long it was pressed, to tell runs apart
   std::vector<double> pressure, displacement; ///< of the first compression, highest so far
-  /// Of the last release, by rising pressure: the lowest so far.
+  /// The last release, by rising pressure: the lowest so far.
   std::vector<double> release_pressure, release_displacement;
   double porosity_slope = 0.0; ///< d porosity / d pressure under load near the maximum [1/MPa]
   std::string imposed;         ///< what was imposed on the run, not predicted; empty: nothing
@@ -92,7 +92,7 @@ std::string gap_page(const nlohmann::ordered_json &gap);
 nlohmann::json heat_map(const nlohmann::json &where, double threshold,
                         const std::vector<std::string> &conditions = {});
 
-/// The same condition with the recipe's loading where its own is not known, and a note.
+/// The condition with the recipe's loading where its own is not known, and a note.
 Condition with_loading_of_recipe(const Experiment &experiment, const Condition &condition,
                                  std::vector<std::string> &not_said);
 

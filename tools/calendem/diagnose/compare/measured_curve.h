@@ -18,7 +18,7 @@ struct MeasuredCurve {
   int left_out = 0; ///< rows that stand out
 };
 
-/// Of a CSV file that check_curve found right.
+/// Reads a CSV file that check_curve found right.
 MeasuredCurve read_measured_curve(const std::string &file);
 
 } // namespace calendem

@@ -9,8 +9,8 @@ namespace calendem {
 namespace {
 
 constexpr double kSameTarget = 0.02;
-// Of the maximum pressure; the release is compared at the same, less the first: there the film
-// parts from the platen, and how it does is the press's affair too.
+// Shares of the maximum pressure; the release is compared at the same, less the first: there the
+// film parts from the platen, and how it does is the press's affair too.
 constexpr double kCurveShares[] = {0.1, 0.25, 0.5, 0.75};
 constexpr double kRowsApart = 0.0199; // of the largest pressure: rows a fiftieth apart all count
 
@@ -64,7 +64,7 @@ void add_thickness(const Experiment &e, const Condition &c, const Measured &thic
   not_said.push_back(without_loading(c, "thickness is"));
 }
 
-/// Of a sample of that thickness and porosity [mg/cm2].
+/// Loading of a sample of that thickness and porosity [mg/cm2].
 double loading_by(const Experiment &e, const Measured &thickness, const Measured &porosity) {
   return coating_thickness_um(e, thickness) * (1.0 - 0.01 * porosity.value) /
          solid_thickness_um(e, 1.0);
@@ -160,8 +160,9 @@ double along(double share, Branch branch) {
   return 0.5 * (branch == Branch::Release ? 2.0 - share : share);
 }
 
-/// Of a curve that reaches as far: the pressure asked for if all shares of it are within the curve.
-/// Rows are noted a little before it or past it, otherwise for each specimen.
+/// The pressure that a curve's shares refer to: the one asked for if all shares of it are within
+/// the curve, else the one it reaches. Rows are noted a little before it or past it, otherwise for
+/// each specimen.
 double scale_of(const Condition &c, double reached) {
   const bool has_all =
       by_pressure(c) && *std::rbegin(kCurveShares) * c.max_pressure_MPa->value <= reached;

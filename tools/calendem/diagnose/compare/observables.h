@@ -66,8 +66,8 @@ bool belongs(const SimulatedRun &run, const Condition &condition);
 // What an experiment's label images show, beside the frames of a run, cut into voxels of the same
 // size and measured by the same code.
 
-/// Of an image, or of the part [i0, i1) x [j0, j1) of its columns of voxels. Shares of the volume
-/// 0-1.
+/// Measures of an image, or of the part [i0, i1) x [j0, j1) of its columns of voxels. Shares of the
+/// volume 0-1.
 struct ImageMeasures {
   double am = 0.0, pore = 0.0;
   double upper_minus_lower = 0.0;   ///< share of AM, upper third minus lower third

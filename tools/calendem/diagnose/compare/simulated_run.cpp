@@ -57,7 +57,7 @@ void read_summary(RunFolder &folder, SimulatedRun &run, Mistakes &mistakes) {
   run.solid_column = number("thickness_at_max_um") * (1.0 - run.porosity_at_max);
 }
 
-/// Of structure.json, if the run was measured.
+/// Reads it from structure.json, if the run was measured.
 double inverse_tortuosity(RunFolder &folder) {
   if (!folder.has("structure.json"))
     return NAN;

@@ -40,7 +40,7 @@ bool has(const Judged &j, int effect) {
   return std::find(j.hypothesis.on.begin(), j.hypothesis.on.end(), effect) != j.hypothesis.on.end();
 }
 
-/// Of the unknown only the place whose draws are kept.
+/// The unknown counts with the place alone whose draws are kept.
 double weight_of(const Judged &j) {
   const auto at = j.of_place.find(j.place);
   return at == j.of_place.end() ? j.probability : j.probability * (1.0 - j.by_misfit) * at->second;

@@ -13,7 +13,8 @@ struct Range {
   double median = 0.0, low90 = 0.0, high90 = 0.0, low95 = 0.0, high95 = 0.0;
 };
 
-/// Of the first amplitude of an effect, where it acts: alone, in a pair, or beside something unknown.
+/// Range of the first amplitude of an effect, where it acts: alone, in a pair, or beside something
+/// unknown.
 struct EffectRange {
   std::string effect;
   double inclusion = 0.0; ///< that it acts, alone or in a pair
@@ -24,10 +25,11 @@ struct EffectRange {
 };
 std::vector<EffectRange> effect_ranges(const Problem &problem, const Which &which);
 
-/// Of any parameter of an effect, by its place among them.
+/// Range of any parameter of an effect, by its place among them.
 Range range_of(const Problem &problem, const Which &which, int effect, int parameter);
 
-/// Of a base parameter over all hypotheses, each as wide as it leaves it, and under the effect of the table that moves it most.
+/// Range of a base parameter over all hypotheses, each as wide as it leaves it, and under the
+/// effect of the table that moves it most.
 struct ParameterRange {
   Range all;
   std::string moved_by; ///< empty: no effect that the data leave moves it by half its 95 % interval

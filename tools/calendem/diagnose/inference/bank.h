@@ -31,7 +31,7 @@ struct Bank {
   std::vector<BankRun> runs;
 };
 
-/// Of the base model, and of an effect beside runs of it.
+/// Runs that the base model needs at least, and an effect beside runs of it.
 constexpr int kFewestRuns = 5;
 
 /// Throws Failure(2) with every mistake of the bank: names, sizes, values that are no numbers, an

@@ -47,7 +47,7 @@ struct Line {
   }
 };
 
-/// Of the posterior beside this draw: Gauss and Newton's steps.
+/// Mode of the posterior beside this draw: Gauss and Newton's steps.
 Vector middle(const Beside &beside, Vector at) {
   for (int step = 0; step < kSteps; ++step)
     at = Line(beside, at).mean;

@@ -33,7 +33,7 @@ struct ChosenPoint {
 std::vector<ChosenPoint> choose_points(const Model &model, const Bank &bank,
                                        const std::vector<PossiblePoint> &possible, int count);
 
-/// Of all of these points together; by effect.
+/// Gain of all of these points together; by effect.
 std::vector<double> information_gain(const Model &model, const Bank &bank,
                                      const std::vector<PossiblePoint> &points);
 

@@ -14,8 +14,8 @@ constexpr double kFewestSamples = 30.0; // effective samples of its evidence
 // Bayes factor below which an effect beside others is excluded: of those that act, drawn from the
 // prior, at most 5 % get so little (Royall, J. Am. Stat. Assoc. 95 (2000) 760); of weak ones more.
 constexpr double kExcluded = 0.05;
-// Of the unknown's prior, what is known by nothing but that no prediction fits: the p of the best is
-// then distributed as p^kMisfit.
+// Share of the unknown's prior that shows by nothing but that no prediction fits: the p of the best
+// is then distributed as p^kMisfit.
 constexpr double kByMisfit = 0.25, kMisfit = 0.1;
 
 double weight_of(const Priors &priors, const std::string &name) {

@@ -16,8 +16,8 @@ struct ConfoundingSettings {
 
 struct DetectionLimit {
   std::string effect, rival; ///< rival: the hardest to distinguish at that amplitude
-  /// Of the first amplitude parameter, in its unit, within its prior, the farther from zero where it
-  /// may have either sign; NaN: never.
+  /// Value of the first amplitude parameter, in its unit, within its prior, the farther from zero
+  /// where it may have either sign; NaN: never.
   double amplitude = 0.0;
   double against_none = 0.0; ///< by the distance from none alone: what can be seen
 };
@@ -33,7 +33,7 @@ struct Confounding {
   /// amplitude and the column's may have any; the last column is none.
   Matrix log_odds;
   std::vector<DetectionLimit> limits;
-  /// Of the hypotheses in the 95 % set, at their fitted amplitudes.
+  /// Groups of the hypotheses in the 95 % set, at their fitted amplitudes.
   std::vector<std::vector<std::string>> indistinguishable;
 };
 
@@ -71,7 +71,7 @@ public:
   /// rival's: half of (square of the distance in the rival's covariance + ln det of the rival's
   /// over the truth's + what noise adds to the squares), base linearised.
   static double odds(const Signature &truth, const Signature &rival);
-  /// The same, but for the rival the base model is recalibrated as its emulators are, not as their
+  /// As odds(), but for the rival the base model is recalibrated as its emulators are, not as their
   /// tangents are: the square becomes the least of that to the prediction and that of the way there
   /// in scores. Costs as much as a search for a mode.
   double odds_recalibrated(const Signature &truth, const Signature &rival) const;

@@ -92,7 +92,7 @@ Diagnosis diagnose(const Model &model, const Bank &bank, const Vector &values,
                    const DiagnosisSettings &settings,
                    const std::vector<PointNoise> &point_noise = {});
 
-/// Of a problem that the model's predictions are part of only; no next measurements.
+/// Diagnosis of a problem that the model's predictions are part of only; no next measurements.
 Diagnosis diagnose(const Model &model, const Problem &problem, const Bank &bank,
                    const Vector &values, const DiagnosisSettings &settings);
 
@@ -105,7 +105,8 @@ struct KnownBase {
   Matrix covariance;
 };
 
-/// Of the base model recalibrated on an experiment. `predicted`: the observables there.
+/// What is known of the base model recalibrated on an experiment. `predicted`: the observables
+/// there.
 KnownBase recalibrated(const Model &model, const Vector &values, Vector &predicted);
 
 /// `model` is of the differences' observables with their covariance; `values`: `predicted` and what

@@ -58,7 +58,7 @@ Json beside_of(const Which &w) {
   return rows;
 }
 
-/// Of the hypothesis that leads among those that predict.
+/// Runs of the hypothesis that leads among those that predict.
 Json short_runs_of(const Which &w) {
   Json rows = Json::array();
   for (const ShortRuns &s : best_predicting(w).short_runs)

@@ -10,9 +10,9 @@
 
 namespace calendem::inference {
 
-/// Of the base model's variance between runs, in a difference of two: between 0, if all of it is
-/// what the base emulator misses, which cancels, and 2, if all is chaotic. 1 and 2 predict left-out
-/// differences of a bank of 8 packings about as well.
+/// Share of the base model's variance between runs in a difference of two: between 0, if all of it
+/// is what the base emulator misses, which cancels, and 2, if all is chaotic. 1 and 2 predict
+/// left-out differences of a bank of 8 packings about as well.
 constexpr double kOfDifference = 1.5;
 
 class Emulators {
@@ -25,7 +25,7 @@ public:
   void predict(const Vector &base_scores, const std::vector<Applied> &on, int first,
                Prediction &out, Part of = Part::whole) const;
 
-  /// The same and its derivatives, into the rows from `first` on.
+  /// Predicts, with derivatives, into the rows from `first` on.
   void slopes(const Vector &base_scores, const std::vector<Applied> &on, int first, Slopes &out,
               Part of = Part::whole) const;
 
@@ -34,7 +34,7 @@ public:
   /// What base model and simulated effects (not computed ones) miss in their own runs, in standard
   /// deviations of the runs' scatter: runs x features, in an order that depends on the bank only.
   Matrix residuals() const;
-  /// Of each of these rows the run's place in the bank; those of the base model are the first.
+  /// Place in the bank of each row's run; those of the base model are the first.
   const std::vector<int> &runs() const { return runs_; }
   /// Number of the packing of each base run.
   const std::vector<int> &packing() const { return packing_; }

@@ -15,7 +15,7 @@ struct EvidenceSettings {
   int shifts = 2;           ///< their spread gives `error`
   double least_share = 0.1; ///< of effective samples; below, up to three more passes
   int draws = 200;          ///< equally weighted draws of the posterior that are kept
-  /// Of the shifts. Not a bank's: its points would be among the prior's samples.
+  /// Seed of the shifts. Not a bank's: its points would be among the prior's samples.
   unsigned long long seed = 0xe71d;
 };
 

@@ -22,7 +22,7 @@ struct NormalMoments {
   double mean = 0.0, variance = 1.0;
 };
 
-/// Of the normal_score of a squared length in directions whose variance has these shares of
+/// Moments of the normal_score of a squared length in directions whose variance has these shares of
 /// measurement, if its errors are `factor` times those stated. A sum of squares with such weights
 /// is about g chi-squared of h degrees of freedom, with its mean and variance (Satterthwaite,
 /// Biometrics Bull. 2 (1946) 110), whose cube root is about normal.
@@ -54,10 +54,10 @@ public:
   Vector features_of(const Vector &measured) const;
   /// Covariance of all features from that of the observables; 1 for a truncation residual.
   Matrix covariance(const Matrix &of_observables) const;
-  /// The same for a discrepancy of the model: a truncation residual gets the square of what it is
-  /// expected to grow to, or 1: an unknown effect need not be smooth.
+  /// Covariance of features for a discrepancy of the model: a truncation residual gets the square
+  /// of what it is expected to grow to, or 1: an unknown effect need not be smooth.
   Matrix discrepancy(const Matrix &of_observables) const;
-  /// Of every truncation residual.
+  /// Roughness of every truncation residual.
   const std::vector<Roughness> &roughness() const { return roughness_; }
   /// Observables that have these emulated features.
   Vector observables_of(const Vector &emulated) const;

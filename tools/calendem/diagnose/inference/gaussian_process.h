@@ -62,7 +62,7 @@ public:
   Mean at(const Vector &input, const Vector &amplitudes) const;
   MeanSlopes slopes_at(const Vector &input, const Vector &amplitudes) const;
 
-  /// Of all that is asked for, given the runs that it learnt from.
+  /// Covariance of all that is asked for, given the runs that it learnt from.
   Matrix covariance(const Asked &asked) const;
 
   /// Every packing left out in turn (every run, when there are fewer than `kFewestPackings`).
@@ -73,7 +73,7 @@ public:
   double packing_variance() const { return square_ * packing_; }
   /// Variance between runs of one packing; with one run for each packing it is the whole scatter.
   double run_variance() const { return square_ * noise_; }
-  /// Of what the expectation does not explain.
+  /// What the expectation does not explain.
   const Vector &residuals() const { return residuals_; }
   /// Runs that the expectation's adaptation uses up.
   double parameters_used() const { return parameters_used_; }
@@ -91,7 +91,7 @@ private:
   double parameters_used_ = 0.0;
   bool repeated_ = false; ///< a packing has more than one run
 
-  /// Of a point with the runs, before the amplitudes: the shape of the kernel, and the covariance.
+  /// A point beside the runs, before the amplitudes: the shape of the kernel, and the covariance.
   struct Near {
     Vector root, decay; ///< sqrt(5) distance in lengths, exp(-root)
     Vector covariance;

@@ -45,7 +45,7 @@ double Likelihood::noise_factor(const Vector &scores) const {
   return kNoiseFactor.value(scores[scores.size() - 1]);
 }
 
-/// Of emulators or formula.
+/// The prediction of emulators or formula.
 Prediction Likelihood::bare(const Vector &scores) const {
   return problem_.predict(scores.head(problem_.base_parameters),
                           applied_at(problem_, hypothesis_, scores));

@@ -43,7 +43,7 @@ public:
   /// Square of observed - predicted in the inverse covariance, with its gradient. Of a hypothesis
   /// that makes a prediction.
   double square(const Vector &scores, Vector &gradient) const;
-  /// That and ln of the covariance's determinant.
+  /// Sum of the square and ln of the covariance's determinant.
   double deviance(const Vector &scores, Vector &gradient) const;
   /// Covariance of observed - predicted.
   Matrix covariance(const Vector &scores, const Prediction &prediction) const;

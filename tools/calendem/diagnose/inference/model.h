@@ -68,7 +68,7 @@ public:
   std::vector<std::string> poor_effects() const;
   const FeatureMap &map() const { return *map_; }
   const Emulators &emulators() const { return *emulators_; }
-  /// Of the emulated features: the measurement's and the sample's packings'.
+  /// Variance of the emulated features: the measurement's and the sample's packings'.
   Vector data_variance() const;
   double packings_in_sample() const { return settings_.packings_in_sample; }
   const Scatter &scatter() const { return scatter_; }

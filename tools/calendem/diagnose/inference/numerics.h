@@ -36,7 +36,7 @@ Matrix hessian(const WithGradient &function, const Vector &at, double step);
 /// shifted modulo 1 by a vector that `shift` seeds (Cranley and Patterson 1976). 0: not shifted.
 Matrix sobol_points(int dimension, int count, std::uint64_t shift);
 
-/// The same as standard normal scores.
+/// Sobol's points as standard normal scores.
 Matrix sobol_normals(int dimension, int count, std::uint64_t shift);
 
 /// Quantile of the standard normal distribution, 0 < share < 1.

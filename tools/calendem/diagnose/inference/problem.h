@@ -16,10 +16,10 @@ struct Applied {
   Vector scores;
 };
 
-/// Of a prediction: all of it, or what the effects that are on change.
+/// All of a prediction, or what the effects that are on change.
 enum class Part { whole, change };
 
-/// Of all features.
+/// What is predicted of all features.
 struct Prediction {
   Vector mean;
   Vector variance; ///< of the emulators
@@ -80,7 +80,7 @@ Vector drawn(const Problem &problem, const Vector &base, const std::vector<Appli
 /// Covariance of the emulators' errors and of the scatter that effects add.
 Matrix errors_of(const Problem &problem, const Prediction &prediction);
 
-/// Of observed - predicted: measurement, scatter and the prediction's errors.
+/// Covariance of observed - predicted: measurement, scatter and the prediction's errors.
 Matrix covariance_about(const Problem &problem, const Prediction &prediction);
 
 /// Square of observed - predicted in the inverse covariance, and ln of that covariance's

@@ -70,14 +70,14 @@ struct Prior {
 struct Parameter {
   std::string name;
   Prior prior;
-  /// Of an effect: at 0 (all its amplitudes 0) the effect is off. Others give it its shape.
+  /// An effect's strength: at 0 (all its amplitudes 0) the effect is off. Others give it its shape.
   bool amplitude = false;
-  /// Of an amplitude: what it does grows about as (value / upper)^power; 0: as ln(value / nothing),
+  /// What an amplitude does grows about as (value / upper)^power; 0: as ln(value / nothing),
   /// `nothing` being where it ceases.
   double power = 1.0;
   double nothing = 0.0;
 
-  /// That, 1 at the upper end of the prior; emulators learn in it.
+  /// What an amplitude does, 1 at the upper end of the prior; emulators learn in it.
   double strength(double value) const;
   double strength_slope(double value) const; ///< d strength / d value
   /// What emulators see: the scaled value, or of an amplitude of another power than 1 its strength

@@ -22,7 +22,7 @@ Matrix shrunk_correlation(const Matrix &residuals, double &weight);
 /// Covariance of samples (rows) about their mean: variances as they are, correlations shrunk.
 Scatter shrunk_covariance(const Matrix &samples);
 
-/// The same pooled over a bank: a part between packings and one between runs of a packing, each
+/// Scatter pooled over a bank: a part between packings and one between runs of a packing, each
 /// with its variances from the emulators' marginal likelihood and the correlations of their
 /// residuals' means by packing, or of what is left beside these. Degrees of freedom by
 /// Satterthwaite from packings and runs, less what the expectation used up; median of features.
@@ -31,7 +31,7 @@ Scatter shrunk_covariance(const Matrix &samples);
 Scatter pooled_scatter(const std::vector<GaussianProcess> &features, const Matrix &residuals,
                        const std::vector<int> &packing);
 
-/// Of emulators of the same runs: runs x features.
+/// Residuals of emulators of the same runs: runs x features.
 Matrix residuals_of(const std::vector<GaussianProcess> &features);
 
 /// Degrees of freedom of `known + estimated`, whose second part has `degrees_of_freedom`: divided

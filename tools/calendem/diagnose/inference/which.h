@@ -47,10 +47,10 @@ struct Judged {
   std::map<std::string, double> of_place; ///< of unknown: share of its posterior by place
   /// Share of its posterior in which all its effects are too small to be seen; 0: not known.
   double below_limits = 0.0;
-  /// Of unknown: share of its probability that rests on nothing known fitting the data.
+  /// Share of the unknown's probability that rests on nothing known fitting the data.
   double by_misfit = 0.0;
-  /// Of unknown: scores of the base parameters where it may move what they move, too; as many draws
-  /// as of the evidence, over all places. Empty: those of the evidence.
+  /// Scores of the base parameters beside the unknown, where it may move what they move, too; as
+  /// many draws as of the evidence, over all places. Empty: those of the evidence.
   Matrix base_draws;
   std::vector<ShortRuns> short_runs; ///< of its effects, where it fits best
 };

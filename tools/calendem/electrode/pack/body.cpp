@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/pack/body.h"
+#include "electrode/pack/grains.h"
 #include "physics/pi.h"
 #include <algorithm>
 #include <fmt/format.h>
@@ -179,6 +180,23 @@ std::vector<Eigen::Vector3d> fill(const Hull &hull, const Lattice &lattice, int 
   return points;
 }
 
+void fill(Body &b, const Hull &hull, const Recipe &recipe, int count, double farthest,
+          Random &random) {
+  if (recipe.grains == GrainShape::Voronoi && count >= kFewestGrains) {
+    Grains grains = make_grains(hull, count, std::pow(recipe.lattice, 3), farthest,
+                                recipe.bond_distance(), random);
+    b.primaries = std::move(grains.centres);
+    b.facet = grains.facet;
+    b.lattice.setIdentity();
+    return;
+  }
+  const Lattice lattice{random.rotation(), random.uniform3() - Eigen::Vector3d::Constant(0.5),
+                        recipe.lattice};
+  b.primaries = fill(hull, lattice, count, farthest);
+  b.facet = recipe.lattice * recipe.lattice;
+  b.lattice = lattice.turn;
+}
+
 void centre_on_mass(Body &b) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d &p : b.primaries)
@@ -254,10 +272,7 @@ Body make_body(const Recipe &recipe, int count, Random &random, const DrawHull &
     // the last try cuts the shape off where the limit of the width is
     const double farthest = tries < kTries ? HUGE_VAL : 0.5 * (widest - recipe.primary_diameter);
     const Hull hull = draw(random);
-    const Lattice lattice{random.rotation(), random.uniform3() - Eigen::Vector3d::Constant(0.5),
-                          recipe.lattice};
-    b.primaries = fill(hull, lattice, count, farthest);
-    b.lattice = lattice.turn;
+    fill(b, hull, recipe, count, farthest, random);
     b.sphericity = count == 1 ? 1.0 : hull.sphericity();
     b.shape = hull.name;
     b.width = width_of(b.primaries, recipe.primary_diameter);

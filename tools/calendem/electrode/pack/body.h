@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Secondary particles: sizes from the recipe's truncated lognormal law by number, irregular outer
-// shapes, primaries on a randomly turned cubic lattice inside.
+// shapes, filled with primaries: irregular grains, or sites of a randomly turned cubic lattice.
 #ifndef CALENDEM_ELECTRODE_PACK_BODY_H
 #define CALENDEM_ELECTRODE_PACK_BODY_H
 
 #include "base/random.h"
 #include "base/recipe.h"
+#include "electrode/pack/hull.h"
 #include <array>
 #include <functional>
 #include <string>
@@ -34,7 +35,7 @@ SizeLaw measured_law(const Recipe &recipe);
 /// that even a small cell has the right mix.
 std::vector<double> draw_diameters(const Recipe &recipe, double volume, Random &random);
 
-/// The same from any law, given as its quantile function [um].
+/// Sizes from any law, given as its quantile function [um].
 using Quantile = std::function<double(double)>;
 std::vector<double> draw_diameters(const Quantile &law, double volume, Random &random);
 
@@ -80,7 +81,8 @@ struct Lattice {
 
 struct Body {
   std::vector<Eigen::Vector3d> primaries; ///< about the centre of mass [um]
-  Eigen::Quaterniond lattice;             ///< orientation of the cubic lattice
+  Eigen::Quaterniond lattice;             ///< orientation of the cubic lattice; of grains: as made
+  double facet = 0.0;                     ///< mean area between two bonded grains [um^2]
   double volume = 0.0;                    ///< of the envelope, N s^3 [um^3]
   double sphericity = 1.0;                ///< of the smooth shape; 1 for a single primary
   double width = 0.0;                     ///< largest distance on its primaries' surfaces [um]
@@ -92,19 +94,10 @@ struct Body {
 /// Largest distance between two points of the spheres' surfaces.
 double width_of(const std::vector<Eigen::Vector3d> &centres, double diameter);
 
-/// An outer shape that primaries are filled into, about the origin.
-struct Hull {
-  std::function<double(const Eigen::Vector3d &)> depth; ///< at x [um]; grows outwards
-  double reach;                                         ///< farthest point of the shape [um]
-  std::function<double()> sphericity;
-  std::string name;
-};
-using DrawHull = std::function<Hull(Random &)>;
-
 /// One body of exactly `count` primaries, not wider than the recipe's limit: shapes that are wider
 /// are drawn again, the hundredth is cut off. Throws Failure(2) where even that has no room.
 Body make_body(const Recipe &recipe, int count, Random &random, const DrawHull &draw);
-/// The same with a generated Shape of the recipe's irregularity.
+/// Makes it with a generated Shape of the recipe's irregularity.
 Body make_body(const Recipe &recipe, int count, Random &random);
 
 /// Primaries per body by the recipe's law of sizes, largest first.

@@ -76,7 +76,7 @@ Eigen::Quaterniond frame_of(const std::vector<Eigen::Vector3d> &x, double touchi
   return Eigen::Quaterniond(R);
 }
 
-// Of the union of the primaries and their cells of the lattice, its surface smoothed.
+// Sphericity of the union of the primaries and their cells of the lattice, its surface smoothed.
 double sphericity_of(const Recipe &r, const Body &b) {
   if (b.primaries.size() == 1)
     return 1.0;
@@ -232,7 +232,8 @@ public:
   PlacementOfStructure finish() {
     for (Particle &p : out_.loose.particles)
       p.x = in_cell(recipe_, p.x);
-    out_.loose.height += 0.1;
+    // the platen comes down to the film's thickness, be what lies there as low as it may
+    out_.loose.height = std::max(out_.loose.height, recipe_.thickness()) + 0.1;
     return std::move(out_);
   }
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/pack/packing_state.h"
 #include "effects/settings.h"
+#include "electrode/structure/phase_image.h"
+#include "physics/bond_pair.h"
 #include "physics/hertz_contact.h"
 #include "physics/pi.h"
 #include "physics/sjkr_cohesion.h"
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 
 namespace calendem {
@@ -137,10 +138,14 @@ void note(Overlaps &o, double overlap) {
   o.largest = std::max(o.largest, overlap);
 }
 
+bool in_one_body(const Particle &p, const Particle &q) {
+  return p.type == 1 && q.type == 1 && p.body == q.body;
+}
+
 void note_contact(PackingState &s, const Particle &p, const Particle &q, const Eigen::Vector3d &d,
                   const Recipe &recipe, const FinalMaterial &material) {
   const double r = d.norm();
-  const bool bonded = p.type == 1 && q.type == 1 && p.body == q.body;
+  const bool bonded = in_one_body(p, q);
   const double force = bonded ? 0.0 : pair_force(p, q, r, material);
   s.film_stress_MPa += 0.5e-3 * force * (d.x() * d.x() + d.y() * d.y()) / r; // times volume
   const double overlap = 0.5 * (p.diameter + q.diameter) - r;
@@ -157,17 +162,21 @@ void note_contact(PackingState &s, const Particle &p, const Particle &q, const E
   }
 }
 
-// Pairs of the body's primaries that touch as it was made, and how far those that still do are
-// stretched; `first`: its first particle.
+// A body at rest has bonds strained by less. Of pairs about the distance up to which primaries are
+// bonded, one that moves no more may come to be bonded, or not.
+constexpr double kBondStrain = 0.01;
+
+// Pairs of the body's primaries that are bonded as it was made, and how far those that still are
+// are stretched; `first`: its first particle.
 void note_pairs(PackingState &s, const Body &b, const Particle *first, const Recipe &recipe) {
   for (size_t i = 0; i < b.primaries.size(); ++i)
     for (size_t j = i + 1; j < b.primaries.size(); ++j) {
       const double made = (b.primaries[i] - b.primaries[j]).norm();
-      if (made >= recipe.primary_diameter)
-        continue;
-      ++s.lattice_pairs;
       const double r = periodic_difference(recipe, first[i].x, first[j].x).norm();
-      if (r < recipe.primary_diameter)
+      const bool was = made < recipe.bond_distance(), is = r < recipe.bond_distance();
+      s.pairs_as_made += was;
+      s.pairs_changed += was != is && std::fabs(r / made - 1.0) > kBondStrain;
+      if (was && is)
         s.bond_strain = std::max(s.bond_strain, std::fabs(r / made - 1.0));
     }
 }
@@ -200,7 +209,8 @@ PackingState examine(const Recipe &recipe, const std::vector<Body> &bodies,
     s.highest_um = std::max(s.highest_um, p.x.z() + 0.5 * p.diameter);
     for (size_t j = i + 1; j < particles.size(); ++j) {
       const Particle &q = particles[j];
-      const double sum = 0.5 * (p.diameter + q.diameter);
+      const double sum =
+          in_one_body(p, q) ? recipe.bond_distance() : 0.5 * (p.diameter + q.diameter);
       if (std::fabs(p.x.z() - q.x.z()) >= sum)
         continue;
       const Eigen::Vector3d d = periodic_difference(recipe, p.x, q.x);
@@ -226,71 +236,28 @@ std::vector<std::pair<int, int>> bonds_by_distance(const std::vector<Particle> &
         Eigen::Vector3d d = p.x - q.x;
         d.x() -= lx * std::round(d.x() / lx);
         d.y() -= ly * std::round(d.y() / ly);
-        if (d.norm() < 0.5 * (p.diameter + q.diameter))
+        if (d.norm() < kBondReach * 0.5 * (p.diameter + q.diameter))
           bonds.emplace_back(list[a], list[b]);
       }
   return bonds;
 }
 
-namespace {
-
-// Voxels of a cell that is periodic in x and y and as high as its particles.
-class Grid {
-public:
-  Grid(const Recipe &r, double height, double voxel)
-      : n_{std::max(1, int(std::ceil(r.cell_x / voxel))),
-           std::max(1, int(std::ceil(r.cell_y / voxel))),
-           std::max(1, int(std::ceil(height / voxel)))},
-        step_(r.cell_x / n_[0], r.cell_y / n_[1], height / n_[2]),
-        mark_(size_t(n_[0]) * n_[1] * n_[2], 0) {}
-
-  // Marks the voxels within `reach` of x whose centre is inside and that bear no mark yet.
-  void fill(const Eigen::Vector3d &x, double reach, char mark,
-            const std::function<bool(const Eigen::Vector3d &)> &inside) {
-    const Eigen::Array3d lo = ((x.array() - reach) / step_.array()).floor();
-    const Eigen::Array3d hi = ((x.array() + reach) / step_.array()).ceil();
-    for (int k = std::max(0, int(lo[2])); k <= std::min(n_[2] - 1, int(hi[2])); ++k)
-      for (int j = int(lo[1]); j <= int(hi[1]); ++j)
-        for (int i = int(lo[0]); i <= int(hi[0]); ++i) {
-          char &m = mark_[(size_t(k) * n_[1] + wrap(j, n_[1])) * n_[0] + wrap(i, n_[0])];
-          const Eigen::Vector3d centre =
-              (Eigen::Array3d(i, j, k) + 0.5).matrix().cwiseProduct(step_);
-          if (!m && inside(centre - x))
-            m = mark;
-        }
-  }
-  double volume(char mark) const {
-    return step_.prod() * double(std::count(mark_.begin(), mark_.end(), mark));
-  }
-
-private:
-  static int wrap(int i, int n) { return ((i % n) + n) % n; }
-  int n_[3];
-  Eigen::Vector3d step_;
-  std::vector<char> mark_;
-};
-
-} // namespace
-
 Envelope measure_envelope(const Recipe &recipe, const std::vector<Particle> &particles,
-                          const std::vector<Pose> &poses, double voxel) {
+                          double voxel) {
+  std::vector<Sphere> spheres;
   double height = 0.0;
-  for (const Particle &p : particles)
+  for (const Particle &p : particles) {
+    spheres.push_back({p.x, 0.5 * p.diameter, p.body});
     height = std::max(height, p.x.z() + 0.5 * p.diameter + recipe.lattice);
-  Grid grid(recipe, height, voxel);
-  const double half = 0.5 * recipe.lattice;
-  for (const Particle &p : particles)
-    if (p.body > 0) {
-      const Eigen::Matrix3d back = poses[p.body - 1].turn.toRotationMatrix().transpose();
-      grid.fill(p.x, std::sqrt(3.0) * half, 1,
-                [&](const Eigen::Vector3d &d) { return (back * d).cwiseAbs().maxCoeff() <= half; });
-    }
-  for (const Particle &p : particles)
-    if (p.body == 0)
-      grid.fill(p.x, 0.5 * p.diameter, 2, [&](const Eigen::Vector3d &d) {
-        return d.squaredNorm() <= 0.25 * p.diameter * p.diameter;
-      });
-  return {grid.volume(1), grid.volume(1) + grid.volume(2)};
+  }
+  const PhaseImage image =
+      voxelise(spheres, {recipe.cell_x, recipe.cell_y, height}, recipe.lattice, voxel);
+  Envelope out;
+  for (size_t v = 0; v < image.label.size(); ++v) {
+    out.am += image.voxel.prod() * (image.phase(v) == VoxelPhase::am);
+    out.total += image.voxel.prod() * (image.phase(v) != VoxelPhase::pore);
+  }
+  return out;
 }
 
 namespace {
@@ -302,7 +269,7 @@ Eigen::Matrix3Xd join(const Recipe &recipe, const Body &body, const Particle *fi
   x.col(0) = first[0].x;
   for (Eigen::Index k = 1; k < n; ++k) {
     Eigen::Index j = 0;
-    while (j < k - 1 && (body.primaries[k] - body.primaries[j]).norm() >= recipe.primary_diameter)
+    while (j < k - 1 && (body.primaries[k] - body.primaries[j]).norm() >= recipe.bond_distance())
       ++j;
     x.col(k) = x.col(j) + periodic_difference(recipe, first[k].x, x.col(j));
   }

@@ -67,7 +67,7 @@ public:
         }
     return false;
   }
-  /// The same for a body whose centre is at `at` and whose primaries have this radius.
+  /// As hits() for a body whose centre is at `at` and whose primaries have this radius.
   bool hits(const Body &body, const Eigen::Vector3d &at, double radius) const {
     return std::any_of(body.primaries.begin(), body.primaries.end(),
                        [&](const Eigen::Vector3d &p) { return hits(at + p, radius); });
@@ -114,8 +114,9 @@ struct PackingState {
   /// film would spread. A film at rest has next to none.
   double film_stress_MPa = 0.0;
   Overlaps cbd_cbd, cbd_am;
-  int bonds = 0;               ///< pairs of a body's primaries that touch
-  int lattice_pairs = 0;       ///< that touch in the bodies as made: there must be as many bonds
+  int bonds = 0;               ///< pairs of a body's primaries within the distance of a bond
+  int pairs_as_made = 0;       ///< within it in the bodies as made
+  int pairs_changed = 0;       ///< within it then or now, by more than a bond at rest is strained
   double bond_strain = 0.0;    ///< largest |r/r_made - 1| of them
   double highest_um = 0.0;     ///< top of the highest particle
   std::vector<int> body_bonds; ///< per body
@@ -125,7 +126,7 @@ PackingState examine(const Recipe &recipe, const std::vector<Body> &bodies,
                      const std::vector<Particle> &particles,
                      const FinalMaterial &material = FinalMaterial());
 
-/// Bonds of the lattice: index pairs of one body's particles that touch, periodic in x and y.
+/// Index pairs of one body's particles within the distance of a bond, periodic in x and y.
 std::vector<std::pair<int, int>> bonds_by_distance(const std::vector<Particle> &particles,
                                                    double lx, double ly);
 
@@ -145,7 +146,7 @@ struct Envelope {
 };
 
 Envelope measure_envelope(const Recipe &recipe, const std::vector<Particle> &particles,
-                          const std::vector<Pose> &poses, double voxel = 0.2);
+                          double voxel = 0.2);
 
 } // namespace calendem
 

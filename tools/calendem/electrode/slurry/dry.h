@@ -14,7 +14,7 @@ namespace calendem {
 
 // What `calendem dry` makes a film of: an electrode's recipe, and how its slurry is made and dried.
 
-/// Those of a recipe without [structure], and [slurry] and [drying].
+/// Keys of a recipe without [structure], and [slurry] and [drying].
 const std::vector<Key> &film_keys();
 
 /// Lengths um, densities g/cm3, fractions 0-1.

@@ -142,7 +142,7 @@ namespace {
 
 const char *const kSides[] = {"xlo xhi", "ylo yhi", "zlo zhi"};
 
-// Of other atom styles and of settings: their numbers are not needed here.
+// Sections of other atom styles and of settings: their numbers are not needed here.
 const char *const kOthers[] = {"bonds",
                                "angles",
                                "dihedrals",

@@ -12,7 +12,7 @@ namespace calendem {
 
 namespace {
 
-// Of other atom styles and of settings: their rows are not needed here.
+// Sections of other atom styles and of settings: their rows are not needed here.
 const char *const kOtherSections[] = {"Velocities",
                                       "Masses",
                                       "Pair Coeffs",
