@@ -69,21 +69,26 @@ TEST(CbdSofteningCase, ALayerFollowsHertzAtBothTemperatures) {
 }
 
 // Requirement: limits of contacts and of nanopores are softened with the modulus.
-TEST(CbdSofteningCase, YieldAndCollapseAreThoseOfValuesByHand) {
+TEST(CbdSofteningCase, LimitsAndCollapseAreThoseOfValuesByHand) {
   const double f = CbdSoftening::factor(80.0);
-  const auto values = [](double by) -> Settings {
-    return {{"E_cbd_GPa", number(by * kModulus)},
-            {"cbd_contact_yield_GPa", number(by * 0.2)},
-            {"cbd_contact_hardening_GPa", number(by * 0.1)},
-            {"cbd_yield_MPa", number(by * 5.0)},
-            {"cbd_hardening_MPa", number(by * 20.0)},
-            {"d_target_um", "0.06"}};
-  };
-  Settings warm = values(1.0);
-  warm["temperature_C"] = "80";
-  const std::vector<Row> by_law = pressed(warm), by_hand = pressed(values(f));
-  ASSERT_EQ(by_law.size(), by_hand.size());
-  for (std::size_t k = 0; k < by_law.size(); ++k)
-    EXPECT_NEAR(by_law[k].at("pressure_MPa"), by_hand[k].at("pressure_MPa"),
-                1e-7 * by_hand.back().at("pressure_MPa"));
+  for (const bool ductile : {false, true}) {
+    const auto values = [&](double by) {
+      Settings s = {{"E_cbd_GPa", number(by * kModulus)}, {"d_target_um", "0.06"}};
+      if (ductile)
+        s["cbd_hardness_GPa"] = number(by * 0.1);
+      else
+        s.insert({{"cbd_contact_yield_GPa", number(by * 0.2)},
+                  {"cbd_contact_hardening_GPa", number(by * 0.1)},
+                  {"cbd_yield_MPa", number(by * 5.0)},
+                  {"cbd_hardening_MPa", number(by * 20.0)}});
+      return s;
+    };
+    Settings warm = values(1.0);
+    warm["temperature_C"] = "80";
+    const std::vector<Row> by_law = pressed(warm), by_hand = pressed(values(f));
+    ASSERT_EQ(by_law.size(), by_hand.size());
+    const double most = by_hand.back().at("pressure_MPa");
+    for (std::size_t k = 0; k < by_law.size(); ++k)
+      EXPECT_NEAR(by_law[k].at("pressure_MPa"), by_hand[k].at("pressure_MPa"), 1e-7 * most);
+  }
 }

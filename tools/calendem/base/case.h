@@ -27,7 +27,7 @@ void check_case(const Settings &settings, Mistakes &mistakes);
 /// Throws Failure(2) with every mistake of the file. `electrode` is made absolute, relative to the
 /// file. What the file does not give is what the electrode's material has.
 Settings read_case(const std::string &file);
-/// Of a case whose electrode is yet to be made, by this recipe.
+/// A case whose electrode is yet to be made, by this recipe.
 Settings read_case(const std::string &file, const Recipe &recipe);
 
 } // namespace calendem

@@ -27,7 +27,7 @@ struct ReferenceMaterial {
 
   bool given() const { return !name.empty(); }
   bool calibrated() const { return !calibrated_on.empty(); }
-  /// Of the values with their sources.
+  /// Changes with any value and any source.
   std::string hash() const;
 };
 
@@ -49,7 +49,7 @@ void take_values(const ReferenceMaterial &material, const std::vector<Key> &keys
                  Settings &settings);
 
 nlohmann::ordered_json to_json(const ReferenceMaterial &material);
-/// Of electrode.json in the folder; not given where that is missing, damaged or of an older version.
+/// The electrode's in this folder; not given where electrode.json is missing or of an older version.
 ReferenceMaterial material_of_electrode(const std::string &folder);
 
 } // namespace calendem

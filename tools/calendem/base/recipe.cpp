@@ -56,6 +56,11 @@ std::vector<Key> own_keys() {
       {"cbd.diameter_um", "", "1.316", 0.1, 10, "um", "diameter of a CBD sphere"},
       {"cell.x_um", "", "15", 5, 1000, "um", "periodic side of the cell"},
       {"cell.y_um", "", "15", 5, 1000, "um", "periodic side of the cell"},
+  };
+}
+
+std::vector<Key> shape_keys() {
+  return {
       {"shapes.image", "", "none", 0, 0, "",
        "label image from which the shapes of particles are taken", "", true},
       {"shapes.library", "", "none", 0, 0, "", "folder of shapes made earlier from an image", "",
@@ -74,6 +79,8 @@ std::vector<Key> own_keys() {
 const std::vector<Key> &recipe_keys() {
   static const std::vector<Key> keys = [] {
     std::vector<Key> all = with_volume_percentiles(own_keys());
+    const std::vector<Key> of_shapes = shape_keys();
+    all.insert(all.end(), of_shapes.begin(), of_shapes.end());
     add_settings_of_effects(true, all);
     all.insert(all.end(), structure_keys().begin(), structure_keys().end());
     return all;

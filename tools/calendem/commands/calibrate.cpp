@@ -102,6 +102,13 @@ void say(const FilmBank &bank, const Calibration &c, const std::vector<LeftOut> 
       fmt::print("{}, {}, %\n", film_in_words(r), reading_in_words(name_of(r.number)));
 }
 
+/// An experiment on films of the material that their recipe names.
+Experiment experiment_of_its_material(const std::string &file) {
+  Experiment experiment = read_experiment(file);
+  stop_if_of_other_material(experiment.recipe);
+  return experiment;
+}
+
 void run_calibrate(const CalibrateOptions &o) {
   const FilmBank bank(read_bank_table(read_bank_spec(o.bank), table_file(o.bank)));
   Calibration c;
@@ -112,8 +119,7 @@ void run_calibrate(const CalibrateOptions &o) {
   std::vector<std::string> not_said;
   std::vector<Recipe> recipes;
   for (const std::string &file : o.experiments) {
-    const Experiment experiment = read_experiment(file);
-    stop_if_of_other_material(experiment.recipe);
+    const Experiment experiment = experiment_of_its_material(file);
     add_experiment(experiment, bank, c, not_said);
     recipes.push_back(experiment.recipe);
   }

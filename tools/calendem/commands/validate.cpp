@@ -61,7 +61,7 @@ FileKind kind_of(const std::string &file) {
   return best;
 }
 
-/// And prints what its user should know.
+/// Prints what its user should know, too.
 std::string recipe_in_words(const Recipe &recipe) {
   read_input(recipe);
   for (const std::string &text : notes_of(recipe))

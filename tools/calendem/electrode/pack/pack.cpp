@@ -95,6 +95,8 @@ nlohmann::json finish(const PackInput &in, Start &start, const std::string &fold
   nlohmann::json j =
       describe({recipe, bodies, particles, poses, state, last_row(folder + "/packing.csv")});
   add_origin(j, in, start, poses);
+  j["material"] = to_json(recipe.material);
+  j[kMaterialNotes] = notes_of(recipe);
   return j;
 }
 
@@ -167,9 +169,25 @@ std::string packing_identity(const Recipe &recipe, const std::string &tools) {
   std::string text = tools;
   for (const auto &[key, value] : settings_of(recipe))
     text += fmt::format("{}={}\n", key, value);
-  text += recipe.material.hash();
+  for (const auto &[key, value] : recipe.material.values) // not their sources
+    text += fmt::format("{}={}\n", key, value.text);
   return hash_of_text(text + hash_of_sources(recipe));
 }
+
+namespace {
+
+void say(const nlohmann::json &electrode) {
+  const auto number = [&](const char *key) { return electrode[key].get<double>(); };
+  fmt::print("pack: loading {:.2f} mg/cm2, total porosity {:.2f} %, platen {:.3f} MPa, largest "
+             "force between bodies {:.0f} nN, {:.0f} s\n",
+             number("loading_mg_cm2"), 100 * number("porosity_total"),
+             number("platen_pressure_MPa"), number("largest_body_force_nN"),
+             number("wall_clock_s"));
+  for (const std::string &warning : warnings_of_electrode(electrode))
+    fmt::print(stderr, "warning: {}\n", warning);
+}
+
+} // namespace
 
 void pack_electrode(const Recipe &as_given, PackOptions o) {
   o.folder = fs::absolute(o.folder).lexically_normal().string(); // LIGGGHTS runs in that folder
@@ -185,8 +203,6 @@ void pack_electrode(const Recipe &as_given, PackOptions o) {
     stop_if_of_another_recipe(o.folder, as_given);
   const auto begin = std::chrono::steady_clock::now();
   const PackInput in = read_input(as_given);
-  if (const std::string sizes = sizes_in_words(in.recipe); !sizes.empty())
-    fmt::print("pack: {}\n", sizes);
   check_machine(in.recipe, o);
   make_output_folder(o.folder);
   const FolderLock lock(o.folder);
@@ -200,15 +216,7 @@ void pack_electrode(const Recipe &as_given, PackOptions o) {
   j["wall_clock_s"] =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   j["ranks"] = o.ranks;
-  fmt::print("pack: loading {:.2f} mg/cm2, total porosity {:.2f} %, platen {:.3f} MPa, largest "
-             "force between bodies {:.0f} nN, {:.0f} s\n",
-             j["loading_mg_cm2"].get<double>(), 100 * j["porosity_total"].get<double>(),
-             j["platen_pressure_MPa"].get<double>(), j["largest_body_force_nN"].get<double>(),
-             j["wall_clock_s"].get<double>());
-  j["material"] = to_json(in.recipe.material);
-  j[kMaterialNotes] = notes_of(in.recipe);
-  for (const std::string &warning : warnings_of_electrode(j))
-    fmt::print(stderr, "warning: {}\n", warning);
+  say(j);
   try {
     check(j, in.recipe, o.folder);
   } catch (const Failure &) {
@@ -275,6 +283,8 @@ Start make_start(const PackInput &in, const std::string &folder) {
   } else
     out.placed.loose = place(r, out.made.bodies);
   const Placement &loose = out.placed.loose;
+  if (const std::string sizes = sizes_in_words(r); !sizes.empty())
+    fmt::print("pack: {}\n", sizes);
   fmt::print("pack: {} bodies, {} particles, densifying from {:.0f} to {:.1f} um\n",
              out.made.bodies.size(), loose.particles.size(), loose.height, r.thickness());
   std::cout << std::flush;
