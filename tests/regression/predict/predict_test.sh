@@ -27,7 +27,7 @@ calendem design model/model.json film.toml --porosity 30 --cracked-below 60 -o d
 grep -q "MPa meets the target with .* % (assured: .* %)" design.log || fail "no pressure is proposed"
 # Unless told otherwise, from the pressures of the bank: here one that ends at 150 MPa.
 mkdir narrow
-cp -r "$cases/coatings" "$cases/demo" narrow/
+cp -r "$cases/coatings" "$cases/studies" narrow/
 sed -i 's/^pressures_MPa.*/pressures_MPa = [20, 50, 80, 150]/' narrow/coatings/bank.toml
 calendem calibrate "${films[@]}" -o narrow/model --samples 512 --bank narrow/coatings/bank.toml >narrow.log
 calendem design narrow/model/model.json film.toml --porosity 30 -o narrow/design >>narrow.log || { cat narrow.log; fail "design from a narrower bank"; }

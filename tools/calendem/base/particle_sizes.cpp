@@ -102,10 +102,11 @@ void take_sizes_by_volume(Settings &s, const std::vector<Key> &keys, Mistakes &m
   const std::string &last = given.back().key;
   const double median = std::exp(law.ln_median - 3.0 * law.sigma * law.sigma);
   std::string wrong = contradiction(s, given, law);
-  for (const auto &[key, value] : {std::pair(kMedian, median), std::pair(kSigma, law.sigma)})
+  for (const auto &[key, value] : {std::pair(kSigma, law.sigma), std::pair(kMedian, median)})
     if (const auto out_of_range = wrong_number(key_named(keys, key), value);
         wrong.empty() && out_of_range)
-      wrong = "gives a law that is not allowed: " + *out_of_range;
+      wrong = "gives a law that is not allowed: " +
+              out_of_range->substr(0, out_of_range->find(" It looks"));
   const double z = (std::log(s.number(kLargest)) - law.ln_median) / law.sigma,
                beyond = 0.5 * std::erfc(z / std::sqrt(2.0));
   if (wrong.empty() && beyond > kMostBeyond)
