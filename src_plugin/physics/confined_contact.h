@@ -44,6 +44,7 @@ public:
   static constexpr bool kStiffens = true;
   static constexpr WorkTaken kTakes = WorkTaken::Nothing;
   static constexpr double kDeepest = std::numeric_limits<double>::infinity();
+  static constexpr bool kGrows = false;
 
   ConfinedContact(const ContactSurfaces &s, const Params &p)
       : E_(s.E_eff), R_(s.R_eff), per_overlap_(s.R_eff / (s.radius * s.radius)),

@@ -12,6 +12,7 @@
 //   kTakes                             what its work is in the energy ledger
 //   kDeepest                           largest overlap with a wall, of the radius: deeper, the
 //                                      host may lose a sphere through it
+//   kGrows                             it asks what other contacts have done to the spheres
 //   Law(surfaces, params)
 //   force(overlap, state)              elastic force, > 0 repulsive
 //   elastic_energy(overlap, state)     what it can give back
@@ -22,6 +23,7 @@
 //   radius_under(force)                stiffness_radius under a force not borne before
 //   advance(before, now, time, state)  brings the state up to the overlap `now`, which `time` ago
 //                                      was `before`; returns the work taken for good, >= 0
+//                                      with a fifth argument, GrownSurfaces, if it has kGrows
 //   limits(phases, params)             ContactLimits of the first parameter, all of them given
 // The list of registry/contact_law.h makes it known.
 #ifndef CALENDEM_PHYSICS_LAW_INTERFACE_H
@@ -37,6 +39,16 @@ struct ContactSurfaces {
   double R_eff;          ///< effective radius [um]
   double radius;         ///< of the smaller sphere [um]
   double cohesion = 0.0; ///< energy density [kPa]
+};
+
+/// The surfaces of a contact as they have grown, because soft spheres keep the volume that their
+/// contacts displace (kept_volume.h).
+struct GrownSurfaces {
+  double R_eff;        ///< effective radius of the grown spheres [um]
+  double radius;       ///< of the smaller sphere, grown [um]
+  double growth = 0.0; ///< of both together [um]
+  bool full = false;   ///< one of them has no free surface left
+  double depth = 1.0;  ///< of the flat that stands for the contact, over its overlap
 };
 
 /// What a law's advance returns, as a term of the energy ledger.

@@ -67,6 +67,7 @@ public:
   static constexpr bool kStiffens = true;
   static constexpr WorkTaken kTakes = WorkTaken::PlasticFlow;
   static constexpr double kDeepest = 0.9;
+  static constexpr bool kGrows = false;
 
   /// Effective modulus [kPa], effective radius [um], limiting pressure [kPa]; all > 0. Hardening
   /// [kPa] >= 0. Flattening: 0 to 1.

@@ -40,7 +40,7 @@ struct PlatenProgramme {
   double compliance = 0.0;     ///< of the machine [um/kPa]; a position is what it shows
   RollNip roll;                ///< with control = Roll
   double passes = 1.0;         ///< of compression and release, >= 1
-  double first_gap = 0.0;      ///< of the first of several passes; 0: the target
+  double first_target = 0.0;   ///< of the first of several passes; 0: the target
   double wait = 0.0;           ///< time until which it rests at its start
 };
 
@@ -64,6 +64,17 @@ inline PlatenStage stage_of(const PlatenState &s) { return static_cast<PlatenSta
 inline void enter(PlatenState &s, PlatenStage stage, double time) {
   s.stage = static_cast<double>(stage);
   s.stage_start = time;
+}
+
+inline bool last_pass(const PlatenProgramme &p, const PlatenState &s) {
+  return s.passed + 1.0 >= p.passes;
+}
+
+/// The pressure or gap of the pass that is on: from first to last in equal steps.
+inline double target_of_pass(const PlatenProgramme &p, const PlatenState &s) {
+  return p.first_target <= 0.0 || last_pass(p, s)
+             ? p.target
+             : p.first_target + (p.target - p.first_target) * s.passed / (p.passes - 1.0);
 }
 
 inline double smoothstep(double t) {
@@ -95,9 +106,9 @@ inline double closing_speed(const PlatenProgramme &p, const PlatenState &s, doub
   double wanted = average < p.touch_pressure ? p.touch_speed : p.load_speed;
   if (p.control == PlatenControl::Pressure && s.slope > 0.0 && window > 0.0) {
     const double per_window = s.slope * window; // rise of pressure in one window at unit speed
-    const double left = p.target - pressure_now(s, average, window);
-    const double limit = left > 0.0 ? std::fmax(left / 3.0, 0.002 * p.target) / per_window : 0.0;
-    if (average > 0.5 * p.target && limit < wanted)
+    const double target = target_of_pass(p, s), left = target - pressure_now(s, average, window);
+    const double limit = left > 0.0 ? std::fmax(left / 3.0, 0.002 * target) / per_window : 0.0;
+    if (average > 0.5 * target && limit < wanted)
       wanted = limit;
   }
   return wanted;
@@ -112,18 +123,15 @@ inline void compress(const PlatenProgramme &p, PlatenState &s, double average, d
   const bool by_pressure = p.control == PlatenControl::Pressure;
   // The machine is that much further than its platen. The average is of half a window ago.
   const double stretch = p.compliance * (average + 0.5 * window * std::fmax(s.rate, 0.0));
-  const bool there = by_pressure ? average >= p.target : s.position - stretch <= p.target;
+  const double target = target_of_pass(p, s);
+  const bool there = by_pressure ? average >= target : s.position - stretch <= target;
   if (!by_pressure && there)
-    s.position = p.target + stretch;
+    s.position = target + stretch;
   if (!there && s.position > p.lowest)
     return;
   s.reached = there ? 1.0 : 0.0;
   s.speed = 0.0;
   enter(s, PlatenStage::Dwell, time);
-}
-
-inline bool last_pass(const PlatenProgramme &p, const PlatenState &s) {
-  return s.passed + 1.0 >= p.passes;
 }
 
 /// Contact is lost: down again, or the end.
@@ -142,22 +150,15 @@ inline void relax(const PlatenProgramme &p, PlatenState &s, double average, doub
     end_pass(p, s, time);
 }
 
-/// Smallest gap of the pass that is on.
-inline double gap_of_pass(const PlatenProgramme &p, const PlatenState &s) {
-  return p.first_gap <= 0.0 || last_pass(p, s)
-             ? p.target
-             : p.first_gap + (p.target - p.first_gap) * s.passed / (p.passes - 1.0);
-}
-
 /// Where the cell is on its way under the roll: s, < 0 before the nip.
 inline double along_web(const PlatenProgramme &p, const PlatenState &s) {
-  const double way = p.roll.distance(s.position - gap_of_pass(p, s));
+  const double way = p.roll.distance(s.position - target_of_pass(p, s));
   return stage_of(s) == PlatenStage::Relaxation ? way : -way;
 }
 
 /// The web moves on for one step, at most to the nip; returns where the cell is then.
 inline double pass_on(const PlatenProgramme &p, PlatenState &s, double dt) {
-  const double gap = gap_of_pass(p, s), most = p.roll.web_speed(p.load_speed, p.start - gap);
+  const double gap = target_of_pass(p, s), most = p.roll.web_speed(p.load_speed, p.start - gap);
   s.web_speed = approach_speed(s.web_speed, most, most, p.ramp_time, dt);
   const double on = along_web(p, s) + s.web_speed * dt;
   const double along = stage_of(s) == PlatenStage::Compression ? std::fmin(on, 0.0) : on;

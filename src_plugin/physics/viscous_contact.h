@@ -43,6 +43,7 @@ public:
   static constexpr bool kStiffens = false;
   static constexpr WorkTaken kTakes = WorkTaken::Dashpots;
   static constexpr double kDeepest = std::numeric_limits<double>::infinity();
+  static constexpr bool kGrows = false;
 
   ViscousContact(const ContactSurfaces &s, const Params &p)
       : E_(s.E_eff), R_(s.R_eff), g_(p.relaxed_fraction), rate_(2.0 / (3.0 * p.time)) {}

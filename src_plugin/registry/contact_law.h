@@ -8,6 +8,7 @@
 #define CALENDEM_REGISTRY_CONTACT_LAW_H
 
 #include "physics/confined_contact.h"
+#include "physics/ductile_contact.h"
 #include "physics/plastic_contact.h"
 #include "physics/viscous_contact.h"
 #include <algorithm>
@@ -20,7 +21,7 @@
 
 namespace calendem {
 
-using ContactLaws = std::tuple<PlasticContact, ViscousContact, ConfinedContact>;
+using ContactLaws = std::tuple<PlasticContact, ViscousContact, ConfinedContact, DuctileContact>;
 
 /// Properties that a law may have.
 constexpr std::size_t kMostProperties = 4;
@@ -36,6 +37,7 @@ struct ContactLaw {
   bool stiffens;
   WorkTaken takes;
   double deepest;
+  bool grows;
   ContactLimits (*limits)(const PhasePair &phases, const PropertyValues &values);
 };
 
@@ -63,6 +65,7 @@ inline constexpr ContactLaw kContactLaw = {
     Law::kStiffens,
     Law::kTakes,
     Law::kDeepest,
+    Law::kGrows,
     [](const PhasePair &phases, const PropertyValues &values) {
       return Law::limits(phases, params_of<Law>(values));
     }};

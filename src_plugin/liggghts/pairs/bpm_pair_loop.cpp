@@ -221,10 +221,10 @@ void BpmPairLoop::apply_effects(const ContactTile &t) {
     const int a = atom->type[t.i[p]], b = atom->type[t.j[p]];
     if (!effects_.act(a, b) || BondHistory(t.history[p] + bond_).has_reference())
       continue;
-    const EffectContact contact =
-        EffectContact::of_spheres(a, b, s.radius_i[p], s.radius_j[p], overlap);
+    EffectContact contact = EffectContact::of_spheres(a, b, s.radius_i[p], s.radius_j[p], overlap);
     double *memory = t.history[p] + memory_;
     if (update_) {
+      effects_.grow(contact, t.i[p], t.j[p]);
       const Vec3 n = (1.0 / std::sqrt(s.r_squared[p])) * s.d[p];
       const double before = overlap + dot(s.v[p], n) * update->dt;
       const double taken = effects_.advance(contact, before, update->dt, memory);

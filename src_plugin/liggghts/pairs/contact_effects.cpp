@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact_effects.h"
+#include "atom.h"
 #include "error.h"
+#include "fix_property_atom.h"
 #include "fix_property_global.h"
 #include "force.h"
 #include "global_properties.h"
 #include "known_types.h"
 #include "modify.h"
 #include "pair_gran.h"
+#include "physics/kept_volume.h"
 #include "property_registry.h"
 #include <cmath>
 
@@ -59,6 +62,9 @@ void ContactEffects::connect(PropertyRegistry &registry, const char *caller) {
   registry.registerProperty("Yeff", &MODEL_PARAMS::createYeff);
   registry.registerProperty("Geff", &MODEL_PARAMS::createGeff);
   registry.registerProperty("betaeff", &MODEL_PARAMS::createBetaEff);
+  atom_ = registry.getLAMMPS()->atom;
+  growth_ = static_cast<FixPropertyAtom *>(registry.getLAMMPS()->modify->find_fix_property(
+      kGrowth, "property/atom", "vector", 2, 0, caller, false));
   KnownTypes known(registry.getLAMMPS());
   known.find();
   types_ = known.highest();
@@ -66,6 +72,18 @@ void ContactEffects::connect(PropertyRegistry &registry, const char *caller) {
   for (int i = 1; i <= types_; ++i)
     for (int j = 1; j <= types_; ++j)
       read(registry, i, j, caller);
+}
+
+calendem::GrownSurfaces ContactEffects::grown_surfaces(int i, int j) const {
+  const double *R = atom_->radius, *of_i = growth_->array_atom[i], Ri = R[i] + of_i[0];
+  if (j < 0)
+    return {Ri, Ri, of_i[0], of_i[1] == kFull, 1.0};
+  const double *of_j = growth_->array_atom[j], Rj = R[j] + of_j[0];
+  const int soft = of_i[1] != kNever && of_j[1] != kNever ? 2 : 1;
+  const double R_eff = calendem::effective_radius(R[i], R[j]);
+  return {calendem::effective_radius(Ri, Rj), std::fmin(Ri, Rj), of_i[0] + of_j[0],
+          of_i[1] == kFull || of_j[1] == kFull,
+          calendem::flat_depth(1.0, R_eff, std::fmin(R[i], R[j]), soft)};
 }
 
 void ContactEffects::read(PropertyRegistry &registry, int i, int j, const char *caller) {

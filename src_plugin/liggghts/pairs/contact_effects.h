@@ -11,6 +11,7 @@
 #include "physics/contact_pair.h"
 #include "pointers.h"
 #include "registry/contact_law.h"
+#include <type_traits>
 #include <vector>
 
 class PropertyRegistry;
@@ -21,18 +22,23 @@ namespace LAMMPS_NS {
 struct EffectContact {
   int itype, jtype;
   double effective_radius, overlap, radius; ///< [um]; the last of the smaller sphere
+  calendem::GrownSurfaces grown;            ///< for advance
 
   static EffectContact of_spheres(int itype, int jtype, double Ri, double Rj, double overlap) {
-    return {itype, jtype, calendem::effective_radius(Ri, Rj), overlap, Ri < Rj ? Ri : Rj};
+    const double R_eff = calendem::effective_radius(Ri, Rj), R = Ri < Rj ? Ri : Rj;
+    return {itype, jtype, R_eff, overlap, R, {R_eff, R}};
   }
   static EffectContact at_wall(int type, int wall_type, double R, double overlap) {
-    return {type, wall_type, R, overlap, R};
+    return {type, wall_type, R, overlap, R, {R, R}};
   }
 };
 
 class ContactEffects {
 public:
   static constexpr const char *kModel = "hertz_effects";
+  /// The host's fix property/atom of what fix cbd/growth finds: growth [um]; then a Grows.
+  static constexpr const char *kGrowth = "cbd_growth";
+  enum Grows { kNever, kFree, kFull };
   /// History values of a contact.
   static constexpr int kMemory = static_cast<int>(calendem::AllLaws::kMostMemory);
 
@@ -86,11 +92,20 @@ public:
     return with_law(c, none,
                     [&](const auto &law, const auto &) { return law.radius_under(force); });
   }
+  /// Surfaces as spheres i and j have grown (fix cbd/growth), for a law that asks; j < 0: a wall.
+  void grow(EffectContact &c, int i, int j) const {
+    if (growth_ && law(c.itype, c.jtype).grows)
+      c.grown = grown_surfaces(i, j);
+  }
   /// Brings the memory up to the contact's overlap, which `time` [us] ago was `before`; returns the
   /// work [fJ] that this has taken.
   double advance(const EffectContact &c, double before, double time, double *memory) const {
     return with_law(c, memory, [&](const auto &law, auto state) {
-      const double taken = law.advance(before, c.overlap, time, state);
+      double taken;
+      if constexpr (std::decay_t<decltype(law)>::kGrows)
+        taken = law.advance(before, c.overlap, time, state, c.grown);
+      else
+        taken = law.advance(before, c.overlap, time, state);
       calendem::store_state(state, memory);
       return taken;
     });
@@ -117,11 +132,14 @@ private:
   };
 
   int types_ = 0;
+  class FixPropertyAtom *growth_ = NULL; // NULL: no sphere grows
+  class Atom *atom_ = NULL;
   std::vector<TypePair> pairs_; // by both types, from 1
 
   const TypePair &pair(int i, int j) const { return pairs_[i * (types_ + 1) + j]; }
   void read(PropertyRegistry &registry, int i, int j, const char *caller);
   void choose(class LAMMPS *lmp, int law, int i, int j);
+  calendem::GrownSurfaces grown_surfaces(int i, int j) const;
 
   /// f(law, state) with the law of the contact's types: a switch over ContactLaws.
   template <int n = 0, class F>

@@ -58,7 +58,7 @@ public:
     if (s.contact_flags)
       *s.contact_flags |= CONTACT_NORMAL_MODEL;
     using LAMMPS_NS::EffectContact;
-    const EffectContact contact =
+    EffectContact contact =
         s.is_wall ? EffectContact::at_wall(s.itype, s.jtype, s.radi, s.deltan)
                   : EffectContact::of_spheres(s.itype, s.jtype, s.radi, s.radj, s.deltan);
     double radius = calendem::hertz_contact_radius(contact.effective_radius, s.deltan);
@@ -70,6 +70,7 @@ public:
       double *memory = s.contact_history + memory_;
       if (s.computeflag && s.shearupdate) {
         stop_if_sunk(s, contact);
+        effects_.grow(contact, s.i, s.is_wall ? -1 : s.j);
         advance(s, contact, memory);
       }
       radius = effects_.contact_radius(contact, memory);

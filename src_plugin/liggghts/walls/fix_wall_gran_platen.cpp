@@ -79,8 +79,8 @@ bool FixWallGranPlaten::set_roll_keyword(const std::string &key, const std::stri
     programme_.roll.slip = number(key, value, kNotNegative);
   else if (key == "passes")
     programme_.passes = number(key, value, whole_between(1, 1e6));
-  else if (key == "first_gap")
-    programme_.first_gap = number(key, value, kNotNegative);
+  else if (key == "first")
+    programme_.first_target = number(key, value, kNotNegative);
   else
     return false;
   return true;
@@ -130,7 +130,7 @@ void FixWallGranPlaten::set_keyword(const std::string &key, const std::string &v
     const std::string message =
         "unknown setting '" + key + " " + value +
         "'; known: side top|bottom, motion hold | motion pressure P | motion position Z | "
-        "motion roll GAP, roll_radius, counter_radius, slip, first_gap, passes, "
+        "motion roll GAP, roll_radius, counter_radius, slip, first, passes, "
         "touch_speed, load_speed, release_speed, touch_pressure, wait, dwell, ramp, lost, lowest, "
         "average, compliance, release yes|no, bridges yes|no";
     error->fix_error(FLERR, this, message.c_str());
@@ -166,6 +166,11 @@ void FixWallGranPlaten::parse() {
         "The input scripts take MPa");
   if (programme_.control == PlatenControl::Roll)
     check_roll();
+  else if (programme_.first_target > 0.0 && (programme_.control != PlatenControl::Pressure ||
+                                             programme_.first_target > programme_.target))
+    error->fix_error(FLERR, this,
+                     "'first' is the pressure of the first of several passes, at most that of the "
+                     "last ('pressure'); 0: the same in all");
   if (programme_.control != PlatenControl::Pressure && programme_.target >= programme_.start)
     error->fix_error(FLERR, this,
                      "the target position must lie below the start ('zplane'); nothing would be "
@@ -176,10 +181,10 @@ void FixWallGranPlaten::parse() {
 void FixWallGranPlaten::check_roll() {
   if (programme_.roll.radius <= 0.0)
     error->fix_error(FLERR, this, "'motion roll' needs 'roll_radius' > 0");
-  if (programme_.first_gap > 0.0 &&
-      (programme_.first_gap < programme_.target || programme_.first_gap >= programme_.start))
+  if (programme_.first_target > 0.0 &&
+      (programme_.first_target < programme_.target || programme_.first_target >= programme_.start))
     error->fix_error(FLERR, this,
-                     "'first_gap' must lie between the roll's gap and the start ('zplane'), or be "
+                     "'first' must lie between the roll's gap and the start ('zplane'), or be "
                      "0: the gap of the last pass");
   if (programme_.compliance > 0.0)
     error->fix_error(

@@ -170,12 +170,15 @@ TEST(PlatenMotion, DwellAndRelease) {
 
 // Requirement: pressed three times, a film that has set meets its pressure each time without
 // overshoot, with a dwell each; it ends after the third release, not before, and holds in the last
-// dwell if it may not release.
+// dwell if it may not release. With a first pressure the others follow in equal steps.
 TEST(PlatenMotion, GoesDownAsOftenAsAsked) {
   PlatenProgramme p = programme(PlatenControl::Pressure, 6e4);
   p.passes = 3.0;
   p.dwell = 1.0;
-  for (const bool may_release : {true, false}) {
+  for (const auto &[may_release, first_target] :
+       {std::pair(true, 0.0), std::pair(false, 0.0), std::pair(true, 3e4)}) {
+    p.first_target = first_target;
+    const double step = first_target > 0.0 ? 1.5e4 : 0.0;
     Press press(p);
     double set = 0.0; // of a film that springs back by a quarter: stiffer on the way back
     const Film sets = [&](double x) {
@@ -201,9 +204,10 @@ TEST(PlatenMotion, GoesDownAsOftenAsAsked) {
       all.pop_back();
     EXPECT_EQ(stages, all);
     ASSERT_EQ(peaks.size(), 3u);
-    for (const double peak : peaks) {
-      EXPECT_GE(peak, 6e4);
-      EXPECT_LT(peak, 1.01 * 6e4);
+    for (size_t pass = 0; pass < 3; ++pass) {
+      const double target = 6e4 - step * double(2 - pass);
+      EXPECT_GE(peaks[pass], target);
+      EXPECT_LT(peaks[pass], 1.01 * target);
     }
   }
 }

@@ -22,7 +22,7 @@ PlatenProgramme programme(double passes = 1.0, double first_gap = 0.0) {
   p.load_speed = p.touch_speed = p.release_speed = kSpeed;
   p.lowest = 30.0;
   p.passes = passes;
-  p.first_gap = first_gap;
+  p.first_target = first_gap;
   return p;
 }
 

@@ -226,6 +226,23 @@ void check_roll(const Settings &s, Mistakes &mistakes) {
                                             key, s.text(key), why, none));
 }
 
+void check_presses(const Settings &s, Mistakes &mistakes) {
+  const std::string first = "platen.first_pressure_MPa", last = "platen.max_pressure_MPa";
+  if (!s.sound({first, last, "platen.presses", "platen.control"}) || s.number(first) == 0.0)
+    return;
+  if (s.text("platen.control") != "pressure" || s.number("platen.presses") < 2.0)
+    mistakes.add(s.line(first),
+                 fmt::format("{} is {}, but the platen does not go to several pressures: control "
+                             "is \"{}\", presses is {}. Give control = \"pressure\" and presses = 2 "
+                             "or more, or leave it out.",
+                             first, s.text(first), s.text("platen.control"),
+                             s.text("platen.presses")));
+  else if (s.number(first) > s.number(last))
+    mistakes.add(s.line(first), fmt::format("{} is {}, above {} = {}: presses go from a lower "
+                                            "pressure to a higher one. Give at most that.",
+                                            first, s.text(first), last, s.text(last)));
+}
+
 const char *const kSpeeds[] = {"platen.speed_m_s", "platen.touch_speed_m_s",
                                "platen.release_speed_m_s"};
 
@@ -280,6 +297,7 @@ void check_case(const Settings &s, Mistakes &mistakes) {
   check_other_targets(s, mistakes);
   check_least(s, mistakes);
   check_roll(s, mistakes);
+  check_presses(s, mistakes);
   check_window(s, mistakes);
 }
 

@@ -156,6 +156,39 @@ inline Effect cbd_plasticity() {
   return e;
 }
 
+inline Effect cbd_ductility() {
+  Effect e;
+  e.name = "cbd_ductility";
+  e.layer = "contact";
+  e.what = "carbon-binder domain flows under its hardness, keeps its volume, and resists with its "
+           "bulk modulus where it has filled its surroundings";
+  const std::string at = "effects.cbd_ductility.";
+  e.settings = {
+      setting(at + "hardness_GPa", "cbd_hardness_GPa", "0")
+          .range(0, 1000, "GPa")
+          .means("indentation hardness of CBD, at its contacts with all phases and walls; 0: "
+                 "elastic"),
+      setting(at + "bulk_modulus_GPa", "cbd_full_GPa", "1.7")
+          .range(1e-3, 1000, "GPa")
+          .means("bulk modulus of a sphere without free surface; 1.7: E/3(1 - 2 nu) of 2 GPa and "
+                 "nu = 0.3"),
+      setting(at + "beyond_cohesion", "cbd_hardness_beyond_cohesion", "1")
+          .range(0, 1, "fraction")
+          .means("part of the pressure of cohesion that comes on top of the hardness; 1: an "
+                 "indenter that does not stick has measured it")};
+  e.parameter = strength(e.settings[0]).log_uniform(0.02, 0.4).in_reciprocal().with_power(0);
+  e.contact = {&kContactLaw<DuctileContact>, all_of_cbd()};
+  e.moves = "lower pressure where CBD carries load, until it has filled its pores, and little "
+            "springback";
+  e.source =
+      "Zunker & Kamrin 2024 (MDR); indented, a matrix of carbon black and PVdF has a hardness "
+      "of 0.043 +- 0.010 GPa (Xu et al., J. Electrochem. Soc. 164 (2017) A3333); the range "
+      "is a factor of 2 and 10 around it, an unsourced prior";
+  e.law = DuctileContact::kHeader;
+  e.verification = "ductile_contact";
+  return e;
+}
+
 /// Contacts at large overlap; `most`, `least`: of the prior [GPa].
 inline Effect confinement(const std::string &phase, const std::string &what, double least,
                           double most) {
@@ -272,8 +305,15 @@ inline Effect binder_bridges() {
 }
 
 inline std::vector<Effect> effects_of_contacts() {
-  return {friction(),       nmc_plasticity(),  cbd_collapse(),    cbd_viscoelasticity(),
-          cbd_plasticity(), cbd_confinement(), nmc_confinement(), collector_indentation(),
+  return {friction(),
+          nmc_plasticity(),
+          cbd_collapse(),
+          cbd_viscoelasticity(),
+          cbd_plasticity(),
+          cbd_ductility(),
+          cbd_confinement(),
+          nmc_confinement(),
+          collector_indentation(),
           binder_bridges()};
 }
 

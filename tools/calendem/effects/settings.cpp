@@ -143,6 +143,10 @@ std::vector<Key> base_settings() {
           .range(1, 20)
           .is_whole()
           .means("how many times the platen goes to the target and up again"),
+      setting("platen.first_pressure_MPa", "first_pressure_MPa", "0")
+          .range(0, 2000, "MPa")
+          .means("target of the first of several presses; the others follow in equal steps to "
+                 "max_pressure_MPa; 0: all have max_pressure_MPa"),
       setting("platen.contact_lost_fraction", "lost_fraction", "0.01")
           .range(1e-4, 0.5)
           .means("contact is lost below this fraction of the maximum pressure"),
