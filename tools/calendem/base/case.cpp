@@ -231,12 +231,12 @@ void check_presses(const Settings &s, Mistakes &mistakes) {
   if (!s.sound({first, last, "platen.presses", "platen.control"}) || s.number(first) == 0.0)
     return;
   if (s.text("platen.control") != "pressure" || s.number("platen.presses") < 2.0)
-    mistakes.add(s.line(first),
-                 fmt::format("{} is {}, but the platen does not go to several pressures: control "
-                             "is \"{}\", presses is {}. Give control = \"pressure\" and presses = 2 "
-                             "or more, or leave it out.",
-                             first, s.text(first), s.text("platen.control"),
-                             s.text("platen.presses")));
+    mistakes.add(
+        s.line(first),
+        fmt::format("{} is {}, but the platen does not go to several pressures: control "
+                    "is \"{}\", presses is {}. Give control = \"pressure\" and presses = 2 "
+                    "or more, or leave it out.",
+                    first, s.text(first), s.text("platen.control"), s.text("platen.presses")));
   else if (s.number(first) > s.number(last))
     mistakes.add(s.line(first), fmt::format("{} is {}, above {} = {}: presses go from a lower "
                                             "pressure to a higher one. Give at most that.",
