@@ -51,6 +51,26 @@ template <class T> std::vector<T> gather(const std::vector<T> &mine, int size, M
   return all;
 }
 
+std::vector<BondLine> lines_of_intact(FixBondBpm &bonds, const Atom &atom) {
+  std::vector<BondLine> lines;
+  bonds.pairs().for_each_intact([&](int i, int j, const BondHistory &bond) {
+    const calendem::BondStress stress =
+        bonds.pair_of(i, j, bond).stress(bond.loads(), bonds.settings().criterion);
+    lines.push_back({double(atom.tag[i]), double(atom.tag[j]),
+                     double(bonds.body(i < atom.nlocal ? i : j)), 1.0, 0.0, 1e-3 * stress.sigma(),
+                     1e-3 * stress.tau(), -1.0});
+  });
+  return lines;
+}
+
+std::vector<Centre> centres_of_bodies(const FixBondBpm &bonds, const Atom &atom) {
+  std::vector<Centre> centres;
+  for (int i = 0; i < atom.nlocal; ++i)
+    if (bonds.body(i) > 0)
+      centres.push_back({double(atom.tag[i]), atom.x[i][0], atom.x[i][1], atom.x[i][2]});
+  return centres;
+}
+
 } // namespace
 
 DumpPolyData::DumpPolyData(LAMMPS *lmp, int narg, char **arg, int narg_expected)
@@ -86,20 +106,8 @@ DumpBondBpmVtk::DumpBondBpmVtk(LAMMPS *lmp, int narg, char **arg)
 void DumpBondBpmVtk::init_style() { fix_ = FixBondBpm::find(lmp, "dump bond/bpm/vtk"); }
 
 void DumpBondBpmVtk::write() {
-  std::vector<BondLine> lines;
-  fix_->pairs().for_each_intact([&](int i, int j, const BondHistory &bond) {
-    const calendem::BondStress stress =
-        fix_->pair_of(i, j, bond).stress(bond.loads(), fix_->settings().criterion);
-    lines.push_back({double(atom->tag[i]), double(atom->tag[j]),
-                     double(fix_->body(i < atom->nlocal ? i : j)), 1.0, 0.0, 1e-3 * stress.sigma(),
-                     1e-3 * stress.tau(), -1.0});
-  });
-  lines = gather(lines, kLineSize, world);
-  std::vector<Centre> centres;
-  for (int i = 0; i < atom->nlocal; ++i)
-    if (fix_->body(i) > 0)
-      centres.push_back({double(atom->tag[i]), atom->x[i][0], atom->x[i][1], atom->x[i][2]});
-  centres = gather(centres, kCentreSize, world);
+  std::vector<BondLine> lines = gather(lines_of_intact(*fix_, *atom), kLineSize, world);
+  const std::vector<Centre> centres = gather(centres_of_bodies(*fix_, *atom), kCentreSize, world);
   const std::vector<BreakEvent> &breaks = fix_->breaks();
   if (comm->me != 0)
     return;

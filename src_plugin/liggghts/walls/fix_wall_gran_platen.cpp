@@ -16,6 +16,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <map>
+#include <utility>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -92,40 +94,37 @@ bool FixWallGranPlaten::set_bridges(const std::string &key, const std::string &v
   return true;
 }
 
+bool FixWallGranPlaten::set_number(const std::string &key, const std::string &value) {
+  const std::map<std::string, std::pair<double *, NumberRange>> numbers = {
+      {"touch_speed", {&programme_.touch_speed, kPositive}},
+      {"load_speed", {&programme_.load_speed, kPositive}},
+      {"release_speed", {&programme_.release_speed, kPositive}},
+      {"touch_pressure", {&programme_.touch_pressure, kNotNegative}},
+      {"dwell", {&programme_.dwell, kNotNegative}},
+      {"wait", {&programme_.wait, kNotNegative}},
+      {"ramp", {&programme_.ramp_time, kNotNegative}},
+      {"lost", {&programme_.lost_fraction, kNotNegative}},
+      {"lowest", {&programme_.lowest, kNotNegative}},
+      {"compliance", {&programme_.compliance, kNotNegative}},
+      {"average", {&window_, kPositive}}};
+  const auto number = numbers.find(key);
+  if (number == numbers.end())
+    return false;
+  *number->second.first = NumberReader(error, this)(key, value, number->second.second);
+  return true;
+}
+
 void FixWallGranPlaten::set_keyword(const std::string &key, const std::string &value) {
-  if (set_roll_keyword(key, value) || set_bridges(key, value))
+  if (set_roll_keyword(key, value) || set_bridges(key, value) || set_number(key, value))
     return;
-  const NumberReader number(error, this);
   if (key == "side" && (value == "top" || value == "bottom"))
     sign_ = value == "top" ? -1.0 : 1.0;
   else if (key == "motion" && value == "hold")
     programme_.control = PlatenControl::Hold;
   else if (key == "pressure" || key == "position") {
     programme_.control = key == "pressure" ? PlatenControl::Pressure : PlatenControl::Position;
-    programme_.target = number(key, value, kPositive);
-  } else if (key == "touch_speed")
-    programme_.touch_speed = number(key, value, kPositive);
-  else if (key == "load_speed")
-    programme_.load_speed = number(key, value, kPositive);
-  else if (key == "release_speed")
-    programme_.release_speed = number(key, value, kPositive);
-  else if (key == "touch_pressure")
-    programme_.touch_pressure = number(key, value, kNotNegative);
-  else if (key == "dwell")
-    programme_.dwell = number(key, value, kNotNegative);
-  else if (key == "wait")
-    programme_.wait = number(key, value, kNotNegative);
-  else if (key == "ramp")
-    programme_.ramp_time = number(key, value, kNotNegative);
-  else if (key == "lost")
-    programme_.lost_fraction = number(key, value, kNotNegative);
-  else if (key == "lowest")
-    programme_.lowest = number(key, value, kNotNegative);
-  else if (key == "compliance")
-    programme_.compliance = number(key, value, kNotNegative);
-  else if (key == "average")
-    window_ = number(key, value, kPositive);
-  else if (key == "release" && (value == "yes" || value == "no"))
+    programme_.target = NumberReader(error, this)(key, value, kPositive);
+  } else if (key == "release" && (value == "yes" || value == "no"))
     may_release_ = value == "yes";
   else {
     const std::string message =

@@ -111,6 +111,7 @@ private:
   void parse();
   void set_keyword(const std::string &key, const std::string &value);
   bool set_bridges(const std::string &key, const std::string &value);
+  bool set_number(const std::string &key, const std::string &value);
   bool set_roll_keyword(const std::string &key, const std::string &value);
   void check_roll();
   void set_window();

@@ -80,6 +80,11 @@ rooms_of_the_plugin() { # a room knows those before it; no unit (a header and it
   includes src_plugin/liggghts | sed -n 's|.*/\([a-z_0-9]*\)\.[a-z]*:.*"\([a-z_0-9]*\)\.h".*|\1 \2|p' | awk '$1 != $2' |
     LC_ALL=C sort -u | tsort 2>&1 >/dev/null | report "units of src_plugin/liggghts that include each other in a circle"
 }
+states_are_claimed() { # a restart's states that no fix takes are lost: fix time/bpm has to know their styles
+  grep -l 'write_restart(FILE' src_plugin/liggghts/*/*.h | without fix_time_bpm | xargs sed -n 's/^FixStyle(\(.*\), .*/\1/p' |
+    while read -r style; do grep -qF "\"$style\"" src_plugin/liggghts/base/fix_time_bpm.cpp || echo "$style"; done |
+    report "fixes with a state that kStylesWithState of base/fix_time_bpm.cpp does not name"
+}
 header_options=(-std=c++17 -Wall -Wextra -I src_plugin -I tools/calendem -isystem /usr/include/eigen3 -x c++)
 all_headers() { # of physics, registry and tools/calendem as one translation unit
   { find src_plugin/physics src_plugin/registry -name '*.h' -printf '%P %H\n' | sed 's|\(.*\) src_plugin/\(.*\)|\2/\1|'

@@ -167,7 +167,7 @@ TEST(VerificationDuctileContact, FillsItsCellAndNoMore) {
   }
 }
 
-// Two ranks and a restart give it again, to the last digit.
+// Two ranks and a restart give the same to the last digit.
 TEST(VerificationDuctileContact, SameOnTwoRanksAndAfterARestart) {
   const Files files = crowd(6, 1);
   Settings settings = ductile(14000);
