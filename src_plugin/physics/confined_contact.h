@@ -45,6 +45,7 @@ public:
   static constexpr WorkTaken kTakes = WorkTaken::Nothing;
   static constexpr double kDeepest = std::numeric_limits<double>::infinity();
   static constexpr bool kGrows = false;
+  static double range(const ContactSurfaces &s) { return strain_at(4.0 / kContacts, s); }
 
   ConfinedContact(const ContactSurfaces &s, const Params &p)
       : E_(s.E_eff), R_(s.R_eff), per_overlap_(s.R_eff / (s.radius * s.radius)),

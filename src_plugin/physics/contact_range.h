@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How far contacts are beyond the range of Hertz' law (hertz_contact.h).
+// How far contacts are beyond the range of Hertz' law (hertz_contact.h), or of the law that takes its
+// place (law_interface.h: range).
 //   strain of a contact: s = delta / R_min,  R_min the smaller radius of the pair, R at a flat wall
 // delta is the overlap [um] that the law acts on: for a bonded pair, the overlap beyond the one at
 // the bond's creation. Hertz' law asks for a contact radius a << R of each body, for its strains
@@ -15,8 +16,9 @@
 
 namespace calendem {
 
-inline constexpr int kRangeLimits = 3;
-inline constexpr double kRangeLimit[kRangeLimits] = {0.1, 0.2, 0.3};
+inline constexpr int kRangeLimits = 4; ///< the last: the range of the contact's own law
+inline constexpr double kRangeLimit[kRangeLimits - 1] = {0.1, 0.2, 0.3};
+inline constexpr double kHertzRange = 0.2;
 
 /// Sums over contacts. Of several ranks: add `of`, take the largest `largest`.
 struct ContactRange {
@@ -28,14 +30,15 @@ struct ContactRange {
   double largest = 0.0; ///< strain
 
   /// @param overlap [um] > 0  @param smaller_radius [um] > 0  @param force [nN] > 0, elastic
-  void add(double overlap, double smaller_radius, double force) {
+  /// @param range of its law, of the smaller radius
+  void add(double overlap, double smaller_radius, double force, double range = kHertzRange) {
     const double strain = overlap / smaller_radius;
     of[kContacts] += 1.0;
     of[kForce] += force;
     of[kStrain] += strain;
     largest = strain > largest ? strain : largest;
     for (int k = 0; k < kRangeLimits; ++k)
-      if (strain > kRangeLimit[k]) {
+      if (strain > (k < kRangeLimits - 1 ? kRangeLimit[k] : range)) {
         of[kBeyond + k] += 1.0;
         of[kForceBeyond + k] += force;
       }

@@ -4,9 +4,9 @@
 //   at most, not full  F <= pi a_y^2 p
 //     a_y^2 = R_s'^2 x (2 - x) - R d_y, at first at least a^2;  x = R' (d + g)/R_s'^2
 //     p = H (0.364 + 0.636 exp(-4.4 x)) + b CED,  d_y = R (3 pi (H + b CED)/(4 E))^2
-//   full               nothing yields, and beyond its overlap d_f then the bulk answers:
+//   full               nothing yields once it has begun to (d > d_y), and beyond its overlap d_f then the bulk answers:
 //     F = F(d_f) + k (d - d_f),  k = 6 pi K c R_s^3 t/r^2, at least 2 E a(d_f)
-//     r = R_s - c d_f,  t = 1 - q/4 - sqrt(2 q + q^2/4)/2,  q = (r/R_s)^3
+//     r = R_s - c d_f, at least 0.69 R_s,  t = 1 - q/4 - sqrt(2 q + q^2/4)/2,  q = (r/R_s)^3
 // d: overlap [um]; E, K: effective and bulk modulus, H: hardness, CED: cohesion energy density [kPa];
 // R, R_s: effective radius and that of the smaller sphere, R', R_s': as grown by g in all, because
 // the spheres keep their volume (kept_volume.h) [um]; b: the part of the pressure of cohesion, CED
@@ -18,7 +18,8 @@
 // A first loading is Hertz up to 2.6 d_y (where it meets pi a_y^2 p of a shallow contact); d_y itself
 // is where its mean pressure is H + b CED.
 // Bulk: a full sphere of volume V is cones to its contacts, of areas 3 V t/(2 r) as if all were like
-// this one (t from kept_volume.h); each moves in by u = c d, so that dp = 3 K du/r. c: flat_depth.
+// this one (t from kept_volume.h); each moves in by u = c d, so that dp = 3 K du/r. c: flat_depth. The least r is that of four such contacts: a deeper one
+// of a full sphere is not like the others.
 // Range: x up to 0.5, a flat halfway to the centre; growth up to half the radius; kRange. The stress
 // that a crowded surface adds before it is full is left out. Energy: elastic_energy is given back;
 // advance returns what yielding takes, by trapezoids.
@@ -59,6 +60,7 @@ public:
   static constexpr WorkTaken kTakes = WorkTaken::PlasticFlow;
   static constexpr double kDeepest = 0.9;
   static constexpr bool kGrows = true;
+  static double range(const ContactSurfaces &s) { return strain_at(0.5, s); }
 
   DuctileContact(const ContactSurfaces &s, const Params &p)
       : E_(s.E_eff), R_(s.R_eff), R_s_(s.radius), H_(p.hardness),
@@ -107,19 +109,21 @@ public:
         s.full > 0.0 ? s.bulk : of_cones(most_depth() * std::fmax(overlap, 0.0), most_depth());
     return std::fmax(std::sqrt(R_p * e), 0.5 * bulk / E_);
   }
-  /// Yielding at the flow stress has the largest area; a sphere is full in a cubic cell.
+  /// Yielding at the flow stress has the largest area, a full sphere the stiffest contact.
   double radius_under(double force) const {
     const double e = hertz_overlap(E_, R_, force), flow = kFlow * H_ + cohesion_;
     const double a = e > yield_overlap() ? std::sqrt(force / (kPi * flow)) : std::sqrt(R_ * e);
-    return std::fmax(a, 0.5 * of_cones(kCubicCell * R_s_, most_depth()) / E_);
+    return std::fmax(a, 0.5 * of_cones(kMostDepth * R_s_, most_depth()) / E_);
   }
 
   double advance(double before, double now, double, State &s, const GrownSurfaces &grown) const {
     const State was = s;
-    if (!grown.full)
+    const bool freed = was.full > 0.0 && !grown.full;
+    if (freed)
       s.full = s.bulk = 0.0;
-    const bool yields = s.full == 0.0 && now > 0.0 && yield(now, grown, s);
-    if (grown.full && s.full == 0.0 && now > 0.0)
+    const double most = freed ? force(now, was) : HUGE_VAL;
+    const bool yields = s.full == 0.0 && now > 0.0 && yield(now, grown, most, s);
+    if (grown.full && s.full == 0.0 && now > (s.radius > 0.0 ? s.dent : yield_overlap()))
       fill(now, grown, s);
     if (!yields && s.full == was.full)
       return 0.0;
@@ -129,7 +133,7 @@ public:
   }
 
 private:
-  static constexpr double kCubicCell = 0.19;  // u/R_s of a sphere that fills it
+  static constexpr double kMostDepth = 0.31;  // u/R_s of a sphere that four flats fill
   static constexpr double kLeast = 0.1;       // overlaps at rest stay below a fifth of R
   static constexpr double kPerCohesion = 4.5; // 1.25 over 0.278, the least slope of x p(x)/H
   double E_, R_, R_s_, H_, cohesion_, K_;
@@ -143,7 +147,7 @@ private:
   }
   double most_depth() const { return std::sqrt(R_ / R_s_); } // c beside a rigid sphere
   double of_cones(double u, double c) const {                // k of a contact of depth u
-    const double r = std::fmax(R_s_ - u, 0.1 * R_s_), q = r * r * r / (R_s_ * R_s_ * R_s_);
+    const double r = R_s_ - std::fmin(u, kMostDepth * R_s_), q = r * r * r / (R_s_ * R_s_ * R_s_);
     const double t = 1.0 - 0.25 * q - 0.5 * std::sqrt(2.0 * q + 0.25 * q * q);
     return 6.0 * kPi * K_ * c * R_s_ * R_s_ * R_s_ * t / (r * r);
   }
@@ -154,13 +158,14 @@ private:
                        2.0 * E_ * std::sqrt(radius_of(s) * elastic(now, s)));
   }
 
-  bool yield(double now, const GrownSurfaces &grown, State &s) const {
+  /// Leaves a dent where the contact would bear more than the law allows, and than `bears`.
+  bool yield(double now, const GrownSurfaces &grown, double bears, State &s) const {
     const double R_p = radius_of(s), e = elastic(now, s);
     const double x =
         std::fmin(grown.R_eff * (now + grown.growth) / (grown.radius * grown.radius), 1.0);
     const double cut = grown.radius * grown.radius * x * (2.0 - x) - R_ * yield_overlap();
     const double a2_y = std::fmax(cut, s.radius > 0.0 ? 0.0 : R_ * e);
-    const double most = kPi * a2_y * pressure(x);
+    const double most = std::fmin(kPi * a2_y * pressure(x), bears);
     if (hertz_force(E_, R_p, e) <= most || most <= 0.0)
       return false;
     const double left = 0.75 * most / (E_ * std::sqrt(a2_y));

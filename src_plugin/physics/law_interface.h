@@ -24,6 +24,8 @@
 //   advance(before, now, time, state)  brings the state up to the overlap `now`, which `time` ago
 //                                      was `before`; returns the work taken for good, >= 0
 //                                      with a fifth argument, GrownSurfaces, if it has kGrows
+//   range(surfaces)                    overlap over the smaller radius up to which the law has been
+//                                      compared with what it stands for
 //   limits(phases, params)             ContactLimits of the first parameter, all of them given
 // The list of registry/contact_law.h makes it known.
 #ifndef CALENDEM_PHYSICS_LAW_INTERFACE_H
@@ -50,6 +52,12 @@ struct GrownSurfaces {
   bool full = false;   ///< one of them has no free surface left
   double depth = 1.0;  ///< of the flat that stands for the contact, over its overlap
 };
+
+/// Overlap over the smaller radius at which a flat in place of the contact is `depth` times the
+/// radius deep: depth itself at a wall, twice as much for equal spheres.
+inline double strain_at(double depth, const ContactSurfaces &s) {
+  return depth * s.radius / s.R_eff;
+}
 
 /// What a law's advance returns, as a term of the energy ledger.
 enum class WorkTaken { Nothing, PlasticFlow, Dashpots };

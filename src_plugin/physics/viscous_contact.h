@@ -22,6 +22,7 @@
 #ifndef CALENDEM_PHYSICS_VISCOUS_CONTACT_H
 #define CALENDEM_PHYSICS_VISCOUS_CONTACT_H
 
+#include "contact_range.h"
 #include "hertz_contact.h"
 #include "law_interface.h"
 
@@ -44,6 +45,7 @@ public:
   static constexpr WorkTaken kTakes = WorkTaken::Dashpots;
   static constexpr double kDeepest = std::numeric_limits<double>::infinity();
   static constexpr bool kGrows = false;
+  static double range(const ContactSurfaces &) { return kHertzRange; }
 
   ViscousContact(const ContactSurfaces &s, const Params &p)
       : E_(s.E_eff), R_(s.R_eff), g_(p.relaxed_fraction), rate_(2.0 / (3.0 * p.time)) {}

@@ -38,6 +38,7 @@ struct ContactLaw {
   WorkTaken takes;
   double deepest;
   bool grows;
+  double (*range)(const ContactSurfaces &surfaces);
   ContactLimits (*limits)(const PhasePair &phases, const PropertyValues &values);
 };
 
@@ -66,6 +67,7 @@ inline constexpr ContactLaw kContactLaw = {
     Law::kTakes,
     Law::kDeepest,
     Law::kGrows,
+    Law::range,
     [](const PhasePair &phases, const PropertyValues &values) {
       return Law::limits(phases, params_of<Law>(values));
     }};

@@ -61,10 +61,11 @@ void ComputeContactRange::add(int row, const EffectContact &contact, const doubl
   const double force = effects_.force(contact, memory);
   if (force <= 0.0)
     return;
+  const double range = effects_.range(contact, memory);
   if (row != kInsideBodies)
-    mine_[kAll].add(contact.overlap, contact.radius, force);
+    mine_[kAll].add(contact.overlap, contact.radius, force, range);
   if (row >= 0)
-    mine_[row].add(contact.overlap, contact.radius, force);
+    mine_[row].add(contact.overlap, contact.radius, force, range);
 }
 
 void ComputeContactRange::add_pairs() {

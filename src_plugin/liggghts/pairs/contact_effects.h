@@ -9,6 +9,7 @@
 #define CALENDEM_CONTACT_EFFECTS_H
 
 #include "physics/contact_pair.h"
+#include "physics/contact_range.h"
 #include "pointers.h"
 #include "registry/contact_law.h"
 #include <type_traits>
@@ -82,6 +83,12 @@ public:
     return with_law(c, memory, [&](const auto &law, const auto &state) {
       return law.stiffness_radius(c.overlap, state);
     });
+  }
+  /// Overlap over the smaller radius up to which the contact's law has been compared.
+  double range(const EffectContact &c, const double *memory) const {
+    if (!memory || !act(c.itype, c.jtype))
+      return calendem::kHertzRange;
+    return law(c.itype, c.jtype).range({0.0, c.effective_radius, c.radius});
   }
   double radius_under(double force, const EffectContact &c) const {
     if (!act(c.itype, c.jtype))

@@ -179,6 +179,22 @@ TEST(DuctileContact, FullItIsElastic) {
   EXPECT_LT(sphere.law.force(more, free), sphere.law.force(more, s));
 }
 
+// Requirement: a contact that is open in its dent, or has only begun, does not fill: no force from
+// less than nothing, and no stiffness of less than Hertz' at its yield.
+TEST(DuctileContact, OnlyWhatBearsCanBeFull) {
+  Crushed sphere;
+  sphere.go(6, 0.15 * R);
+  DuctileContact::State s = sphere.state;
+  const double open = 0.9 * s.dent, growth = sphere.sphere.growth;
+  sphere.law.advance(sphere.depth, open, 1.0, s, grown(growth, true));
+  EXPECT_EQ(s.full, 0.0);
+  EXPECT_EQ(sphere.law.contact_radius(sphere.depth, s),
+            sphere.law.contact_radius(sphere.depth, sphere.state));
+  DuctileContact::State fresh;
+  sphere.law.advance(0.0, 0.01 * sphere.law.yield_overlap(), 1.0, fresh, grown(growth, true));
+  EXPECT_EQ(fresh.full, 0.0);
+}
+
 // Requirement: the bound of a contact under a force holds for one that has come to bear it.
 TEST(DuctileContact, StiffnessUnderAForceIsABound) {
   for (int flats : {2, 6, 12}) {

@@ -21,10 +21,9 @@ RawRow pressed() {
   r.kinetic = 3.0;
   r.strain = 20.0;
   r.contact_elastic = 40.0;
-  r.ranges[kAmCbd] = {6.0, 30.0, 0.25, 0.67, {6.0, 4.0, 2.0}, {30.0, 24.0, 15.0}};
+  r.ranges[kAmCbd] = {6.0, 30.0, 0.25, 0.67, {6.0, 4.0, 2.0, 4.0}, {30.0, 24.0, 15.0, 24.0}};
   r.ranges[kCbdCbd] = {2.0, 10.0, 0.05, 0.06, {}, {}};
-  r.ranges[kInsideBodies] = {100.0,          1e5, 0.01, 0.7, {1.0, 1.0, 1.0},
-                             {1e4, 1e4, 1e4}}; // not in `all`
+  r.ranges[kInsideBodies] = {100.0, 1e5, 0.01, 0.7, {1.0, 1.0, 1.0, 1.0}, {1e4, 1e4, 1e4, 1e4}};
   return r;
 }
 
@@ -51,6 +50,7 @@ TEST(Validity, ColumnsByHand) {
   EXPECT_EQ(cell("contacts_beyond_0.2_R"), "0.5");
   EXPECT_EQ(cell("force_beyond_0.2_R"), "0.6");
   EXPECT_EQ(cell("force_beyond_0.3_R"), "0.375");
+  EXPECT_EQ(cell("force_beyond_law"), "0.6");
   EXPECT_EQ(cell("am_cbd_overlap_mean"), "0.25");
   EXPECT_EQ(cell("am_cbd_overlap_largest"), "0.67");
   EXPECT_EQ(cell("am_cbd_force_beyond_0.2_R"), "0.8");
@@ -89,11 +89,11 @@ TEST(Validity, SummaryAtMaximumPressureAndAlongTheRun) {
 TEST(Validity, WarnsInOneLineWithItsNumbers) {
   RawRow r = pressed();
   const std::string said = range_warning(contact_range({r}, r));
-  EXPECT_NE(said.find("60 % of the contact force is carried by overlaps beyond 0.2"),
+  EXPECT_NE(said.find("60 % of the contact force is carried by overlaps beyond the range"),
             std::string::npos)
       << said;
   EXPECT_NE(said.find("0.67"), std::string::npos) << said;
-  r.ranges[kAmCbd].force_beyond[kWarnedLimit] = 4.0; // 10 %: not more than it
+  r.ranges[kAmCbd].force_beyond[kRangeLimits - 1] = 4.0; // 10 %: not more than it
   EXPECT_EQ(range_warning(contact_range({r}, r)), "");
 }
 
@@ -114,9 +114,9 @@ TEST(Validity, RawRowsInTheOrderOfTheirColumns) {
   EXPECT_EQ(rows[0].friction, 121);
   EXPECT_EQ(rows[0].speed, 122);
   EXPECT_EQ(rows[0].ranges[kWallContacts].contacts, 123);
-  EXPECT_EQ(rows[0].ranges[kInsideBodies].contacts, 133);
-  EXPECT_EQ(rows[0].ranges[kAmAm].mean, 145);
-  EXPECT_EQ(rows[0].ranges[kCbdCbd].force_beyond[2], 172);
+  EXPECT_EQ(rows[0].ranges[kInsideBodies].contacts, 135);
+  EXPECT_EQ(rows[0].ranges[kAmAm].mean, 149);
+  EXPECT_EQ(rows[0].ranges[kCbdCbd].force_beyond[2], 181);
 }
 
 // A resumed run writes some steps again; its last row may be on its way to the disk.

@@ -40,7 +40,11 @@ double inertial_number_of(const RawRow &r, const MeanSphere &primary) {
   return inertial_number(r.speed, r.gap, primary, 1e3 * r.p_top); // MPa -> kPa
 }
 
-std::string limit_name(int k) { return fmt::format("beyond_{:g}_R", kRangeLimit[k]); }
+constexpr int kOwnLaw = kRangeLimits - 1;
+
+std::string limit_name(int k) {
+  return k == kOwnLaw ? "beyond_law" : fmt::format("beyond_{:g}_R", kRangeLimit[k]);
+}
 
 nlohmann::json shares(const RangeOfContacts &r) {
   nlohmann::json out = {{"contacts", static_cast<long>(r.contacts)},
@@ -121,21 +125,21 @@ nlohmann::json contact_range(const std::vector<RawRow> &rows, const RawRow &top)
     raise(largest, by_kind(r));
   return {{"R", "smaller radius of the pair; the sphere's at a wall"},
           {"all", "without the contacts inside bodies"},
+          {"beyond_law", "beyond the range of the contact's own law"},
           {"at_max_pressure", by_kind(top)},
           {"largest_of_any_row", largest}};
 }
 
 std::string range_warning(const nlohmann::json &range) {
   const nlohmann::json &all = range["at_max_pressure"]["all"];
-  const double force = all["force_" + limit_name(kWarnedLimit)];
+  const double force = all["force_" + limit_name(kOwnLaw)];
   if (force <= kWarnedShare)
     return "";
   return fmt::format("at maximum pressure {:.0f} % of the contact force is carried by overlaps "
-                     "beyond {:g} of the smaller radius (the largest is {:.2f}), where the contact "
-                     "law is out of its range: pressures and porosities there are uncertain. See "
-                     "contact_range in summary.json",
-                     100.0 * force, kRangeLimit[kWarnedLimit],
-                     all["overlap_largest"].get<double>());
+                     "beyond the range of their contact law (the largest is {:.2f} of the smaller "
+                     "radius): pressures and porosities there are uncertain. Give CBD "
+                     "effects.cbd_ductility; see contact_range in summary.json",
+                     100.0 * force, all["overlap_largest"].get<double>());
 }
 
 namespace {
