@@ -11,7 +11,7 @@ export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=no
 
 rm -rf "$work"
 mkdir -p "$work/tree/build" "$work/blocks"
-cp -r "$top"/{CMakeLists.txt,CMakePresets.json,src_plugin,tools,input_scripts,patches,docs} "$work/tree"
+cp -r "$top"/{CMakeLists.txt,CMakePresets.json,src_plugin,tools,input_scripts,patches,docs,tests} "$work/tree"
 mkdir -p "$work/tree/build/bin" "$work/tree/build/share/calendem"
 ln -s ../../../input_scripts "$work/tree/build/share/calendem"
 cp "$bin"/{liggghts,calendem} "$work/tree/build/bin" # a page may build its own
