@@ -20,6 +20,19 @@ std::size_t Curve::row_of_max_pressure() const {
                                   pressure.begin());
 }
 
+std::vector<Press> Curve::presses() const {
+  const Column &pressure = (*this)["pressure_MPa"];
+  std::vector<Press> found;
+  for (std::size_t i = 0; i < rows(); ++i) {
+    if (i == 0 || (stage[i - 1] == "relaxation" && stage[i] != "relaxation"))
+      found.push_back({i, i});
+    found.back().last = i;
+    if (pressure[i] > pressure[found.back().top])
+      found.back().top = i;
+  }
+  return found;
+}
+
 std::vector<std::size_t> Curve::compression() const {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < rows(); ++i)

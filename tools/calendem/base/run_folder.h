@@ -20,6 +20,12 @@ constexpr const char *kRecipeGiven = "recipe_given";
 
 using Column = std::vector<double>;
 
+/// From one loss of contact to the next: rows of the curve.
+struct Press {
+  std::size_t top;  ///< of its maximum pressure
+  std::size_t last; ///< of its release
+};
+
 struct Curve {
   std::vector<std::string> stage;
   std::map<std::string, Column> columns; ///< every numeric column of curve.csv, by its name
@@ -29,6 +35,8 @@ struct Curve {
   std::size_t rows() const { return stage.size(); }
   std::size_t row_of_max_pressure() const;
 
+  /// At least one of a curve with rows; one that has no release ends with the curve.
+  std::vector<Press> presses() const;
   /// Rows of one branch: compression and dwell, or relaxation, joined to the other at its end.
   std::vector<std::size_t> compression() const;
   std::vector<std::size_t> relaxation() const;

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/tables.h"
 #include "base/csv_table.h"
+#include "base/recipe.h"
 #include "base/shown.h"
 #include "report/page.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
+#include <iterator>
 #include <limits>
+#include <optional>
 #include <regex>
 
 namespace calendem::report {
@@ -20,6 +23,10 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kImbalanceThreshold = 5; // MPa
 /// A run compares with a row of Table 1 when its maximum pressure is this close to the row's.
 constexpr double kSamePressure = 0.02;
+/// The paper's pressures are converted from gaps: at least 10 % uncertain.
+constexpr double kPressureError = 0.1;
+/// Standard deviation of the porosity over packings of the demo's cell [points]: docs/validation/demo.md.
+constexpr double kPackingError = 1.0;
 
 double number_in(const json &object, const char *key) {
   const auto found = object.find(key);
@@ -45,18 +52,54 @@ double porosity_after(const Run &run) {
   return kPercent * number_in(run.summary, "porosity_after_relaxation");
 }
 
+/// The press of the run that went to this pressure.
+std::optional<Press> press_to(const Run &run, double pressure) {
+  for (const Press &press : run.curve.presses())
+    if (std::abs(run.curve["pressure_MPa"][press.top] - pressure) <= kSamePressure * pressure)
+      return press;
+  return {};
+}
+
+/// Total porosity [%] once the platen had released the film from this pressure.
+double porosity_after(const Run &run, double pressure) {
+  const std::optional<Press> press = press_to(run, pressure);
+  if (!press || run.curve.stage[press->last] != "relaxation")
+    return kNaN;
+  return press->last + 1 == run.curve.rows() ? porosity_after(run)
+                                             : kPercent * run.curve["porosity_total"][press->last];
+}
+
+/// Cracked particles [%] by then, of those that have bonds.
+double cracked_after(const Run &run, double pressure) {
+  const std::optional<Press> press = press_to(run, pressure);
+  const auto &cracks = run.fracture.cracks;
+  if (!press || cracks.empty())
+    return kNaN;
+  const Column &time = cracks.at("time_us");
+  const double end = run.curve["time_us"][press->last] + 1e-6; // of rounding
+  const auto after = std::upper_bound(time.begin(), time.end(), end);
+  if (after == time.begin())
+    return kNaN;
+  const auto row = after - time.begin() - 1;
+  return kPercent * cracks.at("bodies_cracked")[row] / cracks.at("bodies_with_bonds")[row];
+}
+
+std::string with_sign(double value, int decimals) {
+  std::string text = shown(value, decimals);
+  if (text.front() == '-')
+    text.replace(0, 1, "−");
+  else if (value > 0)
+    text.insert(0, "+");
+  return text;
+}
+
 json cell(const Run &run, double value, double paper) {
   const double difference = value - paper;
-  std::string signed_text = shown(difference, 2);
-  if (signed_text.front() == '-')
-    signed_text.replace(0, 1, "−");
-  else if (difference > 0)
-    signed_text.insert(0, "+");
   return {{"run", run.name},
           {"value", or_null(value)},
           {"difference", or_null(difference)},
           {"text", shown(value, 2)},
-          {"difference_text", signed_text}};
+          {"difference_text", with_sign(difference, 2)}};
 }
 
 template <typename Value>
@@ -75,34 +118,73 @@ json row(const std::vector<Run> &runs, const std::string &quantity, double press
           {"paper_text", shown(paper, sd == sd ? 2 : 1) + spread}};
 }
 
+/// Points of porosity by which one film presses differently if its pressure is 10 % wrong: from the
+/// two pressed films of Table 1.
+double sd_of_pressure() {
+  const std::vector<MeasuredPorosity> table = paper_porosity();
+  const MeasuredPorosity &low = table[1], &high = table[2];
+  return kPressureError * (low.porosity_percent - high.porosity_percent) /
+         std::log(high.pressure_MPa / low.pressure_MPa);
+}
+
+/// How many standard deviations, of measurement, pressure and packing together, the run is off.
+void add_verdict(json &row) {
+  const double sd = std::hypot(row["paper_sd"].get<double>(), sd_of_pressure(), kPackingError);
+  for (json &c : row["cells"])
+    if (c["difference"].is_number()) {
+      const double z = c["difference"].get<double>() / sd;
+      c["z"] = z;
+      c["difference_text"] =
+          fmt::format("{}: {} sd", c["difference_text"].get<std::string>(), with_sign(z, 1));
+    }
+}
+
 json porosity_row(const std::vector<Run> &runs, const MeasuredPorosity &point) {
   const double p = point.pressure_MPa;
   if (p == 0)
     return row(runs, "Total porosity before calendering, %", p, point.porosity_percent,
                point.sd_percent,
                [](const Run &run) { return kPercent * run.curve["porosity_total"].front(); });
-  return row(runs, "Total porosity after relaxation, %", p, point.porosity_percent,
-             point.sd_percent, [p](const Run &run) {
-               const bool same = std::abs(max_pressure(run) - p) <= kSamePressure * p;
-               return same ? porosity_after(run) : kNaN;
-             });
+  json made = row(runs, "Total porosity after relaxation, %", p, point.porosity_percent,
+                  point.sd_percent, [p](const Run &run) { return porosity_after(run, p); });
+  add_verdict(made);
+  return made;
 }
 
 json loaded_row(const std::vector<Run> &runs, double pressure) {
   return row(runs, "Total porosity under load, %", pressure, kNaN, kNaN, [=](const Run &run) {
-    const double most = max_pressure(run); // of the rows: the largest may lie between two
-    const bool same = std::abs(most - pressure) <= kSamePressure * pressure;
-    return kPercent * at_first_crossing(run.curve, same ? std::min(pressure, most) : pressure,
-                                        "porosity_total");
+    const std::optional<Press> press = press_to(run, pressure);
+    return kPercent * (press ? run.curve["porosity_total"][press->top]
+                             : at_first_crossing(run.curve, pressure, "porosity_total"));
   });
 }
 
+/// In the paper's tomograms.
+json cracked_row(const std::vector<Run> &runs, double pressure, const char *seen) {
+  json made = row(runs, "Cracked particles, %", pressure, kNaN, kNaN,
+                  [=](const Run &run) { return cracked_after(run, pressure); });
+  made["paper_text"] = seen;
+  return made;
+}
+
 json breaks_row(const std::vector<Run> &runs, const PublishedBreaks &point) {
-  return row(runs, "Broken bonds, % of initial", point.pressure_MPa, point.broken_percent, kNaN,
+  return row(runs, "Broken bonds, paper's model, %", point.pressure_MPa, point.broken_percent, kNaN,
              [&](const Run &run) {
                return kPercent *
                       at_first_crossing(run.curve, point.pressure_MPa, "broken_fraction");
              });
+}
+
+/// The recipe of the paper is that of every key's default. One that is not known counts as it.
+bool is_of_paper(const Run &run) {
+  std::map<std::string, std::string> paper, recipe;
+  for (const Key &key : recipe_keys())
+    paper[key.name] = key.fallback;
+  const json given = run.electrode.value("recipe", json::object());
+  for (const auto &[key, value] : given.items())
+    if (value.is_string())
+      recipe[key] = value.get<std::string>();
+  return other_electrode(paper, recipe).empty();
 }
 
 bool ends_with(const std::string &text, const std::string &end) {
@@ -207,32 +289,43 @@ json headline_of(const Run &run) {
   return figures;
 }
 
-json comparison_of(const std::vector<Run> &runs) {
+json comparison_of(const std::vector<Run> &all) {
+  std::vector<Run> runs;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(runs), is_of_paper);
+  if (runs.empty())
+    return nullptr;
   json rows = json::array();
   for (const auto &point : paper_porosity())
     rows.push_back(porosity_row(runs, point));
   for (const auto &point : paper_porosity())
     if (point.pressure_MPa > 0)
       rows.push_back(loaded_row(runs, point.pressure_MPa));
+  rows.push_back(cracked_row(runs, 80, "few"));
+  rows.push_back(cracked_row(runs, 150, "some"));
   for (const auto &point : paper_breaks())
     rows.push_back(breaks_row(runs, point));
-  return {{"rows", rows}};
+  json compared = json::array();
+  for (const Run &run : runs)
+    compared.push_back({{"name", run.name}});
+  return {{"rows", rows}, {"compared", compared}};
 }
 
 std::string comparison_text(const json &comparison) {
+  if (comparison.is_null())
+    return "";
   const auto text = [](const json &row, const char *key) { return row[key].get<std::string>(); };
   const json &rows = comparison["rows"];
   std::string out = fmt::format("{:<39}{:>7}{:>15}", "", "at MPa", "paper");
   if (!rows.empty())
     for (const json &c : rows[0]["cells"])
-      out += fmt::format("{:>18}", text(c, "run"));
+      out += fmt::format("{:>26}", text(c, "run"));
   out += '\n';
   for (const json &r : rows) {
     out += fmt::format("{:<39}{:>7}{:>15}", text(r, "quantity"), text(r, "pressure_text"),
                        text(r, "paper_text"));
     for (const json &c : r["cells"]) {
       const bool compared = c["difference"].is_number();
-      out += fmt::format("{:>18}", text(c, "text") +
+      out += fmt::format("{:>26}", text(c, "text") +
                                        (compared ? " (" + text(c, "difference_text") + ")" : ""));
     }
     out += '\n';
