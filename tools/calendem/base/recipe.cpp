@@ -22,7 +22,7 @@ std::vector<Key> own_keys() {
   return {
       {"name", "", "electrode", 0, 0, "", "name for reports", "", true},
       {"seed", "", "1", 0, 4e9, "", "seed of all random numbers", "", false, true},
-      {"material", "", "xu2023", 0, 0, "",
+      {"material", "", "nmc111", 0, 0, "",
        "what the electrode is made of: a name of input_scripts/materials, or the path of a file, "
        "relative to this one",
        "", true},
