@@ -67,7 +67,7 @@ sed 's/^values = \[1, 2\]/values = [5]/' "$work/study.toml" >"$work/unpacked.tom
 # Particles from a data file: the study writes their recipe anew, with what it varies and without what the file gives.
 particle=$here/../../../input_scripts/cases/particle
 sed "s|^recipe = .*|recipe = \"$particle/electrode.toml\"|; s|^case = .*|case = \"$particle/case.toml\"|
-  s/^values = \[\[5, .*/values = [[5, 0.6], [6, 0.6]]/; s/^values = \[1, .*/values = [1]/" "$particle/sizes.toml" >"$work/particle.toml"
+  s/^values = \[\[5, .*/values = [[5, 0.6], [6, 0.6]]/; s/^keys = .*bond.seed.*/keys = [\"recipe.seed\"]/; s/^values = \[\[1, .*/values = [1]/" "$particle/sizes.toml" >"$work/particle.toml"
 "$bin/calendem" study "$work/particle.toml" -o "$work/particle" --jobs 2 >"$work/particle.log" 2>&1 || { cat "$work/particle.log"; fail "a study of particles from a file"; }
 awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
   { d = $at["recipe.structure.lj_length_um"]; h = $at["thickness_at_max_um"] / d; p = $at["porosity_initial"]
