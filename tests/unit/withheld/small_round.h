@@ -21,8 +21,8 @@ inline const std::string kRound =
 
 inline Round round_of(const std::string &text) {
   const auto folder = test_folder();
-  std::ofstream(folder / "electrode.toml")
-      << "[coating]\nloading_mg_cm2 = 4\n[cell]\nx_um = 6\ny_um = 6\n"; // 9.13 um of solid
+  std::ofstream(folder / "electrode.toml") << "material = \"xu2023\"\n[coating]\nloading_mg_cm2 = "
+                                              "4\n[cell]\nx_um = 6\ny_um = 6\n"; // 9.13 um of solid
   std::ofstream(folder / "case.toml") << "electrode = \"any\"\n";
   std::ofstream(folder / "bank.toml")
       << "[bank]\nrecipe = \"electrode.toml\"\ncase = \"case.toml\"\npressures_MPa = [30, 50]\n"

@@ -55,8 +55,23 @@ std::vector<Draw> some_draws(const Calibration &c, int runs) {
 
 namespace {
 
+/// A calibration holds for the particles that it was made with.
+void stop_if_other_grains(const FilmBank &bank, const Recipe &recipe) {
+  const std::string grains = recipe.settings.text("particles.grains"),
+                    of_bank = bank.recipe().settings.text("particles.grains");
+  if (recipe.structure.given() || grains == of_bank)
+    return;
+  throw Failure(
+      kBadInput,
+      fmt::format("{}: particles.grains is \"{}\", and the material is calibrated with \"{}\": "
+                  "runs of both together mean nothing. Give material = \"{}\", as the bank has it, "
+                  "or leave --runs out.",
+                  recipe.file, grains, of_bank, bank.recipe().settings.text("material")));
+}
+
 OwnStudy study_of(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
                   int material) {
+  stop_if_other_grains(bank, recipe);
   BankSpec spec = bank.spec();
   spec.name = recipe.settings.text("name") + ", by runs";
   spec.recipe_file = recipe.file;
