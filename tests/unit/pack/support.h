@@ -17,7 +17,7 @@ inline calendem::Recipe recipe_of(const std::string &lines) {
   return calendem::read_recipe(file.string());
 }
 
-/// Of the paper's particles.
+/// Its particles are the paper's.
 inline calendem::Recipe cell(double side, int seed = 1) {
   return recipe_of("name = \"test\"\nmaterial = \"xu2023\"\nseed = " + std::to_string(seed) +
                    "\n[cell]\nx_um = " + std::to_string(side) + "\ny_um = " + std::to_string(side) +

@@ -14,7 +14,8 @@ const std::string kHead = "[study]\nrecipe = \"electrode.toml\"\ncase = \"case.t
 
 std::string write_study(const std::string &text) {
   const auto folder = test_folder();
-  std::ofstream(folder / "electrode.toml") << "material = \"xu2023\"\n[cell]\nx_um = 12\ny_um = 12\n";
+  std::ofstream(folder / "electrode.toml")
+      << "material = \"xu2023\"\n[cell]\nx_um = 12\ny_um = 12\n";
   std::ofstream(folder / "case.toml") << "electrode = \"any\"\n";
   std::ofstream(folder / "points.csv") << "case.bond.damping,recipe.seed\n0.1,4\n0.2,5\n";
   std::ofstream(folder / "wrong.csv") << "case.bond.damping,seed\n0.1,4\n-1,5\n";

@@ -131,8 +131,8 @@ std::vector<std::string> FilmBank::differences(const Recipe &recipe) const {
   if (!alike)
     for (const char *key : {"particles.min_um", "particles.max_um"})
       differs(key);
-  for (const char *key : {"particles.primary_diameter_um", "particles.lattice_um",
-                          "effects.cbd_gradient.slope"})
+  for (const char *key :
+       {"particles.primary_diameter_um", "particles.lattice_um", "effects.cbd_gradient.slope"})
     differs(key);
   if (recipe.settings.line("particles.irregularity") > 0) // of a material it is the model's
     differs("particles.irregularity");
