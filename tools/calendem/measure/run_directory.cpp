@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "measure/run_directory.h"
-#include "base/material_notes.h"
 #include "base/provenance.h"
 #include <algorithm>
 #include <cmath>
@@ -275,8 +274,6 @@ Run read_run(const std::string &directory, Mistakes &mistakes) {
   read_summary(folder, run, mistakes);
   if (folder.has("electrode.json"))
     run.electrode = folder.object("electrode.json", mistakes);
-  for (const std::string &warning : warnings_of_electrode(run.electrode))
-    run.notes.add("electrode.json", warning, "");
   run.curve = folder.curve(kRequired, mistakes, run.notes);
   if (run.unfinished.empty() && run.curve.rows() > 0 && run.curve.relaxation().empty())
     run.unfinished = "curve.csv has no relaxation";

@@ -43,7 +43,9 @@ RunPart part_of(Run &run) {
   part.files = json::array();
   for (const auto &file : run.files_read)
     part.files.push_back({{"file", file}, {"sha256", sha256_of_file(file)}});
-  part.notes = run.notes;
+  for (const std::string &warning : warnings_of_electrode(run.electrode))
+    part.notes.add("electrode.json", warning, "");
+  part.notes.add(run.notes);
   return part;
 }
 
