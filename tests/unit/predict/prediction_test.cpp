@@ -102,8 +102,8 @@ TEST(OwnRuns, EveryDrawHasItsMaterialItsPackingAndThePressures) {
   EXPECT_EQ(draws[0].materials[0].parameters[0], 162.0);
   EXPECT_EQ(draws[3].materials[0].parameters[0], 237.0);
   const auto file = calendem_test::test_folder() / "other.toml";
-  std::ofstream(file)
-      << "name = \"other\"\n[particles]\nsigma_ln = 0.3\n[cell]\nx_um = 7\ny_um = 7\n";
+  std::ofstream(file) << "name = \"other\"\nmaterial = \"xu2023\"\n[particles]\nsigma_ln = "
+                         "0.3\n[cell]\nx_um = 7\ny_um = 7\n";
   const Recipe recipe = read_recipe(file.string());
   const FilmBank &bank = made_film_bank();
   EXPECT_THROW(bank.film_of(recipe), Failure);

@@ -283,9 +283,9 @@ json headline_of(const Run &run) {
                            "above 5 MPa; limit 5 %"));
   const json range = s.value("/contact_range/at_max_pressure/all"_json_pointer, json());
   if (range.is_object())
-    figures.push_back(figure("Contact force beyond 0.2 R",
-                             kPercent * number_in(range, "force_beyond_0.2_R"), "%", 1,
-                             "overlap, at maximum pressure"));
+    figures.push_back(figure("Contact force beyond its law's range",
+                             kPercent * number_in(range, "force_beyond_law"), "%", 1,
+                             "at maximum pressure"));
   return figures;
 }
 
