@@ -130,7 +130,8 @@ TEST(OwnRuns, HaveTheNanoporesOfTheirMaterial) {
   for (Draw &d : draws)
     d.materials = {{{190.0, 2.4, 480.0, 3.0}, {{0, 0.4}}}};
   const auto file = calendem_test::test_folder() / "film.toml";
-  std::ofstream(file) << "name = \"film\"\n[cbd]\nnanoporosity_percent = 45\n";
+  std::ofstream(file)
+      << "material = \"xu2023\"\nname = \"film\"\n[cbd]\nnanoporosity_percent = 45\n";
   const Study study = own_runs(bank, draws, read_recipe(file.string()), 0, {50.0});
   EXPECT_NEAR(study.runs.front().recipe.nanoporosity, 0.48, 1e-12);
   EXPECT_NEAR(study.runs.front().settings.number("effects.cbd_collapse.initial_nanoporosity"), 0.48,
@@ -144,7 +145,7 @@ TEST(OwnRuns, UnderARollEveryPassTakesTheSame) {
   for (Draw &d : draws)
     d.materials = {{{190.0, 2.4, 480.0}, {}}};
   const auto file = calendem_test::test_folder() / "film.toml";
-  std::ofstream(file) << "name = \"film\"\n[coating]\nloading_mg_cm2 = 6\n";
+  std::ofstream(file) << "material = \"xu2023\"\nname = \"film\"\n[coating]\nloading_mg_cm2 = 6\n";
   const Recipe recipe = read_recipe(file.string());
   const FilmBank &bank = made_film_bank();
   const double before = bank.solid_column(bank.described(recipe)) / (1.0 - 0.4797);
