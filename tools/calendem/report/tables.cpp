@@ -25,7 +25,7 @@ constexpr double kImbalanceThreshold = 5; // MPa
 constexpr double kSamePressure = 0.02;
 /// The paper's pressures are converted from gaps: at least 10 % uncertain.
 constexpr double kPressureError = 0.1;
-/// Standard deviation of the porosity over packings of the demo's cell [points]: docs/validation/demo.md.
+/// Scatter of the porosity over packings of the demo's cell [points], assumed: docs/validation/demo.md.
 constexpr double kPackingError = 1.0;
 
 double number_in(const json &object, const char *key) {
