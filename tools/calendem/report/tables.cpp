@@ -236,7 +236,7 @@ void collect_facts(const json &object, const std::string &prefix,
   for (const auto &[key, value] : object.items()) {
     if (std::find(left_out.begin(), left_out.end(), key) != left_out.end())
       continue;
-    const std::string name = prefix.empty() ? key : prefix + ": " + key;
+    const std::string name = prefix.empty() ? key : fmt::format("{}: {}", prefix, key);
     if (value.is_object())
       collect_facts(value, name, {}, facts);
     else

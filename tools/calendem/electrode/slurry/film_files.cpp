@@ -6,6 +6,7 @@
 #include "physics/pi.h"
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -170,23 +171,35 @@ void check_film(const nlohmann::json &d, const FilmRecipe &f, const std::string 
   stop(missed, "the dried film");
 }
 
+namespace {
+
+/// A name as it is; a file's path so that it holds in another folder.
+std::string material_of(const Recipe &r) {
+  const std::string given = r.settings.text("material");
+  const bool is_name = given.find_first_of("/.") == std::string::npos;
+  return is_name ? given : std::filesystem::absolute(material_path(given, r.file)).string();
+}
+
+} // namespace
+
 std::string hand_over(const FilmRecipe &f) {
   const Recipe &r = f.recipe;
   std::string out = fmt::format(
       "# The film that `calendem dry` left in dried.data, for `calendem pack`: cell, loading and "
       "composition are\n# the film's. film.csv gives each particle's position in the slurry.\n"
-      "name = \"{}, slurry and drying simulated\"\nseed = {}\n\n",
-      r.settings.text("name"), r.seed);
+      "name = \"{}, slurry and drying simulated\"\nmaterial = \"{}\"\nseed = {}\n\n",
+      r.settings.text("name"), material_of(r), r.seed);
   if (f.to_thickness) // what the film misses by less than the tolerance
     out += fmt::format("[coating]\nporosity_total_percent = {}\n\n",
                        r.settings.text("coating.porosity_total_percent"));
-  out += fmt::format("[density]\ncbd_solid_g_cm3 = {}\n\n[particles]\nprimary_diameter_um = {}\n"
-                     "lattice_um = {}\nirregularity = {}\nmax_width_fraction = {}\n\n"
-                     "[structure]\nfile = \"dried.data\"\natom_style = \"granular\"\n"
-                     "units = \"micro\"\nboundary = \"p p f\"\nam_types = \"1\"\n"
-                     "cbd_types = \"2\"\n",
-                     r.cbd_solid_density, r.primary_diameter, r.lattice, r.irregularity,
-                     r.max_width_fraction);
+  out +=
+      fmt::format("[density]\ncbd_solid_g_cm3 = {}\n\n[particles]\nprimary_diameter_um = {}\n"
+                  "lattice_um = {}\ngrains = \"{}\"\nirregularity = {}\nmax_width_fraction = {}\n\n"
+                  "[structure]\nfile = \"dried.data\"\natom_style = \"granular\"\n"
+                  "units = \"micro\"\nboundary = \"p p f\"\nam_types = \"1\"\n"
+                  "cbd_types = \"2\"\n",
+                  r.cbd_solid_density, r.primary_diameter, r.lattice,
+                  r.settings.text("particles.grains"), r.irregularity, r.max_width_fraction);
   return r.shapes.given() ? out + "\n[shapes]\nlibrary = \"shapes\"\n" : out;
 }
 
