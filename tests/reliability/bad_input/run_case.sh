@@ -119,7 +119,8 @@ play() { # ROW
 # What all cases may use; the rows of a mistake in one file, or those of a case of several steps.
 mapfile -t rows < <(awk -v name="$name" '/^== / { steps = 1 } /^== / || !steps && / \| / { on = $(1 + steps) == name }
                                          on || /^@/ && !steps' "$table")
-head=$(printf '%s\n' "${rows[@]}" | grep -m 1 -v '^@') || fail "cases.txt has no case '$name'"
+head=$(printf '%s\n' "${rows[@]}" | awk '!/^@/ && !found { print; found = 1 }') # to its end: no broken pipe
+[ -n "$head" ] || fail "cases.txt has no case '$name'"
 [[ ! $head =~ ^==.*\ each=([^ ]*) ]] || values=${BASH_REMATCH[1]}
 IFS=, read -ra values <<<"${values:-once}"
 for value in "${values[@]}"; do
