@@ -41,6 +41,7 @@ struct PlatenProgramme {
   RollNip roll;                ///< with control = Roll
   double passes = 1.0;         ///< of compression and release, >= 1
   double first_target = 0.0;   ///< of the first of several passes; 0: the target
+  bool by_ratio = false;       ///< targets of passes grow by equal ratios, not by equal steps
   double wait = 0.0;           ///< time until which it rests at its start
 };
 
@@ -70,11 +71,13 @@ inline bool last_pass(const PlatenProgramme &p, const PlatenState &s) {
   return s.passed + 1.0 >= p.passes;
 }
 
-/// The pressure or gap of the pass that is on: from first to last in equal steps.
+/// The pressure or gap of the pass that is on: from first to last in equal steps or ratios.
 inline double target_of_pass(const PlatenProgramme &p, const PlatenState &s) {
-  return p.first_target <= 0.0 || last_pass(p, s)
-             ? p.target
-             : p.first_target + (p.target - p.first_target) * s.passed / (p.passes - 1.0);
+  if (p.first_target <= 0.0 || last_pass(p, s))
+    return p.target;
+  const double share = s.passed / (p.passes - 1.0);
+  return p.by_ratio ? p.first_target * std::pow(p.target / p.first_target, share)
+                    : p.first_target + (p.target - p.first_target) * share;
 }
 
 inline double smoothstep(double t) {

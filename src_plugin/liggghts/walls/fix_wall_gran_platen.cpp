@@ -81,6 +81,8 @@ bool FixWallGranPlaten::set_roll_keyword(const std::string &key, const std::stri
     programme_.passes = number(key, value, whole_between(1, 1e6));
   else if (key == "first")
     programme_.first_target = number(key, value, kNotNegative);
+  else if (key == "spacing" && (value == "step" || value == "ratio"))
+    programme_.by_ratio = value == "ratio";
   else
     return false;
   return true;
@@ -130,7 +132,7 @@ void FixWallGranPlaten::set_keyword(const std::string &key, const std::string &v
     const std::string message =
         "unknown setting '" + key + " " + value +
         "'; known: side top|bottom, motion hold | motion pressure P | motion position Z | "
-        "motion roll GAP, roll_radius, counter_radius, slip, first, passes, "
+        "motion roll GAP, roll_radius, counter_radius, slip, first, spacing step|ratio, passes, "
         "touch_speed, load_speed, release_speed, touch_pressure, wait, dwell, ramp, lost, lowest, "
         "average, compliance, release yes|no, bridges yes|no";
     error->fix_error(FLERR, this, message.c_str());

@@ -2,16 +2,16 @@
 // fix ID all wall/gran/platen model hertz tangential history primitive type T zplane Z
 //     side top|bottom motion hold bridges yes|no
 //     side top motion pressure P | position Z2  touch_speed V load_speed V release_speed V
-//          touch_pressure P wait T dwell T ramp T passes N lost F lowest Z average T
+//          touch_pressure P wait T dwell T ramp T passes N first P spacing step|ratio lost F lowest Z average T
 //          compliance C release yes|no
-//     side top motion roll GAP roll_radius R counter_radius R2 slip S first G
+//     side top motion roll GAP roll_radius R counter_radius R2 slip S
 //          touch_speed V load_speed V release_speed V ... as above
 //
 // A flat wall of fix wall/gran that moves along z by the programme of physics/platen_motion.h and
 // measures what it carries; it rests at Z until the time `wait` and goes N times. All contact models of fix wall/gran can be used. Units micro.
 // motion roll: as a roll passes over, with GAP in the nip (physics/roll_nip.h); lengths in um, R2
 // 0: flat; S moves the surface along x; the first of N passes goes to `first`
-// (a gap, or a pressure), the others in equal steps to the last; 0: all alike. load_speed is
+// (a gap, or a pressure), the others by equal steps or ratios to the last; 0: all alike. load_speed is
 // the largest speed of closing and of slip. Global vector: 1 stage (0 hold, 1 compression, 2 dwell,
 // 3 relaxation, 4 done), 2 position,
 //   3 displacement (> 0 down), 4 load [nN], 5 pressure averaged over `average` [kPa], 6 pressure

@@ -145,8 +145,12 @@ std::vector<Key> base_settings() {
           .means("how many times the platen goes to the target and up again"),
       setting("platen.first_pressure_MPa", "first_pressure_MPa", "0")
           .range(0, 2000, "MPa")
-          .means("target of the first of several presses; the others follow in equal steps to "
+          .means("target of the first of several presses; the others follow up to "
                  "max_pressure_MPa; 0: all have max_pressure_MPa"),
+      setting("platen.spacing", "press_spacing", "step")
+          .one_of("step|ratio")
+          .means("how the targets of presses grow from the first to the last: by equal steps or "
+                 "by equal ratios"),
       setting("platen.contact_lost_fraction", "lost_fraction", "0.01")
           .range(1e-4, 0.5)
           .means("contact is lost below this fraction of the maximum pressure"),
