@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "simulate/study.h"
+#include "bank/bank_file.h"
 #include "base/liggghts_job.h"
 #include "base/messages.h"
 #include "base/output_folder.h"
@@ -212,7 +213,12 @@ void add_bank_verb(CLI::App &app) {
                    "sample_diameter_mm")
       ->needs(choose)
       ->check(finite_range(1.0, 1e12));
-  verb->callback([o] { make_bank(*o); });
+  verb->callback([o] {
+    if (bank::has_points(o->study.file))
+      make_bank(o->study, o->from);
+    else
+      make_bank(*o);
+  });
 }
 
 void add_study_options(CLI::App &verb, StudyOptions &o) {

@@ -23,8 +23,6 @@ namespace calendem {
 namespace fs = std::filesystem;
 namespace {
 
-const char *const kChecksFailed = "checks failed";
-
 /// The recipe as a file that reads back the same: tables of sources that it does not use may not be
 /// there, nor, beside a structure, what neither the recipe nor the study (`columns`) says: the
 /// structure gives it.
@@ -282,7 +280,7 @@ std::string Making::run(int k) {
 
 std::string Making::measure(int k) {
   const std::string folder = run_folder(states_[k]);
-  return ended_with(run_program({this_program(), "measure", folder, "--moment", "after"},
+  return ended_with(run_program({this_program(), "measure", folder, "--moment", "releases"},
                                 folder + ".measure.log"));
 }
 
