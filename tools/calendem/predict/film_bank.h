@@ -6,7 +6,7 @@
 
 #include "diagnose/bank/bank_table.h"
 #include "diagnose/inference/gaussian_process.h"
-#include "diagnose/inference/quantities.h"
+#include "inference/quantities.h"
 #include "predict/crushing_loads.h"
 #include <array>
 #include <optional>
