@@ -63,7 +63,7 @@ void check_covered(const std::vector<double> &pressures, const FilmBank &bank) {
 }
 
 /// What a recipe may hold, and no further beyond the bank's films than these differ.
-void check_varied(const std::string &text, double value, const BankParameter &p) {
+void check_varied(const std::string &text, double value, const bank::Input &p) {
   double low = 2.0 * p.low - p.high, high = 2.0 * p.high - p.low;
   for (const Key &key : recipe_keys())
     for (const std::string &name : p.keys)
@@ -91,7 +91,7 @@ std::vector<Film> varied(std::vector<Film> films, const std::vector<std::string>
                                            name, name));
     std::size_t place = 0;
     std::vector<std::string> names;
-    for (const BankParameter &p : bank.film())
+    for (const bank::Input &p : bank.film())
       names.push_back(p.name);
     while (place < names.size() && names[place] != name)
       ++place;

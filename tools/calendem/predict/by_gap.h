@@ -26,7 +26,7 @@ struct GapDraws {
   std::vector<double> gaps;           ///< [um]
   double solid = 0.0;                 ///< thickness without pores [um]
   double lowest = 0.0, highest = 0.0; ///< pressures that the bands may hold [MPa]
-  Predictions log_pressure;               ///< of MPa
+  Predictions log_pressure;           ///< of MPa
   Predictions springback, cracked, broken, inverse_tortuosity; ///< as FilmNumber; empty: not known
   /// By gap: the share of draws whose pressure lies below or above the bank's.
   std::vector<double> below, above;
@@ -35,7 +35,7 @@ struct GapDraws {
 
 /// A film against pressure under each draw: draws x pressures at equal ratios.
 struct FilmCurves {
-  std::vector<double> pressures;                           ///< [MPa]
+  std::vector<double> pressures;                               ///< [MPa]
   Predictions load;                                            ///< porosity under load
   Predictions springback, cracked, broken, inverse_tortuosity; ///< as FilmNumber; empty: not known
 };

@@ -212,7 +212,7 @@ double log_likelihood(const FilmBank &bank, const Calibration &c, const Draw &dr
 }
 
 std::vector<MeanVariance> each_from_the_others(const FilmBank &bank, const Calibration &c,
-                                        const Draw &draw) {
+                                               const Draw &draw) {
   const Predicted p = predicted_data(bank, c, draw);
   const auto n = Eigen::Index(c.data.size());
   const Matrix precision = Cholesky(covariance_of(c, p, draw)).solve(Matrix::Identity(n, n));
@@ -271,9 +271,10 @@ std::vector<std::string> warnings_of(const FilmBank &bank, const Calibration &c)
                               "Check pressures and porosities, or use a bank of such films.",
                               100.0 * missed.b));
   if (c.acceptance < kFewMoves)
-    out.push_back(fmt::format("Of the sampler's moves {:.1f} % were taken in its worst step ({:g} % or "
-                              "more are wanted): the intervals are rough. Ask for more --samples.",
-                              100.0 * c.acceptance, 100.0 * kFewMoves));
+    out.push_back(
+        fmt::format("Of the sampler's moves {:.1f} % were taken in its worst step ({:g} % or "
+                    "more are wanted): the intervals are rough. Ask for more --samples.",
+                    100.0 * c.acceptance, 100.0 * kFewMoves));
   return out;
 }
 
@@ -287,8 +288,8 @@ bool is_same_film(const Film &a, const Film &b) {
          std::fabs(a.loading - b.loading) <= 1e-9 * b.loading;
 }
 
-std::vector<MeanVariance> missed_given_data(const FilmBank &bank, const Calibration &c, const Draw &draw,
-                                     const Query &query, bool by_bank) {
+std::vector<MeanVariance> missed_given_data(const FilmBank &bank, const Calibration &c,
+                                            const Draw &draw, const Query &query, bool by_bank) {
   const auto known = std::find_if(c.films.begin(), c.films.end(),
                                   [&](const Film &f) { return is_same_film(f, query.film); });
   const int film = known == c.films.end() ? -1 : int(known - c.films.begin());
@@ -314,7 +315,7 @@ std::vector<MeanVariance> missed_given_data(const FilmBank &bank, const Calibrat
 }
 
 std::vector<MeanVariance> given_data(const FilmBank &bank, const Calibration &c, const Draw &draw,
-                              const Query &query) {
+                                     const Query &query) {
   const std::vector<MeanVariance> curve =
       bank.at_pressures(query.number, query.film, draw.of(query.film));
   std::vector<MeanVariance> out = missed_given_data(bank, c, draw, query, true);

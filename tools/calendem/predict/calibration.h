@@ -80,7 +80,7 @@ void add_experiment(const Experiment &experiment, const FilmBank &bank, Calibrat
                     std::vector<std::string> &not_said);
 
 struct CalibrationSettings {
-  int samples = 2048; ///< of each set of effects, from its prior
+  int samples = 1000;
   int draws = 400;
 };
 
@@ -93,7 +93,7 @@ double log_likelihood(const FilmBank &bank, const Calibration &calibration, cons
                       Curves &known);
 /// Each datum as all others predict it under a draw, with the errors of measurement and press.
 std::vector<MeanVariance> each_from_the_others(const FilmBank &bank, const Calibration &calibration,
-                                        const Draw &draw);
+                                               const Draw &draw);
 /// Prior of the model's own error.
 inference::Prior discrepancy_of(const ModelError &error);
 
@@ -103,24 +103,20 @@ std::string name_of(const FilmBank &bank, const std::vector<int> &effects);
 /// The effects that act in a material.
 std::vector<int> effects_of(const Material &material);
 /// Probability that one of the bank's effects acts in a material, alone or with others.
-double acting(const Calibration &calibration, int effect,
-              std::size_t material);
+double acting(const Calibration &calibration, int effect, std::size_t material);
 
 /// Systematic resampling by weights: the k-th of `count` is the first whose summed share passes
 /// (k + 1/2) / count.
 std::vector<std::size_t> resampled(const std::vector<double> &weights, int count);
 
-/// Fills hypotheses and draws from films, data and error. Before the data each effect acts as
-/// probably as not. Samples are a Sobol sequence over the priors, weighted by
-/// the likelihood of the data (importance sampling). Of several materials each takes its turn:
-/// samples of those before it, drawn anew by their weights, get one more material, which is drawn
-/// given those it is like, and are weighted by what its films add (sequential Monte Carlo, Del
-/// Moral, Doucet and Jasra 2006). Deterministic.
+/// Fills the draws from films, data and error. Before the data the model is wrong about each effect -
+/// it acts, or it does not, other than in the bank's reference material - with a probability of 10 %.
+/// Deterministic.
 void calibrate(const FilmBank &bank, const CalibrationSettings &settings, Calibration &calibration);
 
 /// What speaks against trusting a calibration: parameters that the data drive to an end of the bank's
-/// range (half of the draws lie in its outer tenth), the model's own error at its upper end, few
-/// effective samples.
+/// range (half of the draws lie in its outer tenth), the model's own error at its upper end, a
+/// sampler that hardly moved.
 std::vector<std::string> warnings_of(const FilmBank &bank, const Calibration &calibration);
 
 /// ", NAME", to stand behind a parameter's name; empty where there is only one material.
@@ -138,12 +134,12 @@ struct Query {
 /// What the model misses of a film, given the data: mean and variance at each wanted pressure.
 /// `by_bank`: of the bank's emulators, with the error of their change to the full cell; else of runs.
 std::vector<MeanVariance> missed_given_data(const FilmBank &bank, const Calibration &calibration,
-                                     const Draw &draw, const Query &query, bool by_bank);
+                                            const Draw &draw, const Query &query, bool by_bank);
 
 /// Given the data, at each wanted pressure: mean and variance of emulators and model error, not of a
 /// press.
 std::vector<MeanVariance> given_data(const FilmBank &bank, const Calibration &calibration,
-                              const Draw &draw, const Query &query);
+                                     const Draw &draw, const Query &query);
 
 } // namespace calendem
 

@@ -146,7 +146,7 @@ FilmBank::at_pressures(FilmNumber number, const Film &film,
 }
 
 std::vector<MeanVariance> FilmBank::at_pressures(FilmNumber number, const Film &film,
-                                          const Material &material) const {
+                                                 const Material &material) const {
   return at_pressures(number, film, std::vector<const Material *>{&material}).front();
 }
 

@@ -86,7 +86,7 @@ public:
 
   /// At each of the bank's pressures, of one material or of several.
   std::vector<MeanVariance> at_pressures(FilmNumber number, const Film &film,
-                                  const Material &material) const;
+                                         const Material &material) const;
   std::vector<std::vector<MeanVariance>>
   at_pressures(FilmNumber number, const Film &film,
                const std::vector<const Material *> &materials) const;

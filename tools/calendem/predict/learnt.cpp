@@ -59,7 +59,7 @@ std::vector<double> weights_without(const std::vector<std::vector<MeanVariance>>
 }
 
 LeftOutDatum lesson_of(const std::vector<std::vector<MeanVariance>> &predicted, std::size_t datum,
-                 double measured, const std::vector<Scores> &scores) {
+                       double measured, const std::vector<Scores> &scores) {
   const std::vector<double> without = weights_without(predicted, datum, measured),
                             with(without.size(), 1.0 / double(without.size()));
   LeftOutDatum out;

@@ -347,8 +347,8 @@ private:
 
 std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_those) {
   std::vector<EffectSet> sets = effect_sets_of(bank, c);
-  const EffectSet best = *std::max_element(
-      sets.begin(), sets.end(), [&](const EffectSet &a, const EffectSet &b) {
+  const EffectSet best =
+      *std::max_element(sets.begin(), sets.end(), [&](const EffectSet &a, const EffectSet &b) {
         return a.probability[of_those] < b.probability[of_those];
       });
   const std::vector<int> &effects = best.effects;

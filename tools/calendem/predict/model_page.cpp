@@ -131,16 +131,14 @@ json hypotheses_part(const Json &model) {
     const std::vector<double> of = h["probability"];
     rest.resize(of.size());
     if (*std::max_element(of.begin(), of.end()) >= kShown) {
-      rows.push_back({{"name", h["name"]},
-                      {"percents", percents(of)}});
+      rows.push_back({{"name", h["name"]}, {"percents", percents(of)}});
       continue;
     }
     ++others;
     std::transform(of.begin(), of.end(), rest.begin(), rest.begin(), std::plus<>());
   }
   if (others > 0)
-    rows.push_back({{"name", fmt::format("{} others", others)},
-                    {"percents", percents(rest)}});
+    rows.push_back({{"name", fmt::format("{} others", others)}, {"percents", percents(rest)}});
   return rows;
 }
 
@@ -230,8 +228,7 @@ json provenance_of(const Json &model) {
 } // namespace
 
 std::string model_page(const FilmBank &bank, const Calibration &c, const Json &model) {
-  const auto pressures =
-      spread_pressures(bank.pressures().front(), bank.pressures().back(), 25);
+  const auto pressures = spread_pressures(bank.pressures().front(), bank.pressures().back(), 25);
   report::Page page{kModelHtml, model};
   for (std::size_t k = 0; k < c.films.size(); ++k) {
     const PredictedFilm p = predicted(bank, c, c.films[k], pressures, 0.0);

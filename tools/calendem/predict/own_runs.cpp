@@ -67,8 +67,8 @@ void stop_if_other_grains(const FilmBank &bank, const Recipe &recipe) {
 }
 
 /// The draws' materials as points, each on a packing of its own.
-bank::Columns columns_of(const FilmBank &bank, const std::vector<Draw> &draws,
-                         const Recipe &recipe, int material) {
+bank::Columns columns_of(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
+                         int material) {
   bank::Design design;
   for (const bank::Input &input : bank.spec().design.inputs)
     if (!input.is_film())
@@ -249,7 +249,7 @@ double emulated_load(const FilmBank &bank, const Draw &draw, const Film &film, d
 
 /// Emulated means with the model error of runs.
 Predictions emulated_and_missed(const FilmBank &bank, const Calibration &c,
-                            const std::vector<Draw> &draws, const Query &query) {
+                                const std::vector<Draw> &draws, const Query &query) {
   Predictions out;
   if (!bank.knows(query.number))
     return out;

@@ -33,7 +33,7 @@ std::vector<Band> bands_of(const Predictions &draws, double low, double high) {
 } // namespace
 
 Predictions under_draws(const FilmBank &bank, const Calibration &c, const Query &query,
-                    double pressure_sd) {
+                        double pressure_sd) {
   if (!bank.knows(query.number))
     return {};
   Query around = query;
@@ -140,7 +140,7 @@ Band band_of_reading(const FilmBank &bank, const Calibration &c, const Film &fil
 std::vector<Chance> chances_from(const std::vector<double> &settings, const PredictionsOf &of,
                                  const Target &target) {
   const Predictions after = of(FilmNumber::PorosityAfter), cracked = of(FilmNumber::Cracked),
-                inverse = of(FilmNumber::InverseTortuosity);
+                    inverse = of(FilmNumber::InverseTortuosity);
   const bool any_tortuosity = target.tortuosity_below >= kMostTortuosity;
   if (!any_tortuosity && inverse.size() != after.size())
     throw Failure(kBadInput,

@@ -52,7 +52,7 @@ PredictedFilm predicted_from(const Film &film, const std::vector<double> &pressu
 /// By the bank's emulators, with what an error of the press's pressure adds (`pressure_sd` of its
 /// logarithm).
 Predictions under_draws(const FilmBank &bank, const Calibration &calibration, const Query &query,
-                    double pressure_sd);
+                        double pressure_sd);
 /// Porosity under load from that after release and the springback, which scatter independently.
 Predictions under_load_of(const Predictions &after, const Predictions &springback);
 
