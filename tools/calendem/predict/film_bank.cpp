@@ -108,8 +108,7 @@ void FilmBank::place(const Material &material, const Alike &as, Eigen::Index col
   }
   for (const ActiveEffect &a : material.effects) {
     const inference::Parameter &effect = effects_[std::size_t(a.effect)];
-    at.amplitudes(a.effect, column) =
-        effect.strength(a.amplitude) * (effect.name == kCollapse ? as.collapse : 1.0);
+    at.amplitudes(a.effect, column) = effect.strength(a.amplitude);
   }
   at.amplitudes(at.amplitudes.rows() - 1, column) = larger_share(as.film);
 }
@@ -130,14 +129,21 @@ FilmBank::at_pressures(FilmNumber number, const Film &film,
   for (std::size_t p = 0; p < pressures_.size(); ++p)
     outputs.push_back(bank::output_of(number, p, pressures_.size()));
   const inference::Expectation of = emulator_.predict(at, outputs);
+  inference::Matrix open = of.mean; // where nanopores stay open
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    if (effects_[e].name == kCollapse && spec_.nanoporosity_within > 0.0) {
+      at.amplitudes.row(Eigen::Index(e)).setZero();
+      open = emulator_.predict(at, outputs, false).mean;
+    }
   std::vector<std::vector<MeanVariance>> out(materials.size());
   for (Eigen::Index m = 0; m < n; ++m) {
-    const double solids = as[std::size_t(m)].solids;
+    const Alike &film_as = as[std::size_t(m)];
     for (Eigen::Index p = 0; p < of.mean.rows(); ++p) {
-      MeanVariance g = {of.mean(p, m), of.variance(p, m)};
+      MeanVariance g = {open(p, m) + film_as.collapse * (of.mean(p, m) - open(p, m)),
+                        of.variance(p, m)};
       if (number == FilmNumber::PorosityAfter)
-        g = {1.0 - solids * (1.0 - g.mean), solids * solids * g.variance};
-      if (number == FilmNumber::CbdNanoporosity) // the bank's, of which collapse leaves a share
+        g = {1.0 - film_as.solids * (1.0 - g.mean), film_as.solids * film_as.solids * g.variance};
+      if (number == FilmNumber::CbdNanoporosity)
         g.mean += nanoporosity(film, *materials[std::size_t(m)]) - recipe_.nanoporosity;
       out[std::size_t(m)].push_back(g);
     }
