@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "bank/bank_file.h"
 #include "base/case.h"
 #include "base/experiment.h"
 #include "base/material_notes.h"
@@ -89,6 +90,11 @@ std::string name_after_check(const std::string &file) {
   case FileKind::Study:
     return fmt::format("study of {} runs", read_study(file).runs.size());
   case FileKind::Bank: {
+    if (bank::has_points(file)) {
+      const bank::Bank points = bank::read_bank(file);
+      return fmt::format("bank of {} runs",
+                         bank::study_of(points, bank::points_of(points.design)).runs.size());
+    }
     const BankSpec spec = read_bank_spec(file);
     return fmt::format("bank of {} runs", pressed_study(spec, bank_runs(spec)).runs.size());
   }
