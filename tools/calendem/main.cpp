@@ -2,6 +2,7 @@
 // The command line. Exit status: 0 done, 1 usage, 2 bad input, 3 the simulation failed, 4 a check
 // did not hold.
 #include "base/messages.h"
+#include "base/plain_text.h"
 #include "base/provenance.h"
 #include "base/registry.h"
 #include "commands/commands.h"
@@ -21,25 +22,17 @@ struct Verb {
   void (*add)(CLI::App &);
   const char *group; ///< heading in the help; empty: not shown
 };
-const Verb kVerbs[] = {{calendem::add_pack_verb, "Electrodes"},
-                       {calendem::add_dry_verb, "Electrodes"},
-                       {calendem::add_tomogram_verb, "Electrodes"},
-                       {calendem::add_run_verb, "Runs"},
-                       {calendem::add_collect_verb, "Runs"},
-                       {calendem::add_measure_verb, "Runs"},
-                       {calendem::add_report_verb, "Runs"},
-                       {calendem::add_study_verb, "Many runs"},
-                       {calendem::add_sample_verb, "Many runs"},
-                       {calendem::add_bank_verb, "Many runs"},
-                       {calendem::add_compare_verb, "Experiments"},
-                       {calendem::add_diagnose_verb, "Experiments"},
-                       {calendem::add_withheld_verb, "Experiments"},
-                       {calendem::add_calibrate_verb, "Predictions"},
-                       {calendem::add_predict_verb, "Predictions"},
-                       {calendem::add_design_verb, "Predictions"},
-                       {calendem::add_validate_verb, "Help"},
-                       {calendem::add_effects_verb, "Help"},
-                       {calendem::add_registry_verb, ""}};
+const Verb kVerbs[] = {
+    {calendem::add_pack_verb, "Electrodes"},       {calendem::add_dry_verb, "Electrodes"},
+    {calendem::add_tomogram_verb, "Electrodes"},   {calendem::add_run_verb, "Runs"},
+    {calendem::add_collect_verb, "Runs"},          {calendem::add_measure_verb, "Runs"},
+    {calendem::add_report_verb, "Runs"},           {calendem::add_study_verb, "Many runs"},
+    {calendem::add_sample_verb, "Many runs"},      {calendem::add_bank_verb, "Many runs"},
+    {calendem::add_press_verb, "Experiments"},     {calendem::add_compare_verb, "Experiments"},
+    {calendem::add_diagnose_verb, "Experiments"},  {calendem::add_withheld_verb, "Experiments"},
+    {calendem::add_calibrate_verb, "Predictions"}, {calendem::add_predict_verb, "Predictions"},
+    {calendem::add_design_verb, "Predictions"},    {calendem::add_validate_verb, "Help"},
+    {calendem::add_effects_verb, "Help"},          {calendem::add_registry_verb, ""}};
 
 void add_verbs(CLI::App &app) {
   app.require_subcommand(1);
@@ -91,8 +84,9 @@ int run(int argc, char **argv) {
   return calendem::kDone;
 }
 
-/// A message that cannot be written, as on a full disk, is no reason for another exit status.
-void say(const std::string &message) { std::fputs(message.c_str(), stderr); }
+/// A message that cannot be written, as on a full disk, is no reason for another exit status. It may
+/// quote what a file holds.
+void say(const std::string &message) { std::fputs(calendem::printable(message).c_str(), stderr); }
 
 } // namespace
 

@@ -13,7 +13,7 @@ cd "$core"
 # The readers, and of the library electrode all that two of them are linked with.
 sources=(base/*.cpp electrode/*.cpp electrode/*/*.cpp simulate/study_file.cpp diagnose/bank/bank_{spec,study,table}.cpp
   diagnose/compare/simulated_run.cpp diagnose/inference/{bank,numerics,quantities}.cpp withheld/round_file.cpp)
-image_sources=(electrode/structure/{data_rows,image_header,label_image,tiff_image,vti_header}.cpp
+image_sources=(electrode/structure/{data_rows,image_header,label_image,numpy_image,png_image,tiff_image,vti_header}.cpp
   base/{image_series,messages,provenance}.cpp)
 for source in "${sources[@]}" "${image_sources[@]}"; do # said by every run of the tests, not only by --all
   [ -f "$source" ] || { echo "FAILED: $core/$source, which is to be built here, is not there" >&2; exit 1; }
@@ -28,7 +28,7 @@ options=(-std=c++17 -g -O1 -DNDEBUG "-fsanitize=fuzzer,address,undefined" -fno-s
 vtk=$(find /usr/include -maxdepth 1 -name 'vtk-9*' | head -n 1) # the Debian package; its suffix is that of the libraries
 [ -n "$vtk" ] || { echo "skipped: no headers of VTK in /usr/include"; exit 77; }
 options+=(-isystem "$vtk")
-libraries=(-lfmt -lcrypto -lz -ltiff)
+libraries=(-lfmt -lcrypto -lz -ltiff -lpng -lminizip)
 for name in IOImage IOXML ImagingMorphological ImagingGeneral FiltersCore CommonExecutionModel CommonDataModel CommonMath CommonMisc \
   CommonCore sys; do
   libraries+=("-lvtk$name${vtk##*/vtk}")

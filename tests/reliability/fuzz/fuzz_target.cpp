@@ -13,6 +13,7 @@
 #include "base/csv_table.h"
 #include "base/experiment.h"
 #include "base/messages.h"
+#include "base/plain_text.h"
 #include "base/recipe.h"
 #include "diagnose/bank/bank_table.h"
 #include "diagnose/inference/bank.h"
@@ -48,10 +49,12 @@ void recipe(const std::string &) { calendem::read_recipe(file()); }
 void case_(const std::string &) { calendem::read_case(file()); }
 void experiment(const std::string &) { calendem::read_experiment(file()); }
 void csv(const std::string &text) {
-  const auto table = calendem::CsvTable::parse(text);
-  for (const std::string &column : table.header())
-    if (table.has(column))
-      table.numbers(column);
+  for (const calendem::CsvTable &table :
+       {calendem::CsvTable::parse(text), calendem::CsvTable::parse_export(text)})
+    for (const std::string &column : table.header())
+      if (table.has(column))
+        demand(table.numbers(column).size() == table.rows() &&
+               calendem::printable(table.ambiguous() + table.guess()).find('\r') == text.npos);
 }
 
 // The first byte says how the data file is to be read; the file follows.
