@@ -202,5 +202,17 @@ TEST(Emulator, HyperparametersOutAndInGiveTheSameBits) {
   EXPECT_NEAR(first.predict(one, {0}).mean(0, 0), a.mean(1, 69), 1e-9);
 }
 
+TEST(Emulator, AnOutputWithoutRunsIsNotKnown) {
+  TrainingRuns t = sample(60, 23);
+  t.values.row(2).setConstant(std::nan(""));
+  t.values.row(1).setConstant(0.5);
+  const Emulator e(t, Hyperparameters{{1.0, 2.0}}); // lists of another bank are not taken
+  EXPECT_EQ(e.hyperparameters()[0], Emulator(t).hyperparameters()[0]);
+  const Expectation of = e.predict(points(5, 3), {0, 1, 2});
+  EXPECT_TRUE(of.mean.row(2).array().isNaN().all() && of.variance.row(2).array().isNaN().all());
+  EXPECT_TRUE(of.mean.row(0).allFinite() && of.variance.row(0).allFinite());
+  EXPECT_LT((of.mean.row(1).array() - 0.5).abs().maxCoeff(), 1e-6); // one that never changes
+}
+
 } // namespace
 } // namespace calendem::inference

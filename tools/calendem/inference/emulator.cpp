@@ -38,7 +38,8 @@ std::map<std::vector<int>, std::vector<int>> patterns_of(const TrainingRuns &run
     for (int r = 0; r < int(runs.packing.size()); ++r)
       if (std::isfinite(runs.values(o, r)))
         having.push_back(r);
-    patterns[having].push_back(o);
+    if (!having.empty())
+      patterns[having].push_back(o);
   }
   return patterns;
 }
@@ -80,31 +81,39 @@ double misfit(const Points &at, const std::vector<int> &packing, const Matrix &v
 
 Emulator::Emulator(TrainingRuns runs, const std::optional<Hyperparameters> &known)
     : runs_(std::move(runs)) {
-  const auto outputs = runs_.values.rows();
-  centres_ = Vector::Zero(outputs);
-  spreads_ = Vector::Ones(outputs);
-  for (Eigen::Index o = 0; o < outputs; ++o) {
-    const Eigen::ArrayXd row = runs_.values.row(o);
-    const Eigen::ArrayXd finite = row.isFinite().cast<double>();
-    const double count = std::max(finite.sum(), 1.0);
-    const Eigen::ArrayXd filled = row.isFinite().select(row, 0.0);
-    centres_[o] = filled.sum() / count;
-    const double square = (finite * (filled - centres_[o]).square()).sum() / count;
-    const double least = 1e-16 * std::max(filled.square().sum() / count, 1e-280);
-    spreads_[o] = std::sqrt(std::max(square, least)); // constant: predicted as such
-  }
+  set_scales();
   const int groups =
       runs_.group.empty() ? 0 : 1 + *std::max_element(runs_.group.begin(), runs_.group.end());
+  const int inputs = int(runs_.at.inputs.rows()), effects = int(runs_.at.amplitudes.rows());
+  const auto length = Kernel::prior_means(inputs, effects).size();
   for (int group = 0; group < groups; ++group) {
-    Vector parameters;
-    if (known)
-      parameters = Vector::Map((*known)[std::size_t(group)].data(),
-                               Eigen::Index((*known)[std::size_t(group)].size()));
-    else
-      parameters = fit(group);
+    const auto place = std::size_t(group);
+    const bool stored =
+        known && place < known->size() && Eigen::Index((*known)[place].size()) == length;
+    const Vector parameters =
+        stored ? Vector(Vector::Map((*known)[place].data(), length)) : fit(group);
     hyperparameters_.emplace_back(parameters.begin(), parameters.end());
-    kernels_.emplace_back(int(runs_.at.inputs.rows()), int(runs_.at.amplitudes.rows()), parameters);
+    kernels_.emplace_back(inputs, effects, parameters);
     add_factors(group);
+  }
+}
+
+void Emulator::set_scales() {
+  const auto outputs = runs_.values.rows();
+  centres_ = Vector::Constant(outputs, std::nan(""));
+  spreads_ = Vector::Ones(outputs);
+  for (Eigen::Index o = 0; o < outputs; ++o) {
+    std::vector<Eigen::Index> known;
+    for (Eigen::Index r = 0; r < runs_.values.cols(); ++r)
+      if (std::isfinite(runs_.values(o, r)))
+        known.push_back(r);
+    if (known.empty())
+      continue;
+    const Eigen::ArrayXd row = runs_.values.row(o)(known);
+    centres_[o] = row.mean();
+    const double least = 1e-16 * std::max(row.square().mean(), 1e-280);
+    spreads_[o] =
+        std::sqrt(std::max((row - centres_[o]).square().mean(), least)); // may be constant
   }
 }
 
@@ -149,7 +158,8 @@ Vector Emulator::fit(int group) const {
 void Emulator::add_factors(int group) {
   const Kernel &kernel = kernels_[std::size_t(group)];
   for (const auto &[having, outputs] : patterns_of(runs_, group)) {
-    Factor f{outputs, having, chosen(runs_.packing, having), chosen(runs_.at, having), {}, {}, {}};
+    Factor f{group, outputs, having, chosen(runs_.packing, having), chosen(runs_.at, having),
+             {},    {},      {}};
     f.covariance.compute(kernel.of_runs(f.at, f.packing));
     const Matrix values = scaled_values(outputs, having);
     f.weights = f.covariance.solve(values);
@@ -157,46 +167,66 @@ void Emulator::add_factors(int group) {
     for (std::size_t k = 0; k < outputs.size(); ++k)
       f.scales[Eigen::Index(k)] *= spreads_[outputs[k]] * spreads_[outputs[k]];
     factors_.push_back(std::move(f));
-    group_.push_back(group);
   }
 }
 
 Expectation Emulator::predict(const Points &at, const std::vector<int> &outputs,
                               bool with_variance) const {
-  const auto count = at.inputs.cols();
-  const auto rows = Eigen::Index(outputs.size());
-  Expectation out{Matrix(rows, count), Matrix(with_variance ? rows : 0, count),
-                  Matrix(rows, count)};
+  const auto count = at.inputs.cols(), rows = Eigen::Index(outputs.size());
+  const Matrix unknown = Matrix::Constant(rows, count, std::nan(""));
+  Expectation out{unknown, with_variance ? unknown : Matrix(), unknown};
   for (std::size_t f = 0; f < factors_.size(); ++f) {
-    const Factor &factor = factors_[f];
     std::vector<std::pair<Eigen::Index, Eigen::Index>> wanted; // row of the answer, of the factor
-    for (std::size_t k = 0; k < factor.outputs.size(); ++k)
+    for (std::size_t k = 0; k < factors_[f].outputs.size(); ++k)
       for (Eigen::Index row = 0; row < rows; ++row)
-        if (outputs[std::size_t(row)] == factor.outputs[k])
+        if (outputs[std::size_t(row)] == factors_[f].outputs[k])
           wanted.push_back({row, Eigen::Index(k)});
     for (Eigen::Index first = 0; first < count && !wanted.empty(); first += kBatch) {
       const auto size = std::min(kBatch, count - first);
       const Points some{at.inputs.middleCols(first, size), at.amplitudes.middleCols(first, size)};
-      const Kernel &kernel = kernels_[std::size_t(group_[f])];
-      Matrix k = kernel.expected(factor.at, some);
-      const Matrix mean = factor.weights.transpose() * k;
-      const Vector scatter = kernel.scatter(some);
-      Vector left;
-      if (with_variance) {
-        factor.covariance.matrixL().solveInPlace(k);
-        left = (kernel.prior_variance(some) - k.colwise().squaredNorm().transpose()).cwiseMax(0.0);
-      }
-      for (const auto &[row, o] : wanted) {
+      const Batch batch = predict_batch(f, some, with_variance);
+      for (const auto &[row, k] : wanted) {
         const int output = outputs[std::size_t(row)];
+        const double scale = factors_[f].scales[k];
         out.mean.row(row).segment(first, size) =
-            centres_[output] + spreads_[output] * mean.row(o).array();
-        out.scatter.row(row).segment(first, size) = factor.scales[o] * scatter;
+            centres_[output] + spreads_[output] * batch.mean.row(k).array();
+        out.scatter.row(row).segment(first, size) = scale * batch.scatter;
         if (with_variance)
-          out.variance.row(row).segment(first, size) = factor.scales[o] * left;
+          out.variance.row(row).segment(first, size) = scale * batch.variance;
       }
     }
   }
   return out;
+}
+
+Emulator::Batch Emulator::predict_batch(std::size_t place, const Points &at,
+                                        bool with_variance) const {
+  const Factor &factor = factors_[place];
+  const Kernel &kernel = kernels_[std::size_t(factor.group)];
+  Matrix k = kernel.expected(factor.at, at);
+  Batch out{factor.weights.transpose() * k, {}, kernel.scatter(at)};
+  if (with_variance) {
+    factor.covariance.matrixL().solveInPlace(k);
+    out.variance =
+        (kernel.prior_variance(at) - k.colwise().squaredNorm().transpose()).cwiseMax(0.0);
+  }
+  return out;
+}
+
+/// What the factor's outputs miss by where the runs `of` are unknown, and its variance: the residual is
+/// [K^-1]_BB^-1 [K^-1 y]_B for the block B (Rasmussen and Williams eq. 5.12, for more than one run).
+void Emulator::leave_out(const Factor &f, const Matrix &inverse, const std::vector<int> &of,
+                         LeftOut &out) const {
+  const Cholesky block(Matrix(inverse(of, of)));
+  const Matrix missed = block.solve(Matrix(f.weights(of, Eigen::all)));
+  const Vector variance = block.solve(Matrix::Identity(block.rows(), block.rows())).diagonal();
+  for (std::size_t i = 0; i < of.size(); ++i)
+    for (std::size_t k = 0; k < f.outputs.size(); ++k) {
+      const int o = f.outputs[k], run = f.runs[std::size_t(of[i])];
+      const auto row = Eigen::Index(i), column = Eigen::Index(k);
+      out.predicted(o, run) = runs_.values(o, run) - spreads_[o] * missed(row, column);
+      out.deviation(o, run) = std::sqrt(f.scales[column] * variance[row]);
+    }
 }
 
 LeftOut Emulator::left_out() const {
@@ -209,18 +239,8 @@ LeftOut Emulator::left_out() const {
     std::map<int, std::vector<int>> members;
     for (int k = 0; k < int(n); ++k)
       members[f.packing[std::size_t(k)]].push_back(k);
-    for (const auto &[packing, of] : members) {
-      const Cholesky block(Matrix(inverse(of, of)));
-      const Matrix missed = block.solve(Matrix(f.weights(of, Eigen::all)));
-      const Vector variance = block.solve(Matrix::Identity(block.rows(), block.rows())).diagonal();
-      for (std::size_t i = 0; i < of.size(); ++i)
-        for (std::size_t k = 0; k < f.outputs.size(); ++k) {
-          const int o = f.outputs[k], run = f.runs[std::size_t(of[i])];
-          out.predicted(o, run) =
-              runs_.values(o, run) - spreads_[o] * missed(Eigen::Index(i), Eigen::Index(k));
-          out.deviation(o, run) = std::sqrt(f.scales[Eigen::Index(k)] * variance[Eigen::Index(i)]);
-        }
-    }
+    for (const auto &[packing, of] : members)
+      leave_out(f, inverse, of, out);
   }
   return out;
 }

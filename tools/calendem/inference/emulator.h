@@ -49,7 +49,8 @@ struct LeftOut {
 /// averaged over a group's outputs, times their priors is largest; nothing is random.
 class Emulator {
 public:
-  /// Without hyperparameters they are fitted, which takes minutes for a thousand runs.
+  /// Hyperparameters that are missing, or a group's list that has not the length these runs need, are
+  /// fitted, which takes minutes for a thousand runs. An output that no run has is predicted as NaN.
   explicit Emulator(TrainingRuns runs, const std::optional<Hyperparameters> &known = {});
 
   const Hyperparameters &hyperparameters() const { return hyperparameters_; }
@@ -62,6 +63,7 @@ public:
 private:
   /// Outputs of a group that the same runs have.
   struct Factor {
+    int group;
     std::vector<int> outputs, runs;
     std::vector<int> packing;
     Points at;
@@ -69,16 +71,23 @@ private:
     Matrix weights;      ///< runs x outputs: its inverse times the scaled values
     Vector scales;       ///< variance of each output in units of its covariance
   };
+  struct Batch {
+    Matrix mean;              ///< of the factor's outputs, scaled; outputs x points
+    Vector variance, scatter; ///< in units of the covariance
+  };
   TrainingRuns runs_;
   Hyperparameters hyperparameters_;
   std::vector<Kernel> kernels_; ///< of the groups
   std::vector<Factor> factors_;
-  std::vector<int> group_;   ///< of the factors
   Vector centres_, spreads_; ///< of the outputs
 
+  void set_scales();
   void add_factors(int group);
   Matrix scaled_values(const std::vector<int> &outputs, const std::vector<int> &runs) const;
   Vector fit(int group) const;
+  Batch predict_batch(std::size_t factor, const Points &at, bool with_variance) const;
+  void leave_out(const Factor &factor, const Matrix &inverse, const std::vector<int> &of,
+                 LeftOut &out) const;
 };
 
 /// For each output.

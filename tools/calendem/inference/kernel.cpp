@@ -14,8 +14,8 @@ constexpr double kConstant = 4.0;  // c0, in variances of the values, whose mean
 constexpr double kDamping = 16.0;  // of trends: |x - x'|^2 per input at which half is left
 constexpr double kSmallest = 1e-5; // of the noise: keeps the matrix invertible
 
-/// Order of the parameters: seven, then lengths, then those of effects.
-enum Layout { kSmooth, kSlope, kBend, kPairs, kPacking, kPackingSmooth, kNoise, kFirstLength };
+/// Order of the parameters: six, then lengths, then those of effects.
+enum Layout { kSmooth, kSlope, kBend, kPairs, kPacking, kNoise, kFirstLength };
 
 struct Normal {
   double mean, spread;
@@ -25,12 +25,11 @@ struct Normal {
 // scatter. Variances are shares of the values'.
 constexpr Normal kScalars[] = {{-1.0, 1.5},  // s0
                                {-1.5, 1.5},  // b
-                               {-1.5, 1.0},  // q
+                               {-0.5, 1.0},  // q
                                {-0.5, 1.5},  // h
                                {-3.0, 1.5},  // p0
-                               {-4.0, 1.5},  // p1
                                {-2.5, 1.5}}; // n
-constexpr Normal kLength{1.2, 0.5}, kEffectLength{1.2, 0.5};
+constexpr Normal kLength{1.3, 1.0}, kEffectLength{1.2, 0.5};
 constexpr Normal kMain{-3.0, 2.0}, kVarying{-4.0, 1.5}, kGrowth{0.0, 0.4};
 
 Vector filled(int inputs, int effects, double Normal::*member) {
@@ -90,7 +89,6 @@ Kernel::Kernel(int inputs, int effects, const Vector &x) : inputs_(inputs), effe
   bend_ = std::exp(x[kBend]);
   pairs_ = std::exp(x[kPairs]);
   packing_ = std::exp(x[kPacking]);
-  packing_smooth_ = std::exp(x[kPackingSmooth]);
   noise_ = std::exp(x[kNoise]);
   lengths_ = x.segment(kFirstLength, inputs).array().exp();
   effect_lengths_ = x.segment(kFirstLength + inputs, inputs).array().exp();
@@ -107,12 +105,12 @@ struct Kernel::Parts {
   Matern smooth, of_effects;
 };
 
-Kernel::Parts Kernel::parts(const Points &of, const Points &with) const {
+Kernel::Parts Kernel::parts(const Points &of, const Points &with, bool slopes) const {
   Parts p;
   p.product = of.inputs.transpose() * with.inputs;
   p.damping = 1.0 / (1.0 + squares(of.inputs, with.inputs).array() / (kDamping * inputs_));
-  p.smooth = matern(of.inputs, with.inputs, lengths_, true);
-  p.of_effects = matern(of.inputs, with.inputs, effect_lengths_, true);
+  p.smooth = matern(of.inputs, with.inputs, lengths_, slopes);
+  p.of_effects = matern(of.inputs, with.inputs, effect_lengths_, slopes);
   const Matrix &g = of.amplitudes, &h = with.amplitudes;
   const Vector v = (constant_ + varying_).cwiseAbs2();
   p.constant = g.transpose() * constant_.asDiagonal() * h;
@@ -131,7 +129,7 @@ Matrix Kernel::trend(const Parts &p) const {
 }
 
 Matrix Kernel::expected(const Points &of, const Points &with) const {
-  const Parts p = parts(of, with);
+  const Parts p = parts(of, with, false);
   return trend(p).array() + smooth_ * p.smooth.value.array() +
          p.varying.array() * p.of_effects.value.array();
 }
@@ -151,18 +149,18 @@ Vector Kernel::roughness(const Points &of) const {
 }
 
 Vector Kernel::scatter(const Points &of) const {
-  return (packing_ + packing_smooth_ + noise_ + kSmallest) * roughness(of).cwiseAbs2();
+  return (packing_ + noise_ + kSmallest) * roughness(of).cwiseAbs2();
 }
 
 Matrix Kernel::of_runs(const Points &runs, const std::vector<int> &packing) const {
-  const Parts p = parts(runs, runs);
+  const Parts p = parts(runs, runs, false);
   Matrix k = trend(p).array() + smooth_ * p.smooth.value.array() +
              p.varying.array() * p.of_effects.value.array();
   const Vector r = roughness(runs);
   for (Eigen::Index j = 0; j < k.cols(); ++j) {
     for (Eigen::Index i = 0; i < k.rows(); ++i)
       if (packing[std::size_t(i)] == packing[std::size_t(j)])
-        k(i, j) += r[i] * r[j] * (packing_ + packing_smooth_ * p.smooth.value(i, j));
+        k(i, j) += r[i] * r[j] * packing_;
     k(j, j) += r[j] * r[j] * (noise_ + kSmallest);
   }
   return k;
@@ -192,7 +190,7 @@ void Kernel::effect_slopes(const Parts &p, const Points &runs, const Matrix &wei
 
 Vector Kernel::gradient(const Points &runs, const std::vector<int> &packing,
                         const Matrix &weight) const {
-  const Parts p = parts(runs, runs);
+  const Parts p = parts(runs, runs, true);
   Vector out(kFirstLength + 2 * inputs_ + 3 * effects_);
   const Matrix damped = weight.cwiseProduct(p.damping);
   out[kSmooth] = smooth_ * weight.cwiseProduct(p.smooth.value).sum();
@@ -207,16 +205,13 @@ Vector Kernel::gradient(const Points &runs, const std::vector<int> &packing,
     for (Eigen::Index i = 0; i < same.rows(); ++i)
       same(i, j) =
           packing[std::size_t(i)] == packing[std::size_t(j)] ? weight(i, j) * r[i] * r[j] : 0.0;
-  const Matrix similar = same.cwiseProduct(p.smooth.value);
   const Vector own = weight.diagonal().cwiseProduct(r.cwiseAbs2());
   out[kPacking] = packing_ * same.sum();
-  out[kPackingSmooth] = packing_smooth_ * similar.sum();
   out[kNoise] = noise_ * own.sum();
-  const Vector rough =
-      (packing_ * same + packing_smooth_ * similar).rowwise().sum() + (noise_ + kSmallest) * own;
+  const Vector rough = packing_ * same.rowwise().sum() + (noise_ + kSmallest) * own;
   out.tail(effects_) = runs.amplitudes * rough;
 
-  const Matrix pull = (smooth_ * weight + packing_smooth_ * same).cwiseProduct(p.smooth.slope);
+  const Matrix pull = smooth_ * weight.cwiseProduct(p.smooth.slope);
   out.segment(kFirstLength, inputs_) = length_slopes(pull, runs, lengths_);
   out.segment(kFirstLength + inputs_, inputs_) = length_slopes(
       weight.cwiseProduct(p.varying).cwiseProduct(p.of_effects.slope), runs, effect_lengths_);

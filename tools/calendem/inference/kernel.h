@@ -14,18 +14,19 @@ struct Points {
   Matrix amplitudes; ///< effects x points, strengths 0..1; at 0 an effect is off
 };
 
-/// clang-format off
+// clang-format off
 /// Expectation over packings, with x the inputs and g the strengths of the effects:
 ///   k = T { c0 + b x.x' + sum_e c_e (g_e g_e' + q f_e f_e')
-///           + h sum_{e<f} v_e v_f g_e g_e' g_f g_f' } + s0 M0 + M1 sum_e s_e g_e g_e'
-/// f = g (2 g - 1) bends a response to an amplitude; v_e = c_e + s_e makes strong effects those that
-/// act on each other most. M0 and M1 are Matern 5/2 kernels over the inputs with a length for each
-/// (Rasmussen and Williams 2006, eq. 4.17); T = 1 / (1 + |x - x'|^2 / (16 d)) for d inputs (their
-/// eq. 4.19 for alpha = 1) is a bit below 1 between runs and vanishes far from all, so that no trend
-/// is trusted there. Values of runs have in addition, with [..] = 1 where it is true, else 0,
-///   r r' [same packing] (p0 + p1 M0) + r^2 n [same run],   r^2 = exp(sum_e t_e g_e):
-/// packings differ more, or less, where an effect is on.
-/// clang-format on
+///             + h sum_{e<f} v_e v_f g_e g_e' g_f g_f' }
+///       + s0 M0 + M1 sum_e s_e g_e g_e'
+/// f = g (2 g - 1) bends the response to an amplitude; v = c + s: strong effects act on each other
+/// most. M0 and M1 are Matern 5/2 kernels over the inputs with a length for each (Rasmussen and
+/// Williams 2006, eq. 4.17). T = 1 / (1 + |x - x'|^2 / (16 d)) for d inputs (their eq. 4.19 with
+/// alpha = 1) is little below 1 between runs and vanishes far from all: no trend is trusted there.
+/// Values of runs have in addition
+///   r r' p0 [same packing] + r^2 n [same run],   r^2 = exp(sum_e t_e g_e),
+/// [..] = 1 where that is true, else 0: packings differ more, or less, where an effect is on.
+// clang-format on
 class Kernel {
 public:
   /// `parameters`: see `Layout`; logarithms but for t.
@@ -49,11 +50,11 @@ public:
 private:
   struct Parts;
   int inputs_, effects_;
-  double smooth_, slope_, bend_, pairs_, packing_, packing_smooth_, noise_;
+  double smooth_, slope_, bend_, pairs_, packing_, noise_;
   Vector lengths_, effect_lengths_;
   Vector constant_, varying_, growth_; ///< c_e, s_e, t_e
 
-  Parts parts(const Points &of, const Points &with) const;
+  Parts parts(const Points &of, const Points &with, bool slopes) const;
   Matrix trend(const Parts &p) const;
   Vector roughness(const Points &of) const;
   Vector length_slopes(const Matrix &pull, const Points &runs, const Vector &lengths) const;
