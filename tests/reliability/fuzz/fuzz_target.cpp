@@ -19,8 +19,8 @@
 #include "electrode/slurry/dry.h"
 #include "electrode/structure/existing_structure.h"
 #include "electrode/tomogram.h"
+#include "sealed/round_file.h"
 #include "simulate/study_file.h"
-#include "withheld/round_file.h"
 
 namespace {
 
@@ -151,7 +151,7 @@ void round_file(const std::string &text) {
   put(file(), text);
   const calendem::Round r = calendem::read_round(file());
   demand(r.null_draws >= r.null_packings && r.amplitudes >= 0);
-  demand(r.noise.least_understated <= r.noise.most_understated);
+  demand(r.least_understated <= r.most_understated);
 }
 
 void tomogram(const std::string &) {

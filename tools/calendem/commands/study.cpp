@@ -6,6 +6,7 @@
 #include "base/provenance.h"
 #include "commands/commands.h"
 #include "diagnose/bank/bank_table.h"
+#include "diagnose/bank_check.h"
 #include "diagnose/choose_runs.h"
 #include "report/study_page.h"
 #include "simulate/sample.h"
@@ -28,7 +29,9 @@ struct BankOptions {
   std::vector<std::string> from; ///< tables whose runs are taken
   int choose = 0;                ///< points to be chosen, for...
   std::string experiment;
-  double cells = 0.0; ///< 0: from the sample's diameter
+  double cells = 0.0; ///< of a sample; 0: from its diameter, for --check one
+  bool check = false;
+  int draws = 0; ///< for that; 0: packings are left out
 };
 
 /// A study of points and where it goes.
@@ -121,10 +124,15 @@ void print(const RunChoice &choice, const BankOptions &o, const std::string &tab
     fmt::print("- {}\n", text);
 }
 
+/// That in the output folder, else the one beside the bank's file.
+std::string table_there(const BankOptions &o, const BankSpec &spec) {
+  const std::string own = o.study.folder + "/bank.csv";
+  return std::filesystem::is_regular_file(own) ? own : table_of(spec);
+}
+
 /// Chosen for what they tell about an experiment: nothing is run.
 void choose_points_of(const BankOptions &o, const BankSpec &spec) {
-  const std::string file = o.study.folder + "/chosen.csv", own = o.study.folder + "/bank.csv",
-                    table = std::filesystem::is_regular_file(own) ? own : table_of(spec);
+  const std::string file = o.study.folder + "/chosen.csv", table = table_there(o, spec);
   must_be_ours(file, "effect,base_point,value");
   std::error_code none;
   if (!spec.chosen_file.empty() && std::filesystem::equivalent(file, spec.chosen_file, none))
@@ -150,6 +158,9 @@ void make_bank(const BankOptions &o) {
   const BankSpec spec = read_bank_spec(o.study.file);
   if (o.choose > 0)
     return choose_points_of(o, spec);
+  if (o.check)
+    return check_bank({spec.file, table_there(o, spec), o.study.folder + "/check",
+                       std::max(1, o.study.jobs), o.draws, std::max(1.0, o.cells)});
   const std::vector<BankRow> rows = rows_from(o, spec);
   std::vector<Part> parts = parts_of(spec, o, rows);
   if (o.full_cell) {
@@ -204,15 +215,31 @@ void add_bank_verb(CLI::App &app) {
                                              "experiment (TOML) that points are chosen for")
                                 ->needs(choose);
   choose->needs(experiment);
+  CLI::Option *check = verb->add_flag(
+      "--check", o->check,
+      "run nothing: how well the bank diagnoses, each packing left out in turn and its runs taken "
+      "for samples; in check/ of the folder");
+  CLI::Option *draws =
+      verb->add_option("--drawn", o->draws,
+                       "leave nothing out: draw so many samples of the base model and of each "
+                       "effect from the bank's predictions, as if its stated errors were exact")
+          ->needs(check)
+          ->check(CLI::Range(1, 100000));
   for (const char *other :
        {"--only", "--table", "--slurm", "--slurm-dry-run", "--full-cell", "--from"})
-    choose->excludes(verb->get_option(other));
-  verb->add_option("--cells", o->cells,
-                   "how many of the bank's cells its sample is as large as; default: from "
-                   "sample_diameter_mm")
-      ->needs(choose)
-      ->check(finite_range(1.0, 1e12));
-  verb->callback([o] { make_bank(*o); });
+    for (CLI::Option *instead : {choose, check})
+      instead->excludes(verb->get_option(other));
+  check->excludes(choose);
+  CLI::Option *cells =
+      verb->add_option("--cells", o->cells,
+                       "how many of the bank's cells the sample of --choose (default: from "
+                       "sample_diameter_mm) or --drawn (default: one) is as large as")
+          ->check(finite_range(1.0, 1e12));
+  verb->callback([=] {
+    if (cells->count() > 0 && o->choose == 0 && o->draws == 0)
+      throw CLI::RequiresError("--cells", "--choose or --drawn");
+    make_bank(*o);
+  });
 }
 
 void add_study_options(CLI::App &verb, StudyOptions &o) {
