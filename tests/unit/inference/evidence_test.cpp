@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/inference/evidence.h"
 #include "diagnose/inference/hypothesis.h"
-#include "diagnose/inference/numerics.h"
+#include "inference/numerics.h"
 #include "linear_world.h"
 #include "physics/pi.h"
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // Analytic derivatives beside differences: 1e-5 of the gradient's size.
 #include "diagnose/inference/hypothesis.h"
 #include "diagnose/inference/model.h"
-#include "diagnose/inference/numerics.h"
+#include "inference/numerics.h"
 #include "synthetic_bank.h"
 #include <gtest/gtest.h>
 

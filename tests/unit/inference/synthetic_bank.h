@@ -5,7 +5,7 @@
 
 #include "base/random.h"
 #include "diagnose/inference/bank.h"
-#include "diagnose/inference/numerics.h"
+#include "inference/numerics.h"
 
 namespace calendem::inference {
 

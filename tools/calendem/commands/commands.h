@@ -16,6 +16,8 @@ class Validator;
 
 namespace calendem {
 
+struct StudyOptions;
+
 void add_pack_verb(CLI::App &app);     ///< pack SPEC.toml -o DIR [--seed N] [--ranks N] [--force]
 void add_dry_verb(CLI::App &app);      ///< dry SPEC.toml -o DIR
 void add_tomogram_verb(CLI::App &app); ///< tomogram SPEC.toml -o FILE.mhd
@@ -23,6 +25,8 @@ void add_run_verb(CLI::App &app);      ///< run CASE.toml -o DIR [--ranks N] [--
 void add_collect_verb(CLI::App &app);  ///< collect DIR: of what plain input scripts left there
 void add_study_verb(CLI::App &app);    ///< study STUDY.toml -o DIR [--jobs N] [--slurm] ...
 void add_bank_verb(CLI::App &app); ///< bank BANK.toml -o DIR [--check], with the options of study
+/// Makes the runs of a bank of points and its table. `from`: tables whose runs are taken.
+void make_bank(const StudyOptions &options, const std::vector<std::string> &from);
 void add_measure_verb(CLI::App &app);   ///< measure DIR|IMAGE -o OUT
 void add_sample_verb(CLI::App &app);    ///< sample DIR... --one gap|pressure -o DIR
 void add_report_verb(CLI::App &app);    ///< report DIR... [-o FILE.html]
@@ -39,7 +43,6 @@ void add_validate_verb(CLI::App &app); ///< validate FILE...
 /// A finite number from `low` to `high`; CLI11's own check of a range lets NaN through.
 CLI::Validator finite_range(double low, double high);
 
-struct StudyOptions;
 /// The options of all verbs that make a study. `options` must outlive `verb`.
 void add_study_options(CLI::App &verb, StudyOptions &options);
 

@@ -17,7 +17,7 @@ struct DesignOptions : FilmOptions {
 /// What is predicted of a film, and the numbers from which its chances follow.
 struct Settled {
   PredictedFilm predicted;
-  GuessesOf of;
+  PredictionsOf of;
 };
 
 Settled settled(const FilmBank &bank, const GapDraws &draws) {

@@ -59,7 +59,7 @@ void check_covered(const std::vector<double> &pressures, const FilmBank &bank) {
                     fmt::format("--pressure asks for {:g} MPa; the bank has {:g} to {:g}. Predict "
                                 "it by runs of its own (--runs), or make a bank with more "
                                 "pressures_MPa.",
-                                p, bank.spec().pressures.front(), bank.spec().pressures.back()));
+                                p, bank.pressures().front(), bank.pressures().back()));
 }
 
 /// What a recipe may hold, and no further beyond the bank's films than these differ.
@@ -148,7 +148,7 @@ Recipe recipe_to_answer_for(const std::string &file) {
 
 AskedFilms of_model(const FilmOptions &o) {
   AskedFilms out = {read_model(o.model), 0, {}, {}};
-  const std::vector<double> &bank = out.model.bank.spec().pressures;
+  const std::vector<double> &bank = out.model.bank.pressures();
   out.pressures = o.pressures.empty() ? spread_pressures(bank.front(), bank.back(), kOfRange)
                                       : pressures_of(o.pressures);
   out.material = material_of(o, out.model.calibration.materials);

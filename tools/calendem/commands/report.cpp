@@ -216,8 +216,9 @@ void add_measure_verb(CLI::App &app) {
   verb->add_option("--slice-um", a->options.slice_um, "thickness of a slice of the profiles")
       ->capture_default_str()
       ->check(finite_range(0.01, 100.0));
-  verb->add_option("--moment", a->options.moment, "of a run, the only one to measure")
-      ->check(CLI::IsMember({"before", "max", "after"}));
+  verb->add_option("--moment", a->options.moment,
+                   "of a run, the only one to measure; releases: the end of each")
+      ->check(CLI::IsMember({"before", "max", "after", kReleases}));
   verb->add_flag("--without-tortuosity", a->without_tortuosity, "it takes most of the time");
   verb->add_flag(
       "--images", a->images,

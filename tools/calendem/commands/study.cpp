@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "simulate/study.h"
+#include "bank/bank_file.h"
 #include "base/liggghts_job.h"
 #include "base/messages.h"
 #include "base/output_folder.h"
@@ -238,7 +239,14 @@ void add_bank_verb(CLI::App &app) {
   verb->callback([=] {
     if (cells->count() > 0 && o->choose == 0 && o->draws == 0)
       throw CLI::RequiresError("--cells", "--choose or --drawn");
-    make_bank(*o);
+    if (!bank::has_points(o->study.file))
+      return make_bank(*o);
+    if (o->check || o->choose > 0)
+      throw Failure(kBadInput,
+                    fmt::format("{} is a bank of points: --check and --choose ask a bank "
+                                "of base points with effects beside them.",
+                                o->study.file));
+    make_bank(o->study, o->from);
   });
 }
 

@@ -6,8 +6,8 @@
 
 #include "diagnose/bank/bank_table.h"
 #include "diagnose/compare/observables.h"
-#include "diagnose/inference/numerics.h"
 #include "diagnose/inference/problem.h"
+#include "inference/numerics.h"
 #include <cmath>
 #include <functional>
 #include <optional>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/experiment_data.h"
 #include "base/messages.h"
-#include "diagnose/inference/numerics.h"
 #include "diagnose/sample_film.h"
+#include "inference/numerics.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -6,7 +6,7 @@
 
 #include "diagnose/compare/gap.h"
 #include "diagnose/diagnose.h"
-#include "diagnose/inference/quantities.h"
+#include "inference/quantities.h"
 #include "simulate/study.h"
 #include <nlohmann/json.hpp>
 

@@ -124,13 +124,22 @@ SimulatedStructure read_frame(const Run &run, const ElectrodeFacts &e, double ti
   return s;
 }
 
+/// A frame so close to a release's end shows what it left: the film rests, and the platen has hardly
+/// turned.
+constexpr double kNearEnough_us = 0.1;
+
+bool is_asked(const std::string &moment, const std::string &asked) {
+  return asked.empty() || moment == asked ||
+         (asked == kReleases && (moment == "after" || moment.rfind("press_", 0) == 0));
+}
+
 } // namespace
 
 std::vector<RunMoment> moments_of_run(const std::string &folder) {
   ElectrodeFacts electrode;
   const Run run = read_whole_run(folder, electrode);
   std::vector<RunMoment> moments;
-  const auto add = [&](const char *name, double time, double height) {
+  const auto add = [&](const std::string &name, double time, double height) {
     const double frame = closest(run.particles, time).time_us;
     size_t row = 0;
     for (size_t i = 0; i < run.curve.rows(); ++i)
@@ -143,6 +152,11 @@ std::vector<RunMoment> moments_of_run(const std::string &folder) {
         {name, frame, run.curve["pressure_MPa"][row], read_frame(run, cell, time, height)});
   };
   add("before", run.particles.front().time_us, 0.0);
+  const std::vector<Press> presses = run.curve.presses();
+  for (std::size_t k = 0; k + 1 < presses.size(); ++k)
+    if (const double end = run.curve["time_us"][presses[k].last];
+        std::fabs(closest(run.particles, end).time_us - end) <= kNearEnough_us)
+      add(fmt::format("press_{}", k + 1), end, run.curve["thickness_um"][presses[k].last]);
   if (!run.curve.relaxation().empty())
     add("max", run.curve["time_us"][run.curve.row_of_max_pressure()], 0.0);
   if (run.unfinished.empty())
@@ -155,7 +169,7 @@ std::vector<StructureMeasures> measure_run(const std::string &folder,
                                            const MeasureOptions &options) {
   std::vector<StructureMeasures> out;
   for (const RunMoment &moment : moments_of_run(folder)) {
-    if (!options.moment.empty() && moment.name != options.moment)
+    if (!is_asked(moment.name, options.moment))
       continue;
     out.push_back(measure_spheres(moment.structure, options));
     out.back().moment = moment.name;

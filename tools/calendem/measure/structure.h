@@ -49,12 +49,12 @@ struct MeasureOptions {
   std::int32_t background = 0;           ///< label of an image's pores
   std::optional<std::int32_t> cbd_label; ///< none: an image shows no CBD
   std::optional<double> nanoporosity;    ///< of an image's CBD, 0-1; none: no total porosity
-  std::string moment;                    ///< of a run, the only one to measure; empty: all
+  std::string moment; ///< of a run, the only one to measure, or kReleases; empty: all
 };
 
 /// One structure at one moment.
 struct StructureMeasures {
-  std::string moment; ///< before, max, after; image
+  std::string moment; ///< before, press_1, ..., max, after; image
   std::optional<double> time_us, pressure_MPa;
   double thickness_um = 0.0; ///< h of the porosities
   std::array<int, 3> voxels = {0, 0, 0};
@@ -88,7 +88,11 @@ struct SimulatedStructure {
 StructureMeasures measure_spheres(const SimulatedStructure &structure,
                                   const MeasureOptions &options);
 
-/// A frame of a run: before, max (the frame nearest the maximum pressure), after.
+/// What asks for the ends of all releases: press_1, ..., after.
+inline constexpr const char *kReleases = "releases";
+
+/// A frame of a run: before, press_1 and so on (the end of a release that is not the last, if a frame
+/// is near), max (the frame nearest the maximum pressure), after.
 struct RunMoment {
   std::string name;
   double time_us = 0.0, pressure_MPa = 0.0;

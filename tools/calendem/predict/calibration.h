@@ -37,7 +37,7 @@ struct ModelError {
 };
 
 /// The model's own error.
-struct Missed {
+struct ModelDiscrepancy {
   double sd = 0.0;     ///< of porosity 0-1
   double shared = 0.5; ///< of its variance, that all films of one material have in common, 0-1
 };
@@ -45,7 +45,7 @@ struct Missed {
 struct Draw {
   /// One for each of Calibration::materials, and last for one more that was not measured.
   std::vector<Material> materials;
-  Missed missed;
+  ModelDiscrepancy missed;
   /// Correlation between materials of each parameter and amplitude (of its normal score), 0-1, and
   /// the probability that two have the same effects because they are alike.
   double alike = 0.5;
@@ -53,10 +53,10 @@ struct Draw {
 };
 
 /// Effects that may act together.
-struct Weighed {
+struct EffectSet {
   std::string name;                ///< "none", an effect, "a + b"
+  std::vector<int> effects;        ///< places in FilmBank::effects()
   std::vector<double> probability; ///< in each of Calibration::materials
-  double effective_samples = 0.0;  ///< of those with these effects in the first material
 };
 
 /// Names for experiments that name no material, and of one that was not measured.
@@ -68,8 +68,8 @@ struct Calibration {
   std::vector<Datum> data;
   std::vector<Crushed> crushed;
   ModelError error;
-  std::vector<Weighed> hypotheses; ///< as of hypotheses_of
-  std::vector<Draw> draws;         ///< of equal weight
+  std::vector<Draw> draws; ///< of equal weight
+  double acceptance = 1.0; ///< of the sampler's moves, the least over its steps
 };
 
 /// Adds the film of an experiment and its data: porosities after, cracked particles and nanopores of
@@ -85,26 +85,25 @@ struct CalibrationSettings {
 };
 
 /// Emulated numbers of films (places in Calibration::films) at the bank's pressures, under one draw.
-using Curves = std::map<std::pair<int, FilmNumber>, std::vector<Guess>>;
+using Curves = std::map<std::pair<int, FilmNumber>, std::vector<MeanVariance>>;
 
 /// Logarithm of the likelihood of all data together, but for a constant. `known`: of the draw,
 /// added to where it lacks a film.
 double log_likelihood(const FilmBank &bank, const Calibration &calibration, const Draw &draw,
                       Curves &known);
 /// Each datum as all others predict it under a draw, with the errors of measurement and press.
-std::vector<Guess> each_from_the_others(const FilmBank &bank, const Calibration &calibration,
+std::vector<MeanVariance> each_from_the_others(const FilmBank &bank, const Calibration &calibration,
                                         const Draw &draw);
 /// Prior of the model's own error.
 inference::Prior discrepancy_of(const ModelError &error);
 
-/// The effects of each hypothesis, few before many: every set of the bank's. All amplitudes are free;
-/// what they change together: together.h.
-std::vector<std::vector<int>> hypotheses_of(const FilmBank &bank);
+/// The sets of effects that act in draws, the most probable in any material first.
+std::vector<EffectSet> effect_sets_of(const FilmBank &bank, const Calibration &calibration);
 std::string name_of(const FilmBank &bank, const std::vector<int> &effects);
 /// The effects that act in a material.
 std::vector<int> effects_of(const Material &material);
 /// Probability that one of the bank's effects acts in a material, alone or with others.
-double acting(const FilmBank &bank, const Calibration &calibration, int effect,
+double acting(const Calibration &calibration, int effect,
               std::size_t material);
 
 /// Systematic resampling by weights: the k-th of `count` is the first whose summed share passes
@@ -130,7 +129,7 @@ std::string of_material(const Calibration &calibration, std::size_t material);
 /// By what they are, not by their names.
 bool is_same_film(const Film &a, const Film &b);
 
-struct Wanted {
+struct Query {
   Film film;
   FilmNumber number = FilmNumber::PorosityAfter;
   std::vector<double> pressures; ///< [MPa]
@@ -138,13 +137,13 @@ struct Wanted {
 
 /// What the model misses of a film, given the data: mean and variance at each wanted pressure.
 /// `by_bank`: of the bank's emulators, with the error of their change to the full cell; else of runs.
-std::vector<Guess> missed_given_data(const FilmBank &bank, const Calibration &calibration,
-                                     const Draw &draw, const Wanted &wanted, bool by_bank);
+std::vector<MeanVariance> missed_given_data(const FilmBank &bank, const Calibration &calibration,
+                                     const Draw &draw, const Query &query, bool by_bank);
 
 /// Given the data, at each wanted pressure: mean and variance of emulators and model error, not of a
 /// press.
-std::vector<Guess> given_data(const FilmBank &bank, const Calibration &calibration,
-                              const Draw &draw, const Wanted &wanted);
+std::vector<MeanVariance> given_data(const FilmBank &bank, const Calibration &calibration,
+                              const Draw &draw, const Query &query);
 
 } // namespace calendem
 

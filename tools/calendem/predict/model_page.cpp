@@ -132,8 +132,7 @@ json hypotheses_part(const Json &model) {
     rest.resize(of.size());
     if (*std::max_element(of.begin(), of.end()) >= kShown) {
       rows.push_back({{"name", h["name"]},
-                      {"percents", percents(of)},
-                      {"samples", shown(h["effective_samples"], "{:.0f}")}});
+                      {"percents", percents(of)}});
       continue;
     }
     ++others;
@@ -141,8 +140,7 @@ json hypotheses_part(const Json &model) {
   }
   if (others > 0)
     rows.push_back({{"name", fmt::format("{} others", others)},
-                    {"percents", percents(rest)},
-                    {"samples", ""}});
+                    {"percents", percents(rest)}});
   return rows;
 }
 
@@ -218,7 +216,7 @@ json emulators_part(const Json &model) {
       rows.push_back({{"pressure", shown(e["pressure_MPa"], "{:g}")},
                       {"q2", shown(e["q2"], "{:.2f}")},
                       {"error", fmt::format("{:.2f}", kPercent * e["error"].get<double>())},
-                      {"own", fmt::format("{:.2f}", kPercent * e["own_error"].get<double>())}});
+                      {"inside", fmt::format("{:.0f}", kPercent * e["inside_90"].get<double>())}});
   return rows;
 }
 
@@ -233,7 +231,7 @@ json provenance_of(const Json &model) {
 
 std::string model_page(const FilmBank &bank, const Calibration &c, const Json &model) {
   const auto pressures =
-      spread_pressures(bank.spec().pressures.front(), bank.spec().pressures.back(), 25);
+      spread_pressures(bank.pressures().front(), bank.pressures().back(), 25);
   report::Page page{kModelHtml, model};
   for (std::size_t k = 0; k < c.films.size(); ++k) {
     const PredictedFilm p = predicted(bank, c, c.films[k], pressures, 0.0);

@@ -52,36 +52,12 @@ double porosity_after(const Run &run) {
   return kPercent * number_in(run.summary, "porosity_after_relaxation");
 }
 
-/// The press of the run that went to this pressure.
-std::optional<Press> press_to(const Run &run, double pressure) {
-  for (const Press &press : run.curve.presses())
-    if (std::abs(run.curve["pressure_MPa"][press.top] - pressure) <= kSamePressure * pressure)
-      return press;
-  return {};
-}
-
-/// Total porosity [%] once the platen had released the film from this pressure.
-double porosity_after(const Run &run, double pressure) {
-  const std::optional<Press> press = press_to(run, pressure);
-  if (!press || run.curve.stage[press->last] != "relaxation")
-    return kNaN;
-  return press->last + 1 == run.curve.rows() ? porosity_after(run)
-                                             : kPercent * run.curve["porosity_total"][press->last];
-}
-
-/// Cracked particles [%] by then, of those that have bonds.
-double cracked_after(const Run &run, double pressure) {
-  const std::optional<Press> press = press_to(run, pressure);
-  const auto &cracks = run.fracture.cracks;
-  if (!press || cracks.empty())
-    return kNaN;
-  const Column &time = cracks.at("time_us");
-  const double end = run.curve["time_us"][press->last] + 1e-6; // of rounding
-  const auto after = std::upper_bound(time.begin(), time.end(), end);
-  if (after == time.begin())
-    return kNaN;
-  const auto row = after - time.begin() - 1;
-  return kPercent * cracks.at("bodies_cracked")[row] / cracks.at("bodies_with_bonds")[row];
+/// A number of summary.json of the press that went to this pressure [%]; NaN: there is none.
+double of_press(const Run &run, double pressure, const char *key) {
+  for (const json &press : run.summary.value("presses", json::array()))
+    if (std::abs(number_in(press, "max_pressure_shown_MPa") - pressure) <= kSamePressure * pressure)
+      return kPercent * number_in(press, key);
+  return kNaN;
 }
 
 std::string with_sign(double value, int decimals) {
@@ -145,24 +121,27 @@ json porosity_row(const std::vector<Run> &runs, const MeasuredPorosity &point) {
     return row(runs, "Total porosity before calendering, %", p, point.porosity_percent,
                point.sd_percent,
                [](const Run &run) { return kPercent * run.curve["porosity_total"].front(); });
-  json made = row(runs, "Total porosity after relaxation, %", p, point.porosity_percent,
-                  point.sd_percent, [p](const Run &run) { return porosity_after(run, p); });
+  json made =
+      row(runs, "Total porosity after relaxation, %", p, point.porosity_percent, point.sd_percent,
+          [p](const Run &run) { return of_press(run, p, "porosity_after_shown"); });
   add_verdict(made);
   return made;
 }
 
 json loaded_row(const std::vector<Run> &runs, double pressure) {
   return row(runs, "Total porosity under load, %", pressure, kNaN, kNaN, [=](const Run &run) {
-    const std::optional<Press> press = press_to(run, pressure);
-    return kPercent * (press ? run.curve["porosity_total"][press->top]
-                             : at_first_crossing(run.curve, pressure, "porosity_total"));
+    const double of_its_press = of_press(run, pressure, "porosity_at_max");
+    return std::isfinite(of_its_press)
+               ? of_its_press
+               : kPercent * at_first_crossing(run.curve, pressure, "porosity_total");
   });
 }
 
 /// In the paper's tomograms.
 json cracked_row(const std::vector<Run> &runs, double pressure, const char *seen) {
-  json made = row(runs, "Cracked particles, %", pressure, kNaN, kNaN,
-                  [=](const Run &run) { return cracked_after(run, pressure); });
+  json made = row(runs, "Cracked particles, %", pressure, kNaN, kNaN, [=](const Run &run) {
+    return of_press(run, pressure, "cracked_fraction_after");
+  });
   made["paper_text"] = seen;
   return made;
 }

@@ -24,10 +24,6 @@ constexpr double kImbalanceWindow = 0.5; // us
 // Gaps are averages: where the platen turns at once, a quarter of the window's travel is cut off.
 constexpr double kTargetTolerance = 0.02, kCutOff = 0.25 * kAverageTravel; // um
 
-double total_porosity(const ElectrodeFacts &e, double gap, double elongation = 0.0) {
-  return 1.0 - e.solid / (e.elongated(elongation).area * gap);
-}
-
 // |P_top - P_bottom| / P_top with both averaged over kImbalanceWindow: rows are averages over
 // `average` already, so those of the time before the rest of the window count.
 std::vector<double> imbalance(const std::vector<RawRow> &rows, double average) {
@@ -174,6 +170,10 @@ long count_rows(const std::string &file) {
 }
 
 } // namespace
+
+double total_porosity(const ElectrodeFacts &e, double gap, double elongation) {
+  return 1.0 - e.solid / (e.elongated(elongation).area * gap);
+}
 
 std::map<long, std::vector<double>> rows_by_step(const std::string &file, std::size_t columns) {
   std::map<long, std::vector<double>> rows;
@@ -347,6 +347,7 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   s["quasi_static"] = quasi_static(rows, averaging_window(settings));
   s["quasi_static"].update(inertia(rows, top, e.primary));
   s["contact_range"] = contact_range(rows, top);
+  s["presses"] = presses_of(folder, rows, filled, e, settings);
   if (settings.text("platen.control") == "roll_gap")
     s["roll"] = roll_passes(rows, settings);
   if (elongates)

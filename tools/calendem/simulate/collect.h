@@ -64,6 +64,15 @@ struct UnionVolume {
   double at(double t) const;
 };
 
+/// Porosity with the platen at `gap` [um].
+double total_porosity(const ElectrodeFacts &electrode, double gap, double elongation = 0.0);
+
+/// "presses" of summary.json, of curve.csv and cracks.csv in the folder: what each press of a run
+/// gave that was released. What no frame or table tells is null.
+nlohmann::json presses_of(const std::string &folder, const std::vector<RawRow> &rows,
+                          const UnionVolume &filled, const ElectrodeFacts &electrode,
+                          const Settings &settings);
+
 /// Facts of the run that only its caller knows; 0 ranks: nobody does.
 struct RunFacts {
   double wall_clock_s = 0.0; ///< of this call

@@ -23,8 +23,6 @@ namespace calendem {
 namespace fs = std::filesystem;
 namespace {
 
-const char *const kChecksFailed = "checks failed";
-
 /// The recipe as a file that reads back the same: tables of sources that it does not use may not be
 /// there, nor, beside a structure, what neither the recipe nor the study (`columns`) says: the
 /// structure gives it.
@@ -282,8 +280,8 @@ std::string Making::run(int k) {
 
 std::string Making::measure(int k) {
   const std::string folder = run_folder(states_[k]);
-  return ended_with(
-      run_program({o_.calendem, "measure", folder, "--moment", "after"}, folder + ".measure.log"));
+  return ended_with(run_program({o_.calendem, "measure", folder, "--moment", "releases"},
+                                folder + ".measure.log"));
 }
 
 /// Leaves the tables of a finished run, removes frames and restart files.

@@ -13,6 +13,9 @@
 
 namespace calendem {
 
+/// Status of a run that ended, but not as it should.
+inline constexpr const char *kChecksFailed = "checks failed";
+
 /// Keeps other programs out as long as it lives, where the file system knows locks; waits for them.
 class WaitingLock {
 public:

@@ -74,6 +74,22 @@ std::vector<std::string> finished_runs(const Study &study, const StudyOptions &o
   return Making(study, at_whole_paths(options)).finished();
 }
 
+std::vector<RunPlace> places_of(const Study &study, const StudyOptions &options) {
+  const StudyOptions o = at_whole_paths(options);
+  const CsvTable table = CsvTable::parse(text_of_file(o.folder + "/study.csv"));
+  const std::vector<std::string> run = table.texts("run"), packing = table.texts("packing"),
+                                 status = table.texts("status");
+  if (run.size() != study.runs.size())
+    throw Failure(kBadInput, fmt::format("{}/study.csv is that of another study. Give an empty "
+                                         "folder: -o DIR.",
+                                         o.folder));
+  std::vector<RunPlace> out;
+  for (std::size_t k = 0; k < run.size(); ++k)
+    out.push_back({o.folder + "/runs/" + run[k], o.folder + "/packings/" + packing[k],
+                   status[k] == "done" || status[k] == kChecksFailed || status[k] == "failed"});
+  return out;
+}
+
 std::vector<std::string> make_study(const Study &study, const StudyOptions &options) {
   const StudyOptions o = at_whole_paths(options);
   prepare(study, o);

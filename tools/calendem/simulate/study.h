@@ -37,6 +37,15 @@ struct StudyOptions {
 /// Folders of the runs in their order; empty where a run is not done or its checks did not hold.
 std::vector<std::string> finished_runs(const Study &study, const StudyOptions &options);
 
+/// Where a run and its packing lie, and whether its making is over: done, its checks did not hold, or
+/// it failed.
+struct RunPlace {
+  std::string run, packing;
+  bool ended = false;
+};
+/// Places of the runs in their order, as study.csv of the folder has it.
+std::vector<RunPlace> places_of(const Study &study, const StudyOptions &options);
+
 /// Writes packings/, runs/, study.csv (after every run) and study.json into the folder; with Slurm
 /// also slurm/, the scripts and what its jobs said. Returns finished_runs(), of the program and
 /// scripts that it began with. Throws Failure: 2 bad input, or Slurm refused the jobs; 3 a run failed

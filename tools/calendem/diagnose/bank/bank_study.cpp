@@ -3,7 +3,7 @@
 #include "base/case.h"
 #include "base/messages.h"
 #include "diagnose/bank/bank_table.h"
-#include "diagnose/inference/numerics.h"
+#include "inference/numerics.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #include "diagnose/inference/bank.h"
 #include "base/csv_table.h"
 #include "base/messages.h"
-#include "diagnose/inference/numerics.h"
+#include "inference/numerics.h"
 #include <algorithm>
 #include <fmt/format.h>
 

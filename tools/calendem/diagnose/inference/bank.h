@@ -3,7 +3,7 @@
 #ifndef CALENDEM_DIAGNOSE_INFERENCE_BANK_H
 #define CALENDEM_DIAGNOSE_INFERENCE_BANK_H
 
-#include "diagnose/inference/quantities.h"
+#include "inference/quantities.h"
 #include <functional>
 #include <utility>
 

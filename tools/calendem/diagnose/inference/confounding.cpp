@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/inference/confounding.h"
-#include "diagnose/inference/numerics.h"
+#include "inference/numerics.h"
 #include "physics/pi.h"
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/inference/evidence.h"
-#include "diagnose/inference/numerics.h"
 #include "diagnose/inference/scatter.h"
+#include "inference/numerics.h"
 #include "physics/pi.h"
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>

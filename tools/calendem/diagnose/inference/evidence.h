@@ -4,7 +4,7 @@
 #ifndef CALENDEM_DIAGNOSE_INFERENCE_EVIDENCE_H
 #define CALENDEM_DIAGNOSE_INFERENCE_EVIDENCE_H
 
-#include "diagnose/inference/numerics.h"
+#include "inference/numerics.h"
 #include <cstdint>
 #include <vector>
 

@@ -3,7 +3,7 @@
 #ifndef CALENDEM_DIAGNOSE_INFERENCE_FEATURE_MAP_H
 #define CALENDEM_DIAGNOSE_INFERENCE_FEATURE_MAP_H
 
-#include "diagnose/inference/quantities.h"
+#include "inference/quantities.h"
 
 namespace calendem::inference {
 

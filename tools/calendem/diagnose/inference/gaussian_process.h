@@ -3,7 +3,7 @@
 #ifndef CALENDEM_DIAGNOSE_INFERENCE_GAUSSIAN_PROCESS_H
 #define CALENDEM_DIAGNOSE_INFERENCE_GAUSSIAN_PROCESS_H
 
-#include "diagnose/inference/numerics.h"
+#include "inference/numerics.h"
 #include <vector>
 
 namespace calendem::inference {

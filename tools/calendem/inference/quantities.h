@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What the inference reasons about: observables, each with its place in the process; parameters and
 // what is known of them before the data; the two scales of both.
-#ifndef CALENDEM_DIAGNOSE_INFERENCE_QUANTITIES_H
-#define CALENDEM_DIAGNOSE_INFERENCE_QUANTITIES_H
+#ifndef CALENDEM_INFERENCE_QUANTITIES_H
+#define CALENDEM_INFERENCE_QUANTITIES_H
 
-#include "diagnose/inference/numerics.h"
+#include "inference/numerics.h"
 #include <string>
 #include <vector>
 

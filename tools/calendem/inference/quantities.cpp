@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "diagnose/inference/quantities.h"
+#include "inference/quantities.h"
 #include "base/messages.h"
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What every part of the inference computes with: short names for vectors and matrices, minima,
 // points that fill the unit cube evenly.
-#ifndef CALENDEM_DIAGNOSE_INFERENCE_NUMERICS_H
-#define CALENDEM_DIAGNOSE_INFERENCE_NUMERICS_H
+#ifndef CALENDEM_INFERENCE_NUMERICS_H
+#define CALENDEM_INFERENCE_NUMERICS_H
 
 #include <Eigen/Dense>
 #include <cstdint>

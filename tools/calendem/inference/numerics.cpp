@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "diagnose/inference/numerics.h"
+#include "inference/numerics.h"
 #include "base/random.h"
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>

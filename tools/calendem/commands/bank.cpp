@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "bank/runs.h"
+#include "base/messages.h"
+#include "base/output_folder.h"
+#include "base/provenance.h"
+#include "commands/commands.h"
+#include "simulate/making.h"
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace calendem {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What became of a run whose making is over.
+bank::Run run_of(const bank::Point &point, const std::string &folder, const std::string &packing) {
+  try {
+    return bank::read_run_of(point, folder);
+  } catch (const Failure &) {
+    bank::Run run;
+    run.point = point;
+    run.failed = fs::exists(packing + "/electrode.json") ? "not pressed" : "not packed";
+    return run;
+  }
+}
+
+void write_table(const bank::Bank &spec, const std::vector<bank::Run> &runs,
+                 const std::string &folder) {
+  write_file(folder + "/bank.csv", bank::write_runs({spec, runs}));
+  const auto failed = std::count_if(runs.begin(), runs.end(),
+                                    [](const bank::Run &run) { return !run.failed.empty(); });
+  fmt::print("bank: {} of {} points, {} of them without a run, {}/bank.csv\n", runs.size(),
+             spec.design.points, failed, folder);
+}
+
+} // namespace
+
+void make_bank(const StudyOptions &given, const std::vector<std::string> &from) {
+  const bank::Bank spec = bank::read_bank(given.file);
+  std::vector<bank::Run> runs;
+  std::vector<bank::Point> left = bank::points_of(spec.design);
+  for (const std::string &table : from)
+    for (bank::Run &run : bank::read_runs(spec, table).runs) {
+      const auto had = std::remove_if(left.begin(), left.end(), [&](const bank::Point &p) {
+        return p.number == run.point.number;
+      });
+      if (had != left.end())
+        runs.push_back(std::move(run));
+      left.erase(had, left.end());
+    }
+  make_output_folder(given.folder);
+  if (!left.empty()) {
+    StudyOptions options = given;
+    for (const std::string &table : from)
+      options.further.insert(options.further.end(), {"--from", fs::absolute(table).string()});
+    const Study study = bank::study_of(spec, left);
+    make_what_runs(study, options, "Points");
+    if (options.slurm.dry_run)
+      return;
+    const std::vector<RunPlace> places = places_of(study, options);
+    for (std::size_t k = 0; k < left.size(); ++k)
+      if (places[k].ended)
+        runs.push_back(run_of(left[k], places[k].run, places[k].packing));
+  }
+  std::sort(runs.begin(), runs.end(), [](const bank::Run &a, const bank::Run &b) {
+    return a.point.number < b.point.number;
+  });
+  write_table(spec, runs, given.folder);
+}
+
+} // namespace calendem
