@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/inference/scores.h"
 #include "diagnose/inference/which.h"
+#include "sealed/probability_scores.h"
 #include "sealed/round_file.h"
 #include "sealed/score.h"
 #include <algorithm>
@@ -83,7 +84,7 @@ Metric statistic_of(const std::string &name, const Cases &cases,
 
 double log_score_of(const Cases &cases) {
   const Table t = table_of(cases);
-  return inference::log_score(t.probability, t.truth);
+  return log_score(t.probability, t.truth);
 }
 
 double brier_skill_of(const Cases &cases) {
@@ -93,7 +94,7 @@ double brier_skill_of(const Cases &cases) {
     frequency[std::size_t(truth)] += 1.0 / double(t.truth.size());
   if (std::count(t.truth.begin(), t.truth.end(), t.truth.front()) == std::ptrdiff_t(t.truth.size()))
     return std::nan(""); // the frequencies are right already
-  return inference::brier_skill(t.probability, t.truth, frequency);
+  return brier_skill(t.probability, t.truth, frequency);
 }
 
 double auroc_of_unknown(const Cases &cases) {
@@ -164,8 +165,8 @@ Metric share_of(const std::string &name, const std::vector<ScoredCase> &all, con
   });
   if (m.value == 0.0 || m.value == 1.0) {
     const int hits = m.value == 0.0 ? 0 : m.clusters;
-    std::tie(m.low, m.high) = inference::clopper_pearson(hits, m.clusters, kInterval);
-    std::tie(m.least, m.most) = inference::clopper_pearson(hits, m.clusters, kBounds);
+    std::tie(m.low, m.high) = clopper_pearson(hits, m.clusters, kInterval);
+    std::tie(m.least, m.most) = clopper_pearson(hits, m.clusters, kBounds);
   }
   return m;
 }
