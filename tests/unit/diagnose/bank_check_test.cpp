@@ -180,8 +180,8 @@ TEST(BankCheck, TheSummaryCounts) {
   has(3, "claimed to be unknown not known");
   has(5, "90 % intervals of base parameters hold 0.70");
   has(5, "where an effect is claimed 0.83");
-  EXPECT_EQ(rows_of(table_of(cases))[2].held, cases[2].held);
-  EXPECT_EQ(rows_of(table_of(cases))[4].held, cases[4].held);
+  EXPECT_EQ(diagnoses_in(table_of(cases))[2].held, cases[2].held);
+  EXPECT_EQ(diagnoses_in(table_of(cases))[4].held, cases[4].held);
 }
 
 } // namespace

@@ -213,7 +213,7 @@ std::map<int, std::vector<CheckedDiagnosis>> begun(const std::string &file,
   std::map<int, std::vector<CheckedDiagnosis>> out;
   const std::string text = std::filesystem::is_regular_file(file) ? text_of_file(file) : "";
   if (text.compare(0, head.size(), head) == 0)
-    for (const CheckedDiagnosis &r : rows_of(text))
+    for (const CheckedDiagnosis &r : diagnoses_in(text))
       out[r.packing].push_back(r);
   return out;
 }

@@ -39,7 +39,7 @@ bool names_effect(const std::string &claim);
 
 /// diagnoses.csv, and back.
 std::string table_of(const std::vector<CheckedDiagnosis> &cases);
-std::vector<CheckedDiagnosis> rows_of(const std::string &table);
+std::vector<CheckedDiagnosis> diagnoses_in(const std::string &table);
 
 /// Summary lines, with 90 % intervals over packings or draws.
 std::vector<std::string> summary_of(const std::vector<CheckedDiagnosis> &cases);

@@ -39,7 +39,7 @@ std::string table_of(const std::vector<CheckedDiagnosis> &cases) {
   return out;
 }
 
-std::vector<CheckedDiagnosis> rows_of(const std::string &table) {
+std::vector<CheckedDiagnosis> diagnoses_in(const std::string &table) {
   std::vector<CheckedDiagnosis> out;
   const CsvTable t = CsvTable::parse(table);
   const auto effect = t.texts("effect"), first = t.texts("most_probable"), claim = t.texts("claim");
