@@ -119,7 +119,6 @@ const std::vector<Described> &kinds() {
        {"experiment", "condition"}},
       {FileKind::Study, "a study", "study", {"study", "vary"}},
       {FileKind::Bank, "a bank", "bank", {"bank", "full_cell", "numerics"}},
-      {FileKind::Round, "a withheld round", "withheld make", {"round"}},
       {FileKind::Material,
        "a material",
        "validate, or its path to the key 'material' of a recipe",

@@ -13,7 +13,6 @@
 #include "electrode/slurry/dry.h"
 #include "electrode/tomogram.h"
 #include "simulate/study_file.h"
-#include "withheld/truths.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
@@ -46,8 +45,6 @@ FileKind kind_of(const std::string &file) {
     return FileKind::Study;
   if (root.contains("bank"))
     return FileKind::Bank;
-  if (root.contains("round"))
-    return FileKind::Round;
   if (root.contains("also_called") || root.contains("calibrated_on"))
     return FileKind::Material;
   FileKind best = FileKind::Recipe;
@@ -97,11 +94,6 @@ std::string name_after_check(const std::string &file) {
     }
     const BankSpec spec = read_bank_spec(file);
     return fmt::format("bank of {} runs", pressed_study(spec, bank_runs(spec)).runs.size());
-  }
-  case FileKind::Round: {
-    const Round round = read_round(file);
-    const TruthRuns runs = truth_runs(round, with_pairs(round, draw_truths(round, "any")));
-    return fmt::format("withheld round of {} runs", runs.study.runs.size());
   }
   case FileKind::Case:
     read_case(file);
