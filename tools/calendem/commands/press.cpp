@@ -16,7 +16,7 @@ namespace calendem {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char *kHead = "# [press] # made by calendem press\n";
+constexpr const char *kHeadOfCurve = "# [press] # made by calendem press\n";
 
 struct PressOptions {
   std::vector<std::string> exports;
@@ -27,7 +27,7 @@ struct PressOptions {
 
 /// The head of a curve: TOML behind '#'.
 std::string head_of(const PressOptions &o, const std::string &file) {
-  std::string out = kHead;
+  std::string out = kHeadOfCurve;
   const auto text = [&](const char *key, const std::string &value) {
     if (!value.empty())
       out += fmt::format("# {} = {}\n", key, nlohmann::json(value).dump());
@@ -87,7 +87,7 @@ void press(PressOptions o) {
                     fmt::format("{}: -o names the export itself, which would be replaced. "
                                 "Give another name.",
                                 file));
-    must_be_ours(table, kHead);
+    must_be_ours(table, kHeadOfCurve);
     const PressExport from = read_press_export(file, o.format);
     curves.push_back(make_press_curve(file, from, o.contact_MPa));
     PressCurve &curve = curves.back();
