@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "bank/runs.h"
+#include "bank/training.h"
 #include "base/messages.h"
 #include "base/output_folder.h"
 #include "base/provenance.h"
@@ -35,7 +35,34 @@ void write_table(const bank::Bank &spec, const std::vector<bank::Run> &runs,
              spec.design.points, failed, folder);
 }
 
+const char *const kNames[kFilmNumbers] = {
+    "porosity after release", "springback",         "cracked particles",  "ln of unloading modulus",
+    "broken bonds",           "inverse tortuosity", "nanoporosity of CBD"};
+
 } // namespace
+
+void check_bank_of_points(const std::string &file, const std::string &table) {
+  const bank::Bank spec = bank::read_bank(file);
+  const std::string from = table.empty() ? bank::table_of(spec) : table;
+  const bank::Runs runs = bank::read_runs(spec, from);
+  const inference::Emulator emulator = bank::emulator_of(runs, from);
+  const std::vector<double> pressures = bank::pressures_of(spec);
+  const std::vector<inference::Accuracy> all =
+      inference::accuracy_of(emulator.left_out(), emulator.runs().values);
+  fmt::print("{}: {} runs, every packing left out in turn\n  {:<24} {:>5} {:>7} {:>8} {:>8} {:>7} "
+             "{:>7}\n",
+             from, emulator.runs().packing.size(), "", "MPa", "Q2", "error", "spread", "in 50 %",
+             "in 90 %");
+  for (int number = 0; number < kFilmNumbers; ++number)
+    for (std::size_t k = 0; k < pressures.size(); ++k) {
+      const inference::Accuracy &a =
+          all[std::size_t(bank::output_of(FilmNumber(number), k, pressures.size()))];
+      if (std::isfinite(a.q2))
+        fmt::print("  {:<24} {:>5.0f} {:>7.2f} {:>8.4f} {:>8.4f} {:>6.0f}% {:>6.0f}%\n",
+                   kNames[number], pressures[k], a.q2, a.error, a.spread, 100.0 * a.inside_50,
+                   100.0 * a.inside_90);
+    }
+}
 
 void make_bank(const StudyOptions &given, const std::vector<std::string> &from) {
   const bank::Bank spec = bank::read_bank(given.file);
@@ -64,9 +91,8 @@ void make_bank(const StudyOptions &given, const std::vector<std::string> &from) 
       if (places[k].ended)
         runs.push_back(run_of(left[k], places[k].run, places[k].packing));
   }
-  std::sort(runs.begin(), runs.end(), [](const bank::Run &a, const bank::Run &b) {
-    return a.point.number < b.point.number;
-  });
+  std::sort(runs.begin(), runs.end(),
+            [](const bank::Run &a, const bank::Run &b) { return a.point.number < b.point.number; });
   write_table(spec, runs, given.folder);
 }
 

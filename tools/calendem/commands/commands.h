@@ -27,6 +27,9 @@ void add_study_verb(CLI::App &app);    ///< study STUDY.toml -o DIR [--jobs N] [
 void add_bank_verb(CLI::App &app); ///< bank BANK.toml -o DIR [--check], with the options of study
 /// Makes the runs of a bank of points and its table. `from`: tables whose runs are taken.
 void make_bank(const StudyOptions &options, const std::vector<std::string> &from);
+/// Prints how well the emulator of such a bank predicts packings that are left out. `table`: empty:
+/// the one beside the bank's file.
+void check_bank_of_points(const std::string &file, const std::string &table);
 void add_measure_verb(CLI::App &app);   ///< measure DIR|IMAGE -o OUT
 void add_sample_verb(CLI::App &app);    ///< sample DIR... --one gap|pressure -o DIR
 void add_press_verb(CLI::App &app);     ///< press RAW.csv... -o CURVE.csv --diameter-mm D

@@ -253,10 +253,11 @@ void add_bank_verb(CLI::App &app) {
       throw CLI::RequiresError("--cells", "--choose or --drawn");
     if (!bank::has_points(o->study.file))
       make_bank(*o);
-    else if (o->check || o->choose > 0)
-      throw Failure(kBadInput, o->study.file +
-                                   " is a bank of points: --check and --choose ask a bank of base "
-                                   "points with effects beside them.");
+    else if (o->choose > 0)
+      throw Failure(kBadInput, o->study.file + " is a bank of points: --choose asks a bank of base "
+                                               "points with effects beside them.");
+    else if (o->check)
+      check_bank_of_points(o->study.file, o->from.empty() ? "" : o->from.front());
     else
       make_bank(o->study, o->from);
   });
