@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Scatter between packings from few of them, the law of data whose covariance was estimated, and
-// tail probabilities of squared distances.
+// Scatter between packings from few of them.
 #ifndef CALENDEM_DIAGNOSE_INFERENCE_SCATTER_H
 #define CALENDEM_DIAGNOSE_INFERENCE_SCATTER_H
 
 #include "diagnose/inference/gaussian_process.h"
+#include "inference/student_t.h"
 
 namespace calendem::inference {
 
@@ -33,22 +33,6 @@ Scatter pooled_scatter(const std::vector<GaussianProcess> &features, const Matri
 
 /// Residuals of emulators of the same runs: runs x features.
 Matrix residuals_of(const std::vector<GaussianProcess> &features);
-
-/// Degrees of freedom of `known + estimated`, whose second part has `degrees_of_freedom`: divided
-/// by the square of its mean share, trace((known + estimated)^-1 estimated) / n. At most kNormal.
-double mixed_degrees(const Matrix &known, const Matrix &estimated, double degrees_of_freedom);
-constexpr double kNormal = 1e6; ///< from here on a t distribution is computed as normal
-
-/// ln density of the multivariate t distribution of a residual whose square in its scale matrix is
-/// `square` (Kotz and Nadarajah 2004, eq. 1.1).
-double log_student_t(double square, double log_determinant, int n, double degrees_of_freedom);
-
-/// Probability that a squared distance in n dimensions exceeds `square`: chi-squared, or n times
-/// Fisher's F with `degrees_of_freedom` where the covariance was estimated (Hotelling).
-double chance_beyond(double square, int n, double degrees_of_freedom);
-
-/// |z| of a normal variable with the same two-sided chance as `square` has in n dimensions.
-double equivalent_z(double square, int n);
 
 } // namespace calendem::inference
 

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "inference/active_effects.h"
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace calendem::inference {
+namespace {
+
+using Eigen::Index;
+
+// An effect belongs to a group if the data exclude that it acts beside the group's others: the
+// correlation of both is below this.
+constexpr double kExclusive = -0.2;
+
+/// Draws x switches: 1 where an effect acts.
+Matrix indicators(const std::vector<Switch> &switches, const Posterior &posterior, int material) {
+  Matrix out(Index(posterior.draws.size()), Index(switches.size()));
+  for (Index d = 0; d < out.rows(); ++d)
+    for (Index s = 0; s < out.cols(); ++s)
+      out(d, s) =
+          acts(score_of(posterior.draws[std::size_t(d)], material, switches[std::size_t(s)]));
+  return out;
+}
+
+Vector weights_of_draws(const Posterior &posterior) {
+  Vector out{Index(posterior.draws.size())};
+  for (Index d = 0; d < out.size(); ++d)
+    out[d] = posterior.draws[std::size_t(d)].weight;
+  return out / out.sum();
+}
+
+double odds(double probability, double least) {
+  const double p = std::clamp(probability, least, 1.0 - least);
+  return p / (1.0 - p);
+}
+
+double correlation_of(const Vector &a, const Vector &b, const Vector &weights) {
+  const double pa = weights.dot(a), pb = weights.dot(b), spread = pa * (1.0 - pa) * pb * (1.0 - pb);
+  return spread > 0.0 ? (weights.dot(a.cwiseProduct(b)) - pa * pb) / std::sqrt(spread) : 0.0;
+}
+
+} // namespace
+
+CredibleRange credible_range(const std::vector<double> &values,
+                             const std::vector<double> &weights) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  const auto at = [&](double share) {
+    double passed = 0.0;
+    for (const std::size_t k : order)
+      if ((passed += weights[k]) >= share * total)
+        return values[k];
+    return std::nan("");
+  };
+  return {at(0.5), at(0.05), at(0.95)};
+}
+
+std::vector<ActiveEffect> active_effects(const PosteriorProblem &problem,
+                                         const Posterior &posterior, int material) {
+  std::vector<ActiveEffect> out;
+  for (const Switch &s : switches_of(problem, material)) {
+    ActiveEffect effect;
+    effect.at = s;
+    std::vector<double> scores, weights;
+    for (const Draw &d : posterior.draws)
+      if (const double score = score_of(d, material, s); acts(score)) {
+        scores.push_back(score);
+        weights.push_back(d.weight);
+        effect.probability += d.weight;
+      }
+    const double prior = problem.effects[std::size_t(s.effect)].probability,
+                 least = 0.5 / double(posterior.draws.size());
+    if (prior < 1.0)
+      effect.bayes_factor = odds(effect.probability, least) / odds(prior, 0.0);
+    effect.score = credible_range(scores, weights);
+    out.push_back(effect);
+  }
+  return out;
+}
+
+Matrix joint_probabilities(const PosteriorProblem &problem, const Posterior &posterior,
+                           int material) {
+  const Matrix on = indicators(switches_of(problem, material), posterior, material);
+  return on.transpose() * weights_of_draws(posterior).asDiagonal() * on;
+}
+
+std::vector<RankedHypothesis> ranked_hypotheses(const PosteriorProblem &problem,
+                                                const Posterior &posterior, int material,
+                                                double share) {
+  const std::vector<Switch> switches = switches_of(problem, material);
+  std::map<std::vector<int>, double> sets;
+  for (const Draw &d : posterior.draws) {
+    std::vector<int> set;
+    for (int s = 0; s < int(switches.size()); ++s)
+      if (problem.effects[std::size_t(switches[std::size_t(s)].effect)].probability < 1.0 &&
+          acts(score_of(d, material, switches[std::size_t(s)])))
+        set.push_back(s);
+    sets[set] += d.weight;
+  }
+  std::vector<RankedHypothesis> all;
+  for (const auto &[set, probability] : sets) {
+    all.push_back({{}, probability});
+    for (const int s : set)
+      all.back().effects.push_back(switches[std::size_t(s)]);
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const RankedHypothesis &a, const RankedHypothesis &b) {
+                     return a.probability > b.probability;
+                   });
+  double sum = 0.0;
+  std::size_t count = 0;
+  while (count < all.size() && sum < share)
+    sum += all[count++].probability;
+  all.resize(count);
+  return all;
+}
+
+std::vector<IndistinguishableEffects> indistinguishable_effects(const PosteriorProblem &problem,
+                                                                const Posterior &posterior,
+                                                                int material, double certain) {
+  const std::vector<Switch> switches = switches_of(problem, material);
+  const Matrix on = indicators(switches, posterior, material);
+  const Vector weights = weights_of_draws(posterior), single = on.transpose() * weights;
+  std::vector<char> taken(switches.size(), 0);
+  std::vector<IndistinguishableEffects> out;
+  for (;;) {
+    Index first = -1;
+    for (Index s = 0; s < single.size(); ++s)
+      if (!taken[std::size_t(s)] && single[s] < certain && (first < 0 || single[s] > single[first]))
+        first = s;
+    if (first < 0)
+      return out;
+    IndistinguishableEffects group;
+    Vector any = Vector::Zero(on.rows());
+    for (Index next = first; next >= 0;) {
+      taken[std::size_t(next)] = 1;
+      group.effects.push_back(switches[std::size_t(next)]);
+      any = any.cwiseMax(on.col(next));
+      double most = weights.dot(any);
+      next = -1;
+      for (Index s = 0; s < single.size(); ++s) {
+        const double with = weights.dot(any.cwiseMax(on.col(s)));
+        if (!taken[std::size_t(s)] && with > most && single[s] < certain &&
+            correlation_of(any, on.col(s), weights) < kExclusive) {
+          most = with;
+          next = s;
+        }
+      }
+    }
+    group.probability = weights.dot(any);
+    if (group.effects.size() > 1 && group.probability >= certain)
+      out.push_back(group);
+  }
+}
+
+CredibleRange parameter_range(const Posterior &posterior, int parameter, int material) {
+  std::vector<double> values, weights;
+  for (const Draw &d : posterior.draws) {
+    values.push_back(d.scores(parameter, material));
+    weights.push_back(d.weight);
+  }
+  return credible_range(values, weights);
+}
+
+DiscrepancyEvidence discrepancy_evidence(const PosteriorProblem &problem,
+                                         const Posterior &posterior) {
+  double ratio = 0.0;
+  Index data = 0;
+  for (const FilmData &f : problem.films)
+    if (f.discrepancy.size() > 0) {
+      ratio += (f.discrepancy.diagonal().array() / f.measurement.diagonal().array()).sum();
+      data += f.observed.size();
+    }
+  DiscrepancyEvidence out;
+  out.visible_size = data > 0 ? std::sqrt(double(data) / ratio) : INFINITY;
+  std::vector<double> sizes, weights;
+  for (const Draw &d : posterior.draws) {
+    sizes.push_back(d.discrepancy);
+    weights.push_back(d.weight);
+    out.probability += d.discrepancy > out.visible_size ? d.weight : 0.0;
+  }
+  const double share = 0.5 * (problem.discrepancy.scaled(out.visible_size) + 1.0),
+               least = 0.5 / double(posterior.draws.size());
+  out.bayes_factor = odds(out.probability, least) / odds(1.0 - share, least);
+  out.size = credible_range(sizes, weights);
+  return out;
+}
+
+} // namespace calendem::inference

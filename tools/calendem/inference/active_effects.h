@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Which effects act in a material, read from the draws of a posterior.
+#ifndef CALENDEM_INFERENCE_ACTIVE_EFFECTS_H
+#define CALENDEM_INFERENCE_ACTIVE_EFFECTS_H
+
+#include "inference/local_model.h"
+
+namespace calendem::inference {
+
+/// Quantiles of a score or value over the draws.
+struct CredibleRange {
+  double median = 0.0, low90 = 0.0, high90 = 0.0;
+};
+CredibleRange credible_range(const std::vector<double> &values, const std::vector<double> &weights);
+
+/// An effect of a material or a fault of one of its films.
+struct ActiveEffect {
+  Switch at;
+  double probability = 0.0;  ///< that it acts, alone or with others
+  double bayes_factor = 0.0; ///< its odds over those before the data; 0 if it is known to act
+  CredibleRange score;       ///< of its amplitude, where it acts
+};
+/// In the order of `switches_of`.
+std::vector<ActiveEffect> active_effects(const PosteriorProblem &problem,
+                                         const Posterior &posterior, int material);
+
+/// Probabilities that two effects act together; on the diagonal that one does.
+Matrix joint_probabilities(const PosteriorProblem &problem, const Posterior &posterior,
+                           int material);
+
+/// All effects that act, and no others.
+struct RankedHypothesis {
+  std::vector<Switch> effects; ///< empty: none
+  double probability = 0.0;
+};
+/// Most probable first, until they reach `share`; effects that are known to act are left out.
+std::vector<RankedHypothesis> ranked_hypotheses(const PosteriorProblem &problem,
+                                                const Posterior &posterior, int material,
+                                                double share = 0.95);
+
+/// Effects of which one acts, but the data do not say which: each excludes the others.
+struct IndistinguishableEffects {
+  std::vector<Switch> effects;
+  double probability = 0.0; ///< that at least one of them acts
+};
+/// Groups of two effects or more, none of which reaches `certain` alone but all do together.
+std::vector<IndistinguishableEffects> indistinguishable_effects(const PosteriorProblem &problem,
+                                                                const Posterior &posterior,
+                                                                int material, double certain = 0.8);
+
+/// Range of a parameter's score over the draws.
+CredibleRange parameter_range(const Posterior &posterior, int parameter, int material);
+
+/// What the posterior says about what no effect of the table explains.
+struct DiscrepancyEvidence {
+  double visible_size = 0.0; ///< at which its variance equals the readings', on average over data
+  double probability = 0.0;  ///< that it is larger
+  double bayes_factor = 0.0; ///< the odds of this over those before the data
+  CredibleRange size;
+};
+DiscrepancyEvidence discrepancy_evidence(const PosteriorProblem &problem,
+                                         const Posterior &posterior);
+
+} // namespace calendem::inference
+
+#endif
