@@ -147,7 +147,7 @@ private:
   int overflowed_ = 0;          // tag of an atom whose forces are beyond the units of their sum
   double largest_radius_ = 0.0; // from which these units follow [um]
 
-  void refuse_minimizer();
+  void refuse_styles();
   void check_bridges();
   void check_radii();
   RepeatedSettings settings_to_repeat() const;
