@@ -11,7 +11,7 @@
 namespace calendem {
 
 // um, kPa, pg/um3
-constexpr double kAm = 0.795, kCbd = 0.658, kGap = 0.004;
+constexpr double kAm = 0.795, kCbd = 0.658, kGap = 0.004, kInset = 0.09;
 constexpr double E = 5e5, G = E / 2.6, kLambda = 0.5, kRatio = 2.0, dt = 1e-4;
 constexpr double kSteps = 1279.53; // until the break: well away from a whole number
 
@@ -54,13 +54,13 @@ struct Joined {
 inline const Joined kJoined[] = {{"am", 1e4, kAm}, {"cbd", 5e3, kCbd}, {"wall", 2e3, 0.0}};
 inline const BondSection kSection(kLambda *kCbd); // the CBD sphere is the smaller one everywhere
 
-/// The CBD sphere leaves along the line, or is moved across it, at this speed.
+/// The CBD sphere leaves along the line, or is moved across it, at this speed. AM is a body's.
 inline CaseRun move(const Joined &to, double along, double across, Settings settings = {},
                     double length = 0.0) {
   const double l = length > 0.0 ? length : to.length();
   std::vector<Sphere> spheres = {{2, {5, 5, to.other > 0.0 ? 10 : l}}};
   if (to.other > 0.0)
-    spheres.push_back({to.other == kAm ? 1 : 2, {5 + l, 5, 10}});
+    spheres.push_back({to.other == kAm ? 1 : 2, {5 + l, 5, 10}, {}, {}, to.other == kAm ? 1 : 0});
   spheres.push_back({1, {2, 2, 15}}); // the host wants a sphere of type 1
   const Vec3 v = to.other > 0.0 ? Vec3{-along, across, 0} : Vec3{0, across, along};
   const std::string speed = number(v.x) + " " + number(v.y) + " " + number(v.z);
@@ -85,18 +85,20 @@ inline double noise(int n) { // reproducible, in (-1, 1)
 
 /// On each of 16 sites, which faces of the cell and borders of ranks cut: two CBD spheres on the
 /// collector, a body of two AM spheres that one of them holds, and CBD on top; all thrown.
-inline Files film() {
+/// `inset`: of the body's surface [um].
+inline Files film(double inset = 0.0) {
   std::vector<Sphere> all;
   const double side = 16.0, low = kCbd + kGap, half = kCbd + 0.5 * kGap;
+  const double held = kCbd + kAm + kGap - inset;
   int n = 0, body = 0;
   for (int site = 0; site < 16; ++site) {
-    const double x = 4.0 * (site % 4), y = 4.0 * (site / 4), z = low + kCbd + kAm + kGap;
+    const double x = 4.0 * (site % 4), y = 4.0 * (site / 4), z = low + held;
     ++body;
     for (Sphere s : {Sphere{2, {x + half, y, low}},
                      {2, {x - half, y, low}},
                      {1, {x + half, y, z}},
                      {1, {x + half, y, z + 1.28}},
-                     {2, {x + half, y, z + 1.28 + kAm + kCbd + kGap}}}) {
+                     {2, {x + half, y, z + 1.28 + held}}}) {
       s.body = s.type == 1 ? body : 0;
       s.x.x -= side * std::floor(s.x.x / side);
       const double speed = s.type == 1 ? 0.6 : 4.0;
@@ -109,7 +111,9 @@ inline Files film() {
   return files_of(all, side, side, kIntegrate);
 }
 
-inline CaseRun throw_film(Settings settings, int ranks = 1, Files files = film()) {
+inline CaseRun throw_film(Settings settings, int ranks = 1, Files files = {}) {
+  if (files.empty())
+    files = film(settings.count("inset") ? std::stod(settings["inset"]) : 0.0);
   const Settings all = {{"dt", number(kFilmStep)},
                         {"ced", "1e3"},
                         {"Eb", number(kFilmModulus)},

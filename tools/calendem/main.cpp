@@ -2,6 +2,7 @@
 // The command line. Exit status: 0 done, 1 usage, 2 bad input, 3 the simulation failed, 4 a check
 // did not hold.
 #include "base/messages.h"
+#include "base/plain_text.h"
 #include "base/provenance.h"
 #include "base/registry.h"
 #include "commands/commands.h"
@@ -9,9 +10,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <fmt/core.h>
-#include <iostream>
-#include <new>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -31,9 +29,9 @@ const Verb kVerbs[] = {{calendem::add_pack_verb, "Electrodes"},
                        {calendem::add_study_verb, "Many runs"},
                        {calendem::add_sample_verb, "Many runs"},
                        {calendem::add_bank_verb, "Many runs"},
+                       {calendem::add_press_verb, "Experiments"},
                        {calendem::add_compare_verb, "Experiments"},
                        {calendem::add_diagnose_verb, "Experiments"},
-                       {calendem::add_withheld_verb, "Experiments"},
                        {calendem::add_calibrate_verb, "Predictions"},
                        {calendem::add_predict_verb, "Predictions"},
                        {calendem::add_design_verb, "Predictions"},
@@ -82,42 +80,18 @@ int run(int argc, char **argv) {
   }
   try {
     app.parse(argc, argv);
-  } catch (const CLI::Success &e) {
-    return app.exit(e);
-  } catch (const CLI::ParseError &e) {
-    app.exit(e);
-    return calendem::kUsage;
+  } catch (const CLI::ParseError &e) { // or what --help asks for
+    return app.exit(e) == 0 ? calendem::kDone : calendem::kUsage;
   }
   return calendem::kDone;
 }
 
-/// A message that cannot be written, as on a full disk, is no reason for another exit status.
-void say(const std::string &message) { std::fputs(message.c_str(), stderr); }
+/// A message that cannot be written, as on a full disk, is no reason for another exit status. It may
+/// quote what a file holds.
+void say(const std::string &message) { std::fputs(calendem::printable(message).c_str(), stderr); }
 
 } // namespace
 
 int main(int argc, char **argv) {
-  int status = calendem::kDone;
-  try {
-    status = run(argc, argv);
-  } catch (const calendem::Failure &e) {
-    say(std::string(e.what()) + "\n");
-    return e.exit_status();
-  } catch (const std::bad_alloc &) {
-    say("not enough memory. Take a smaller cell or image, or a machine with more.\n");
-    return calendem::kBadInput;
-  } catch (const nlohmann::json::exception &e) {
-    say(fmt::format("a JSON file is not as calendem writes it ({}). Was it edited, or made by "
-                    "another version? Make it again.\n",
-                    e.what()));
-    return calendem::kBadInput;
-  } catch (const std::exception &e) {
-    say(fmt::format("calendem: {}\n", e.what()));
-    return calendem::kBadInput;
-  }
-  if (std::fflush(stdout) != 0 || !std::cout.flush()) {
-    say("the output could not be written. Is the disk full?\n");
-    return calendem::kBadInput;
-  }
-  return status;
+  return calendem::exit_status_of([&] { return run(argc, argv); });
 }

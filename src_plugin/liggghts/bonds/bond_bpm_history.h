@@ -10,8 +10,8 @@
 namespace LAMMPS_NS {
 
 /// State of a pair. The overlap at creation stays the contact's reference at least until a broken
-/// pair's spheres have separated. A binder bridge stands beside the pair's contact, which has no
-/// reference.
+/// pair's spheres have separated. A binder bridge stands beside the pair's contact, which goes on as
+/// it was.
 enum BondState {
   kNeverBonded = 0,
   kIntact = 1,
@@ -21,18 +21,21 @@ enum BondState {
 };
 
 /// View of one pair's history values; vectors change sign in the host's mirrored copies. State and
-/// length stand last, beside the friction's values: a contact without a bond reads no more.
+/// meeting distance stand last, beside the friction's values: a contact without a bond reads no
+/// more.
 class BondHistory {
 public:
-  static constexpr int kSize = 10;
+  static constexpr int kSize = 11;
 
   explicit BondHistory(double *values) : h_(values) {}
 
   int state() const { return static_cast<int>(h_[kState]); }
   void set_state(BondState s) { h_[kState] = s; }
+  /// Of the bond or the bridge: centre distance at its creation [um].
+  double length() const { return h_[kLength]; }
   /// Centre distance [um] from which the contact counts: that at creation while bonded, and until a
   /// broken pair has separated; 0: the sum of radii; negative: the sum of radii and this.
-  double length() const { return h_[kLength]; }
+  double meeting_distance() const { return h_[kMeeting]; }
   double strength_factor() const { return h_[7]; }
 
   calendem::BondLoads loads() const { return {calendem::load(h_), calendem::load(h_ + 4), h_[3]}; }
@@ -45,11 +48,13 @@ public:
   void create(double length, double strength_factor, BondState state = kIntact) {
     h_[kState] = state;
     h_[kLength] = length;
+    if (state == kIntact)
+      meet_at(length);
     h_[7] = strength_factor;
     set_loads({});
   }
-  /// The spheres have separated, or never touched: they meet at that distance [um].
-  void meet_at(double length) { h_[kLength] = length; }
+  /// Sets meeting_distance().
+  void meet_at(double distance) { h_[kMeeting] = distance; }
 
   /// True while a bond or a bridge joins the pair.
   bool acts() const { return state() == kIntact || state() == kBridge; }
@@ -68,13 +73,14 @@ public:
 
   /// Overlap [um] at that distance, from which the contact counts.
   double reference_overlap(double radius_sum) const {
-    if (state() == kBridge || length() == 0.0 || length() >= radius_sum)
+    const double at = meeting_distance();
+    if (at == 0.0 || at >= radius_sum)
       return 0.0;
-    return length() > 0.0 ? radius_sum - length() : -length();
+    return at > 0.0 ? radius_sum - at : -at;
   }
 
 private:
-  static constexpr int kLength = 8, kState = 9;
+  static constexpr int kLength = 8, kMeeting = 9, kState = 10;
 
   double *h_;
 };

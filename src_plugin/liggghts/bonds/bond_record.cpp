@@ -29,7 +29,7 @@ void RepeatedSettings::check(const RepeatedSettings &now, Error *error, Fix *own
 }
 
 namespace {
-const double kFormat = 2.0; // the first value; up to 1 in files of version 1.0.0
+const double kFormat = 3.0; // the first value; up to 1 in files of version 1.0.0
 } // namespace
 
 // In the order of the file, where all are doubles.

@@ -122,7 +122,7 @@ void FixBondBpm::refuse_styles() {
 }
 
 void FixBondBpm::check_bridges() {
-  bridges_.check(settings_.surface_inset);
+  bridges_.check();
   if (bridges_.shrinkage().strain <= 0.0)
     return;
   const Fix *ledger = dynamic_cast<Fix *>(ledger_);
@@ -159,7 +159,8 @@ void FixBondBpm::setup_pre_force(int) {
   pre_force(0);
 }
 
-// Pairs that are new in the lists, or whose history the host has dropped, know of no bond.
+// Pairs that are new in the lists, or whose history the host has dropped, know of no bond. Beside a
+// bridge the contact goes on as it was.
 void FixBondBpm::pre_force(int) {
   const bool others = settings_.contact_diameter < 1.0 || settings_.surface_inset > 0.0;
   if (!others || neighbor->ago != 0)
@@ -167,8 +168,8 @@ void FixBondBpm::pre_force(int) {
   insets_.find(settings_, pairs_, atoms_.bodies(), atoms_.all_broken());
   comm->forward_comm_fix(this);
   pairs_.for_each_neighbor([this](int i, int j, BondHistory &bond) {
-    if (bond.state() == kNeverBonded)
-      bond.meet_at(insets_.not_into_contact(i, j, bond.length(), meeting_distance(i, j)));
+    if (!bond.has_reference())
+      bond.meet_at(insets_.not_into_contact(i, j, bond.meeting_distance(), meeting_distance(i, j)));
   });
 }
 
@@ -295,10 +296,7 @@ void FixBondBpm::apply_breaks() {
     if (ledger_)
       ledger_->bond_breaks(b.i, b.j, b.bond);
     const bool of_body = !b.event.of_bridge();
-    if (of_body)
-      b.bond.set_state(kBrokenTouching);
-    else
-      mark_separated(b.i, b.j, b.bond);
+    b.bond.set_state(of_body ? kBrokenTouching : kBrokenSeparated);
     b.bond.set_loads({});
     if (of_body)
       atoms_.count_break(b.i);

@@ -15,7 +15,7 @@
 // request, at the latest after 100 steps. Two primaries of one body that are not bonded, nor have
 // touched since their bond broke, meet at D times the sum of their radii, 1 by default. For all
 // other spheres, but not for walls, the surface of a body's primary lies S [um] inside it, 0 by
-// default, and by the part F times the part of its bonds that is broken less; not with bridges. All
+// default, and by the part F times the part of its bonds that is broken less. All
 // stresses in kPa (units micro). Everything restarts, under the same fix ID. Bridges
 // (physics/binder_bridge.h) of modulus E, radius ratio L and tensile strengths S between CBD and
 // AM, CBD, collector (types as in registry/phases.h) are made with the bonds and damped as they

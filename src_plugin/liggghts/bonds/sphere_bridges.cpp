@@ -68,16 +68,11 @@ int SphereBridges::read_shrinkage(int narg, char **arg) {
   return words;
 }
 
-void SphereBridges::check(double surface_inset) const {
+void SphereBridges::check() const {
   if (on() && modify->n_fixes_style("cbd/collapse") > 0)
     error->fix_error(FLERR, owner_,
                      "'bridges' and fix cbd/collapse exclude each other: a bridge keeps its length "
                      "while its spheres would shrink");
-  if (on() && surface_inset > 0.0)
-    error->fix_error(
-        FLERR, owner_,
-        "'bridges' and 'surface_inset' exclude each other: of a pair with a bridge the "
-        "spheres' own surfaces meet");
   char message[256];
   snprintf(message, sizeof message,
            "'shrinkage' is %g, and there are no binder bridges that could shrink. Give 'bridges' "
@@ -109,8 +104,9 @@ BridgeKind SphereBridges::kind_of(int i, int j) const {
 
 void SphereBridges::make(int i, int j, double r, BondHistory &bond) const {
   const double tensile = law_.tensile_of(kind_of(i, j));
+  const double radius_sum = atom->radius[i] + atom->radius[j];
   if (bond.state() == kNeverBonded && tensile > 0.0 &&
-      r <= atom->radius[i] + atom->radius[j] + law_.gap)
+      law_.spans(radius_sum, bond.contact(r, radius_sum).distance))
     bond.create(r, tensile, kBridge);
 }
 

@@ -31,8 +31,8 @@ public:
   /// bonds.
   int read(int narg, char **arg, double damping);
   int read_shrinkage(int narg, char **arg);
-  /// Before a run: what excludes bridges, and shrinkage without them. `surface_inset` of bonds [um].
-  void check(double surface_inset) const;
+  /// Before a run: what excludes bridges, and shrinkage without them.
+  void check() const;
 
   bool on() const { return law_.on(); }
   const calendem::BinderBridges &law() const { return law_; }

@@ -27,7 +27,7 @@ public:
   double of(int i) const { return inset_.empty() ? 0.0 : inset_[i]; }
   void set(int i, double inset);
 
-  /// Where i and j meet, as BondHistory::length.
+  /// Where i and j meet, as BondHistory::meeting_distance.
   double meeting_distance(const BondSettings &settings, bool one_body, int i, int j) const {
     const double D = settings.contact_diameter;
     if (one_body)

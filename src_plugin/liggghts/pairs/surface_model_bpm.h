@@ -38,6 +38,7 @@ public:
     hsetup->add_history_value("bond_bending_z", "1");
     hsetup->add_history_value("bond_strength", "0");
     hsetup->add_history_value("bond_length", "0");
+    hsetup->add_history_value("bond_meeting_distance", "0");
     hsetup->add_history_value("bond_state", "0");
     cmb->add_history_offset("bond_bpm", offset_);
   }

@@ -88,7 +88,7 @@ void WallBridges::create(int type) {
   for (int i = 0; i < atom->nlocal; ++i) {
     const double height = atom->x[i][2] - z_;
     if (atom->type[i] != int(calendem::Phase::Cbd) ||
-        height > atom->radius[i] + bonds_->bridges().law().gap)
+        !bonds_->bridges().law().spans(atom->radius[i], height))
       continue;
     BondHistory(values(i)).create(height, tensile, kBridge);
     values(i)[kX] = atom->x[i][0];

@@ -113,13 +113,15 @@ kill -TERM $job
 wait $job && fail "a bank that was stopped must not end with exit status 0"
 ! grep -q full_cell "$work/stopped.log" || { cat "$work/stopped.log"; fail "a stopped bank began with the full cell"; }
 
-# Pressed again, more breaks and the film is denser: two compressions and two releases in one curve.
+# Pressed again, more breaks and the film is denser: two compressions and two releases in one curve. The film that is pressed once
+# is that run which was asked for twice.
 sed 's/^keys = \["recipe.seed"\]/keys = ["case.platen.presses"]/; s/^values = \[150, .*/values = [150]/' "$work/study.toml" >"$work/again.toml"
-"$bin/calendem" study "$work/again.toml" -o "$work/again" --jobs 2 >"$work/again.log" 2>&1 || { cat "$work/again.log"; fail "a film that is pressed again"; }
+"$bin/calendem" study "$work/again.toml" -o "$work/same" --jobs 2 >"$work/again.log" 2>&1 || { cat "$work/again.log"; fail "a film that is pressed again"; }
+grep -q "2 runs, 1 of them done already" "$work/again.log" || { cat "$work/again.log"; fail "a run that another study made was made again"; }
 awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next } { broken[NR] = $at["broken_fraction_after"]; porosity[NR] = $at["porosity_after_relaxation"] }
-  END { exit !(broken[3] > broken[2] && porosity[3] < porosity[2]) }' "$work/again/study.csv" || { cat "$work/again/study.csv"; fail "the second time did nothing"; }
+  END { exit !(broken[3] > broken[2] && porosity[3] < porosity[2]) }' "$work/same/study.csv" || { cat "$work/same/study.csv"; fail "the second time did nothing"; }
 for presses in 1 2; do
-  run=$(awk -F, -v n=$presses 'NR == n + 1 { print $3 }' "$work/again/study.csv")
-  turns=$(awk -F, 'NR > 2 && $2 == "relaxation" && was != $2 { n++ } { was = $2 } END { print n }' "$work/again/runs/$run/curve.csv")
+  run=$(awk -F, -v n=$presses 'NR == n + 1 { print $3 }' "$work/same/study.csv")
+  turns=$(awk -F, 'NR > 2 && $2 == "relaxation" && was != $2 { n++ } { was = $2 } END { print n }' "$work/same/runs/$run/curve.csv")
   [ "$turns" = "$presses" ] || fail "$turns releases of $presses"
 done

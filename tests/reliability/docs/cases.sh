@@ -36,7 +36,7 @@ paths_exist() { # those of the repository that stand in code, and links of the p
 # shellcheck disable=SC2016 # backticks of Markdown
 readmes_name_files() {
   local folder=tools/calendem page name
-  grep -oE '`(base|electrode|simulate|measure|report|diagnose|predict|withheld|commands)/[a-z_/]+`' -r "$folder" --include=README.md |
+  grep -oE '`(base|electrode|simulate|measure|report|diagnose|predict|commands)/[a-z_/]+`' -r "$folder" --include=README.md |
     tr -d '`' | while IFS=: read -r page name; do compgen -G "$folder/$name*" >/dev/null || echo "$page: $name"; done |
     report "these are not there"
   for folder in report diagnose/inference; do

@@ -12,8 +12,8 @@ work=$(cd "$2" && pwd)
 cd "$core"
 # The readers, and of the library electrode all that two of them are linked with.
 sources=(base/*.cpp electrode/*.cpp electrode/*/*.cpp simulate/study_file.cpp diagnose/bank/bank_{spec,study,table}.cpp
-  diagnose/compare/simulated_run.cpp diagnose/inference/{bank,numerics,quantities}.cpp withheld/round_file.cpp)
-image_sources=(electrode/structure/{data_rows,image_header,label_image,tiff_image,vti_header}.cpp
+  diagnose/compare/simulated_run.cpp inference/{numerics,quantities}.cpp ../../tests/validation/sealed/{hidden_changes,round_file}.cpp)
+image_sources=(electrode/structure/{data_rows,image_header,label_image,numpy_image,png_image,tiff_image,vti_header}.cpp
   base/{image_series,messages,provenance}.cpp)
 for source in "${sources[@]}" "${image_sources[@]}"; do # said by every run of the tests, not only by --all
   [ -f "$source" ] || { echo "FAILED: $core/$source, which is to be built here, is not there" >&2; exit 1; }
@@ -23,12 +23,12 @@ command -v clang++ >/dev/null || { echo "skipped: no clang++ (Debian: clang, lib
 # -fno-sanitize=unreachable: toml++ states what it assumes with __builtin_unreachable, which UBSan takes for a fault.
 options=(-std=c++17 -g -O1 -DNDEBUG "-fsanitize=fuzzer,address,undefined" -fno-sanitize=unreachable
   -fno-sanitize-recover=undefined -DCALENDEM_VERSION='"fuzz"'
-  -I "$core" -I "$core/../../src_plugin" -I /usr/include/eigen3)
+  -I "$core" -I "$core/../../src_plugin" -I "$core/../../tests/validation" -I /usr/include/eigen3)
 
 vtk=$(find /usr/include -maxdepth 1 -name 'vtk-9*' | head -n 1) # the Debian package; its suffix is that of the libraries
 [ -n "$vtk" ] || { echo "skipped: no headers of VTK in /usr/include"; exit 77; }
 options+=(-isystem "$vtk")
-libraries=(-lfmt -lcrypto -lz -ltiff)
+libraries=(-lfmt -lcrypto -lz -ltiff -lpng -lminizip)
 for name in IOImage IOXML ImagingMorphological ImagingGeneral FiltersCore CommonExecutionModel CommonDataModel CommonMath CommonMisc \
   CommonCore sys; do
   libraries+=("-lvtk$name${vtk##*/vtk}")

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <unistd.h>
 
@@ -13,7 +14,8 @@
 
 namespace {
 
-const char *const kEndings[] = {".vti", ".mha", ".nrrd", ".tif", ".mhd", ".nhdr"};
+const char *const kEndings[] = {".vti",  ".mha", ".nrrd", ".tif", ".mhd",
+                                ".nhdr", ".png", ".npy",  ".npz"};
 
 void check(const calendem::LabelImage &image) {
   if (image.label.size() != size_t(image.n[0]) * image.n[1] * image.n[2] || image.label.empty())
@@ -26,7 +28,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char *data, std::size_t siz
   if (size == 0)
     return 0;
   static const std::string stem = std::string(std::getenv("FUZZ_FOLDER")) + "/input";
-  const std::string file = stem + kEndings[data[0] % 6];
+  const std::string file = stem + kEndings[std::size_t(data[0] + 256 - '0') % std::size(kEndings)];
   std::ofstream(file, std::ios::binary)
       .write(reinterpret_cast<const char *>(data) + 1, std::streamsize(size) - 1);
   try {

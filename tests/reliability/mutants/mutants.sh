@@ -20,7 +20,7 @@ while IFS='|' read -r name file expression tests <&3; do
   name=$(trim "$name") file=$(trim "$file") expression=$(trim "$expression") tests=$(trim "$tests")
   case $name in "" | "#"*) continue ;; esac
   [ $# -eq 0 ] || [[ " $* " == *" $name "* ]] || continue
-  case $file in tools/*) file=$tree/$file ;; *) file=$tree/src_plugin/$file ;; esac
+  case $file in tools/* | tests/*) file=$tree/$file ;; *) file=$tree/src_plugin/$file ;; esac
   cp "$file" "$work/original"
   sed -i "$expression" "$file"
   if cmp -s "$file" "$work/original"; then echo "FAILED: $name changes nothing" >&2; missed=$((missed + 1)); continue; fi

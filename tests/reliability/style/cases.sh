@@ -36,8 +36,8 @@ includes_point_one_way() { # physics <- registry <- liggghts, tools/calendem; te
     report "src_plugin must not include tools or tests" || exit 1
   # A folder of tools/calendem knows itself, those before it in this list, and its CMake library links no other.
   local folder known=physics\|registry
-  for folder in effects base inference electrode/structure electrode/pack electrode/slurry electrode simulate measure report \
-    diagnose/inference diagnose/compare diagnose/bank diagnose predict withheld commands .; do
+  for folder in effects base inference electrode/structure electrode/pack electrode/slurry electrode simulate bank measure report \
+    diagnose/inference diagnose/compare diagnose/bank diagnose predict commands .; do
     known="$known|$folder"
     find "tools/calendem/$folder" -maxdepth 1 -name '*.h' -o -maxdepth 1 -name '*.cpp' | LC_ALL=C sort |
       xargs grep -nE '^ *# *include *"' /dev/null | without "include \"($known)/[a-z0-9_]+\.h\"" |
@@ -45,7 +45,9 @@ includes_point_one_way() { # physics <- registry <- liggghts, tools/calendem; te
   done
   cxx_files | matching '^tools/calendem/' | cut -d/ -f3- | sed 's:/*[^/]*$::' | sort -u |
     without "^($known)?$" | report "folders of tools/calendem that have no place in the order of includes" || exit 1
-  includes tools/calendem | matching '<(gtest|gmock|benchmark)/' | report "tools/calendem must not include tests"
+  includes tools/calendem | matching '<(gtest|gmock|benchmark)/' | report "tools/calendem must not include tests" || exit 1
+  { grep -rnE 'tests/validation|calendem_sealed|(^|[^a-z_.])sealed[/)]' src_plugin tools --include='*.h' --include='*.cpp' \
+    --include=CMakeLists.txt || true; } | report "programs of tests/validation test the products, which must not know them"
 }
 named_files_exist() { # those that heads of laws name, and pages (.md) that any comment names; or a program writes them
   local file name folder found
@@ -55,7 +57,7 @@ named_files_exist() { # those that heads of laws name, and pages (.md) that any 
       case $name in *:[0-9]*) file=$name; continue ;; esac
       found=0
       for folder in . src_plugin "$(dirname "${file%:*}")"; do [ ! -f "$folder/$name" ] || found=1; done
-      [ $found -eq 1 ] || grep -qrF "$name\"" tools/calendem --include='*.cpp' || echo "$file names $name"
+      [ $found -eq 1 ] || grep -qrF "$name\"" tools/calendem tests/validation --include='*.cpp' || echo "$file names $name"
     done | sort -u | report "files that a comment names and that do not exist"
 }
 pi_has_one_place() { # physics/pi.h
@@ -85,10 +87,10 @@ states_are_claimed() { # a restart's states that no fix takes are lost: fix time
     while read -r style; do grep -qF "\"$style\"" src_plugin/liggghts/base/fix_time_bpm.cpp || echo "$style"; done |
     report "fixes with a state that kStylesWithState of base/fix_time_bpm.cpp does not name"
 }
-header_options=(-std=c++17 -Wall -Wextra -I src_plugin -I tools/calendem -isystem /usr/include/eigen3 -x c++)
-all_headers() { # of physics, registry and tools/calendem as one translation unit
+header_options=(-std=c++17 -Wall -Wextra -I src_plugin -I tools/calendem -I tests/validation -isystem /usr/include/eigen3 -x c++)
+all_headers() { # of physics, registry, tools/calendem and tests/validation as one translation unit
   { find src_plugin/physics src_plugin/registry -name '*.h' -printf '%P %H\n' | sed 's|\(.*\) src_plugin/\(.*\)|\2/\1|'
-    find tools/calendem -name '*.h' -printf '%P\n'; } | LC_ALL=C sort | sed 's/.*/#include "&"/'
+    find tools/calendem tests/validation -name '*.h' -printf '%P\n'; } | LC_ALL=C sort | sed 's/.*/#include "&"/'
 }
 headers_agree() { # no two definitions of one name
   all_headers | "${CXX:-g++}" "${header_options[@]}" -Werror -fsyntax-only - ||
@@ -166,7 +168,7 @@ mutants_change_something() {
   while IFS='|' read -r name file expression _; do
     name=${name// /} file=${file// /}
     case $name in "" | "#"*) continue ;; esac
-    case $file in tools/*) ;; *) file=src_plugin/$file ;; esac
+    case $file in tools/* | tests/*) ;; *) file=src_plugin/$file ;; esac
     expression=$(sed 's/^ *//; s/ *$//' <<<"$expression")
     if [ ! -f "$file" ]; then
       echo "$name: no $file"

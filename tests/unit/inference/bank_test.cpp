@@ -25,31 +25,6 @@ TEST(Prior, ScoresAndValuesAreInverse) {
   EXPECT_NEAR((Prior{Prior::normal, 3.0, 0.5}).scaled(4.0), 1.0, 1e-12);
 }
 
-TEST(BankTable, ReadsWhatItWrote) {
-  const Bank bank = synthetic_bank(8, 0.1);
-  const std::string text = write_table(bank);
-  Bank read = bank;
-  read.runs.clear();
-  read_table(read, text, "bank.csv");
-  ASSERT_EQ(read.runs.size(), bank.runs.size());
-  for (std::size_t i = 0; i < bank.runs.size(); ++i)
-    EXPECT_EQ(read.runs[i].values, bank.runs[i].values);
-  EXPECT_EQ(write_table(read), text);
-  EXPECT_NO_THROW(check(read));
-}
-
-TEST(BankTable, EveryMistakeIsReported) {
-  Bank bank = synthetic_bank(6, 0.1);
-  std::string text = write_table(bank);
-  text.replace(text.find("strength"), 8, "strenght");
-  text.replace(text.find("broken"), 6, "brocken");
-  text += "plasticity,p9\n";
-  const std::string reported = message_of([&] { read_table(bank, text, "bank.csv"); });
-  EXPECT_NE(reported.find("'strength' is missing"), std::string::npos) << reported;
-  EXPECT_NE(reported.find("'broken|compression|p150|0' is missing"), std::string::npos) << reported;
-  EXPECT_NE(reported.find("26"), std::string::npos) << reported; // the line
-}
-
 TEST(Bank, RunsThatCannotServeAreReported) {
   Bank bank = synthetic_bank(8, 0.1);
   bank.runs[1].packing = "another";
@@ -63,24 +38,6 @@ TEST(Bank, RunsThatCannotServeAreReported) {
   bank = synthetic_bank(5, 0.1);
   EXPECT_NE(message_of([&] { check(bank); }).find("5 runs of the base model; at least 7"),
             std::string::npos);
-}
-
-TEST(Bank, AMeasurementFaultIsAnEffectWithoutSimulation) {
-  Bank bank = synthetic_bank(10, 0.1);
-  const ModelledEffect zero{"thickness zero", {{"offset", {Prior::uniform, 0.0, 2.0}, true}}};
-  add_measurement_fault(bank, zero, [](const auto &, const Vector &v, const Vector &a) {
-    Vector shown = v;
-    shown[kCurve] += a[0];
-    return shown;
-  });
-  EXPECT_NO_THROW(check(bank));
-  const auto pairs = pairs_of(bank, "thickness zero");
-  ASSERT_EQ(pairs.size(), 10u);
-  for (const auto &[off, on] : pairs) {
-    const Vector difference = bank.runs[on].values - bank.runs[off].values;
-    EXPECT_NEAR(difference[kCurve], bank.runs[on].amplitudes[0], 1e-12);
-    EXPECT_EQ(difference.head(kCurve).norm(), 0.0);
-  }
 }
 
 TEST(Observables, WhatTheExperimentMustBe) {

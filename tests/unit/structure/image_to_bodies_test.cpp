@@ -81,21 +81,13 @@ TEST(Tomogram, MistakesOfItsSpecAreNamed) {
   expect_parts(refusal([] { tomogram_of("[image]\nvoxel_um = 0.01\n"); }), {"2.7e+10", "1e9"});
 }
 
-class FromImage : public testing::Test {
-protected:
-  void SetUp() override {
-    const Tomogram t =
-        make_tomogram(tomogram_of("seed = 1\n[image]\nx_um = 24\ny_um = 24\nz_um = 24\n"));
-    recover(t, library);
-    const std::string file = (test_folder() / "recipe.toml").string();
-    std::ofstream(file) << "[cell]\nx_um = 20\ny_um = 20\n";
-    recipe = read_recipe(file);
-  }
-  ShapeLibrary library;
-  Recipe recipe;
-};
+Recipe recipe_of_cell() {
+  const std::string file = (test_folder() / "recipe.toml").string();
+  std::ofstream(file) << "[cell]\nx_um = 20\ny_um = 20\n";
+  return read_recipe(file);
+}
 
-TEST_F(FromImage, BodiesFillTheLoadingAndKeepTheWidth) {
+void expect_loading_and_width(const Recipe &recipe, const ShapeLibrary &library) {
   const std::vector<Body> bodies = make_bodies(recipe, library);
   double volume = 0.0;
   for (const Body &b : bodies) {
@@ -109,7 +101,7 @@ TEST_F(FromImage, BodiesFillTheLoadingAndKeepTheWidth) {
 }
 
 // One body's volume is rounded to whole lattice cells; D10-D90 then agree within 5 %.
-TEST_F(FromImage, PackedSizesAreTheMeasuredOnes) {
+void expect_measured_sizes(Recipe recipe, const ShapeLibrary &library) {
   recipe.cell_x = recipe.cell_y = 30.0;
   const nlohmann::json j = describe_shapes(recipe, library, make_bodies(recipe, library));
   for (const char *q : {"D10", "D50", "D90"})
@@ -120,7 +112,7 @@ TEST_F(FromImage, PackedSizesAreTheMeasuredOnes) {
 }
 
 // Primaries lie where the scaled shape is: their hull has its reach in every direction.
-TEST_F(FromImage, ABodyHasItsShapesForm) {
+void expect_form_of_its_shape(Recipe recipe, const ShapeLibrary &library) {
   recipe.lattice = 0.5;
   recipe.primary_diameter = 0.62;
   Random random(1, 2);
@@ -138,6 +130,17 @@ TEST_F(FromImage, ABodyHasItsShapesForm) {
   for (const Eigen::Vector3d &p : b.primaries)
     outside += shape->depth_at(p / scale) * scale > recipe.lattice;
   EXPECT_EQ(outside, 0);
+}
+
+// One image for all: to measure it takes most of the time.
+TEST(FromImage, BodiesHaveItsSizesAndFormsAndFillTheLoading) {
+  ShapeLibrary library;
+  recover(make_tomogram(tomogram_of("seed = 1\n[image]\nx_um = 24\ny_um = 24\nz_um = 24\n")),
+          library);
+  const Recipe recipe = recipe_of_cell();
+  expect_loading_and_width(recipe, library);
+  expect_measured_sizes(recipe, library);
+  expect_form_of_its_shape(recipe, library);
 }
 
 TEST(RecipeShapes, MistakesOfTheSectionAreNamedAtOnce) {

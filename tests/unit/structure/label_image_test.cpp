@@ -2,8 +2,12 @@
 #include "electrode/structure/label_image.h"
 #include "support.h"
 #include <fmt/format.h>
+#include <minizip/zip.h>
 #include <regex>
 #include <tiffio.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
 
 namespace {
 using namespace calendem;
@@ -126,8 +130,8 @@ TEST(LabelImage, WhatIsNoLabelImageIsRefusedWithTheRemedy) {
   const fs::path folder = test_folder();
   const std::string bad = (folder / "a.mhd").string();
   expect_parts(refusal([&] { read_label_image(bad); }), {"no such file"});
-  expect_parts(refusal([&] { read_label_image((folder / "a.png").string()); }),
-               {"'.png'", ".mhd", ".tif"});
+  expect_parts(refusal([&] { read_label_image((folder / "a.jpg").string()); }),
+               {"'.jpg'", ".mhd", ".tif"});
   std::ofstream(bad) << "not an image\n";
   expect_parts(refusal([&] { read_label_image(bad); }), {"a.mhd", "format"});
   const std::string grey = (folder / "grey.mha").string();
@@ -177,6 +181,173 @@ TEST(LabelImage, VoxelSizeMustBeKnownAndPlausible) {
   expect_parts(refusal([&] { read_label_image(file); }), {"0.0003", "0.001 to 10 um", "mm"});
   write_tiff((folder / "a.tif").string(), 0, 3);
   expect_parts(refusal([&] { read_label_image((folder / "a.tif").string()); }), {"voxel size"});
+}
+
+// The sample's voxels as a file of 16 bits has them.
+std::string voxels(bool big = false) {
+  std::string out;
+  for (const std::int32_t label : sample().label) {
+    const char low = char(label & 255), high = char(label >> 8);
+    out += big ? std::string{high, low} : std::string{low, high};
+  }
+  return out;
+}
+
+// All pages behind one directory, as ImageJ and tifffile write large stacks.
+std::string write_one_directory(const fs::path &file, const std::string &description,
+                                const char *mode = "w", double pixels_per_unit = 0.0) {
+  TIFF *out = TIFFOpen(file.c_str(), mode);
+  TIFFSetField(out, TIFFTAG_IMAGEWIDTH, 12);
+  TIFFSetField(out, TIFFTAG_IMAGELENGTH, 5);
+  TIFFSetField(out, TIFFTAG_BITSPERSAMPLE, 16);
+  TIFFSetField(out, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+  TIFFSetField(out, TIFFTAG_ROWSPERSTRIP, 5);
+  TIFFSetField(out, TIFFTAG_IMAGEDESCRIPTION, description.c_str());
+  if (pixels_per_unit > 0.0) {
+    TIFFSetField(out, TIFFTAG_XRESOLUTION, pixels_per_unit);
+    TIFFSetField(out, TIFFTAG_YRESOLUTION, pixels_per_unit);
+  }
+  std::string all = voxels(std::string(mode) == "wb");
+  TIFFWriteRawStrip(out, 0, all.data(), tmsize_t(all.size()));
+  TIFFWriteDirectory(out);
+  TIFFClose(out);
+  return file.string();
+}
+
+// Read as one page it would be a film of pores.
+TEST(LabelImage, StacksWithOneDirectoryAreReadWhole) {
+  const fs::path folder = test_folder();
+  for (const char *mode : {"wl", "wb"})
+    for (const char *description : {"ImageJ=1.53t\nimages=4\nslices=4\n", "{\"shape\": [4, 5, 12]}",
+                                    "<OME><Pixels SizeX=\"12\" SizeZ=\"4\" SizeC=\"1\"/></OME>"})
+      expect_sample(
+          read_label_image(write_one_directory(folder / "a.tif", description, mode), 0.3));
+}
+
+TEST(LabelImage, StacksThatAnnounceMoreThanIsThereAreRefused) {
+  const fs::path folder = test_folder();
+  const auto said = [&](const char *description) {
+    return refusal(
+        [&] { read_label_image(write_one_directory(folder / "a.tif", description), 0.3); });
+  };
+  expect_parts(said("ImageJ=1.53t\nimages=40\n"), {"announces 40 pages, 1 can be read"});
+  expect_parts(said("{\"shape\": [40, 5, 12]}"), {"announces 40 pages"});
+  expect_parts(said("ImageJ=1.53t\nimages=4\nchannels=2\nslices=2\n"), {"2 channels or moments"});
+  write_tiff((folder / "b.tif").string(), 0, 1);
+  TIFF *file = TIFFOpen((folder / "b.tif").c_str(), "r+");
+  TIFFSetField(file, TIFFTAG_IMAGEDESCRIPTION, "ImageJ=1.53t\nimages=4\n");
+  TIFFRewriteDirectory(file);
+  TIFFClose(file);
+  expect_parts(refusal([&] { read_label_image((folder / "b.tif").string(), 0.3); }),
+               {"announces 4 pages, 2 can be read"});
+}
+
+TEST(LabelImage, VoxelSizeOfFijiIsRead) {
+  const fs::path folder = test_folder();
+  const auto read = [&](const std::string &lines, double voxel_um = 0.0) {
+    return read_label_image(
+               write_one_directory(folder / "a.tif", "ImageJ=1.53t\nimages=4\n" + lines, "w", 2.5),
+               voxel_um)
+        .voxel;
+  };
+  const Eigen::Vector3d flat(0.4, 0.4, 0.5);
+  EXPECT_NEAR((read("unit=micron\nspacing=0.5\n") - flat).norm(), 0.0, 1e-6);
+  EXPECT_NEAR((read("unit=\\u00B5m\nspacing=0.5\n") - flat).norm(), 0.0, 1e-6);
+  EXPECT_NEAR((read("unit=mm\nspacing=0.5\n", 0.3) - Eigen::Vector3d::Constant(0.3)).norm(), 0.0,
+              0.0);
+  expect_parts(refusal([&] { read("unit=mm\nspacing=0.5\n"); }), {"400 x 400 x 500 um"});
+  expect_parts(refusal([&] { read("unit=micron\n"); }),
+               {"0.4 um along x", "distance of the slices"});
+  expect_parts(refusal([&] { read("unit=pixel\nspacing=0.5\n"); }), {"states no voxel size"});
+  const std::string ome = "<OME><Pixels SizeZ=\"4\" PhysicalSizeX=\"400\" PhysicalSizeXUnit=\"nm\" "
+                          "PhysicalSizeY=\"0.4\" PhysicalSizeZ=\"0.5\"/></OME>";
+  EXPECT_NEAR((read_label_image(write_one_directory(folder / "o.tif", ome)).voxel - flat).norm(),
+              0.0, 1e-6);
+}
+
+TEST(LabelImage, NegativeLabelsWithoutAMeaningAreRefused) {
+  LabelImage image = sample();
+  image.file = "a.tif";
+  image.label[image.index(3, 2, 1)] = -5;
+  expect_parts(refusal([&] { refuse_negative_labels(image, {0}); }),
+               {"a.tif", "(3, 2, 1)", "-5", "unsigned"});
+  refuse_negative_labels(image, {0, -5});
+}
+
+TEST(LabelImage, SeriesOfPngAreReadAsTiffIs) {
+  const fs::path folder = test_folder();
+  for (int k = 0; k < 4; ++k) {
+    vtkNew<vtkImageData> slice;
+    slice->SetDimensions(12, 5, 1);
+    slice->AllocateScalars(VTK_UNSIGNED_SHORT, 1);
+    for (int j = 0; j < 5; ++j)
+      for (int i = 0; i < 12; ++i) // VTK's first row is the last of the picture
+        slice->SetScalarComponentFromDouble(i, 4 - j, 0, 0, expected(i, j, k));
+    vtkNew<vtkPNGWriter> writer;
+    writer->SetFileName((folder / fmt::format("s_{}.png", k)).c_str());
+    writer->SetInputData(slice);
+    writer->Write();
+  }
+  const std::string series = (folder / "s_%d.png").string();
+  expect_sample(read_label_image(series, 0.3));
+  expect_parts(refusal([&] { read_label_image(series); }), {"states no voxel size"});
+  cut(folder / "s_2.png", 0.6);
+  expect_parts(refusal([&] { read_label_image(series, 0.3); }), {"s_2.png"});
+  std::string colours = bytes_of(folder / "s_1.png");
+  colours[25] = 2;
+  std::ofstream(folder / "s_2.png", std::ios::binary) << colours;
+  expect_parts(refusal([&] { read_label_image(series, 0.3); }), {"colours"});
+}
+
+std::string npy(const std::string &type, const std::string &shape, const std::string &data,
+                const char *fortran = "False") {
+  std::string head =
+      fmt::format("{{'descr': '{}', 'fortran_order': {}, 'shape': ({}), }}", type, fortran, shape);
+  head.resize(117, ' ');
+  return std::string("\x93NUMPY\1\0\x76\0", 10) + head + "\n" + data;
+}
+
+std::string write_npz(const fs::path &file, const std::vector<std::string> &arrays) {
+  zipFile out = zipOpen64(file.c_str(), 0);
+  for (size_t k = 0; k < arrays.size(); ++k) {
+    const std::string name = fmt::format("arr_{}.npy", k);
+    zipOpenNewFileInZip(out, name.c_str(), nullptr, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED, 6);
+    zipWriteInFileInZip(out, arrays[k].data(), unsigned(arrays[k].size()));
+    zipCloseFileInZip(out);
+  }
+  zipClose(out, nullptr);
+  return file.string();
+}
+
+TEST(LabelImage, ArraysOfNumPyAreRead) {
+  const fs::path folder = test_folder();
+  const std::string file = (folder / "a.npy").string();
+  const auto read = [&](const std::string &bytes) {
+    std::ofstream(file, std::ios::binary) << bytes;
+    return read_label_image(file, 0.3);
+  };
+  expect_sample(read(npy("<u2", "4, 5, 12", voxels())));
+  expect_sample(read(npy(">i2", "4, 5, 12", voxels(true))));
+  std::string turned; // z runs fastest
+  for (int i = 0; i < 12; ++i)
+    for (int j = 0; j < 5; ++j)
+      for (int k = 0; k < 4; ++k)
+        turned += std::string{char(expected(i, j, k) & 255), char(expected(i, j, k) >> 8)};
+  expect_sample(read(npy("<u2", "4, 5, 12", turned, "True")));
+  const std::string whole = npy("<u2", "4, 5, 12", voxels());
+  expect_sample(read_label_image(write_npz(folder / "a.npz", {whole}), 0.3));
+  const auto said = [&](const std::string &bytes) { return refusal([&] { read(bytes); }); };
+  expect_parts(said(npy("<u2", "5, 12", voxels())), {"(5, 12)", "three axes"});
+  expect_parts(said(npy("<c8", "4, 5, 12", voxels())), {"'<c8'", "astype"});
+  expect_parts(said(npy("<u2", "4, 5, 13", voxels())), {"520 bytes", "480 are there"});
+  expect_parts(said("\x93NUMPY"), {"numpy.save"});
+  expect_parts(refusal([&] {
+                 read_label_image(write_npz(folder / "b.npz", {whole, whole}), 0.3);
+               }),
+               {"2 arrays"});
+  cut(folder / "a.npz", 0.7);
+  expect_parts(refusal([&] { read_label_image((folder / "a.npz").string(), 0.3); }), {"a.npz"});
+  expect_parts(refusal([&] { read_label_image(file); }), {"numpy.save"});
 }
 
 } // namespace

@@ -10,10 +10,12 @@
 namespace calendem::bank {
 namespace {
 
-/// The widest range of an effect: that of its prior; what yields may be ten times as soft.
+/// The widest range of an effect: that of its prior, and weaker; what yields may be ten times as soft.
 EffectParameter at_most(EffectParameter p) {
   if (p.scale == AmplitudeScale::Reciprocal)
     p.low *= 0.1;
+  else if (p.scale == AmplitudeScale::Difference)
+    p.low = std::min(p.low, std::stod(p.off));
   return p;
 }
 
@@ -65,7 +67,7 @@ public:
         path(t, {"crushing", "", "-", 0, 0, "", "loads of single particles (CSV)", "", true});
     out.faults = texts(t, "faults");
     for (const std::string &name : out.faults)
-      if (const Effect *e = effect(name, *t.get("faults")); e && !e->instrument)
+      if (const Effect *e = effect(name, *t.get("faults")); e && !e->shown)
         mistakes_.add(line_of(*t.get("faults")),
                       fmt::format("'{}' changes the film, not what the press shows: it needs runs. "
                                   "Give it a table [[effect]].",
@@ -208,6 +210,11 @@ std::string table_of(const Bank &bank) {
 }
 
 Study study_of(const Bank &bank, const std::vector<Point> &points) {
+  return study_of(bank,
+                  columns_of(bank.design, points, read_recipe(bank.recipe_file).settings.all()));
+}
+
+Study study_of(const Bank &bank, const Columns &columns) {
   Study study;
   study.file = bank.file;
   study.name = bank.name;
@@ -215,8 +222,6 @@ Study study_of(const Bank &bank, const std::vector<Point> &points) {
   study.case_file = bank.case_file;
   study.keep_all = false;
   study.measured = true;
-  const Columns columns =
-      columns_of(bank.design, points, read_recipe(bank.recipe_file).settings.all());
   study.columns = columns.names;
   Mistakes mistakes(study.file, 20);
   for (const std::string &name : study.columns)

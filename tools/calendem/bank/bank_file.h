@@ -59,8 +59,9 @@ Bank read_bank(const std::string &file);
 /// The table beside the bank's file, with its name.
 std::string table_of(const Bank &bank);
 
-/// One run for each point. Throws Failure(2) where values are no values of their keys or contradict
-/// each other.
+/// A run of the bank's recipe and case for each row. Throws Failure(2) where values are no values of
+/// their keys or contradict each other.
+Study study_of(const Bank &bank, const Columns &columns);
 Study study_of(const Bank &bank, const std::vector<Point> &points);
 
 } // namespace calendem::bank

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "bank/design.h"
-#include "diagnose/inference/numerics.h"
+#include "inference/numerics.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

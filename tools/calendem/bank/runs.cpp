@@ -120,7 +120,7 @@ Run read_run_of(const Point &point, const std::string &path) {
 
 namespace {
 
-std::string start_of_row(const Runs &runs, const Run &run) {
+std::string start_of_row(const Run &run) {
   std::string out =
       fmt::format("{},{},{:d}", run.point.number, run.point.packing, run.point.larger);
   for (const double v : run.point.values)
@@ -251,7 +251,7 @@ std::string write_runs(const Runs &runs) {
   std::string out = fmt::format("{}\n", fmt::join(header_of(runs.bank), ","));
   const std::size_t rest = std::size(kNumbers) + curve_pressures().size() + kReleasedTo.size();
   for (const Run &run : runs.runs) {
-    const std::string start = start_of_row(runs, run);
+    const std::string start = start_of_row(run);
     if (run.presses.empty())
       out += start + std::string(rest, ',') + "\n";
     for (std::size_t k = 0; k < run.presses.size(); ++k) {

@@ -253,19 +253,17 @@ namespace {
 bool check_columns(const std::string &path, const CsvTable &table, int line, Mistakes &mistakes) {
   const int before = mistakes.count();
   const std::string first = fmt::format("{}", fmt::join(table.header(), ","));
-  if (!table.has("displacement_um") && first.find_first_of(";\t") != std::string::npos) {
-    mistakes.add(line, fmt::format("'{}': its first line is '{}'. Columns are separated by commas, "
-                                   "decimals by points: save it as CSV with these.",
-                                   path, first));
-    return false;
-  }
   if (const std::string wrong = table.ambiguous({"displacement_um", "pressure_MPa", "stage"});
       !wrong.empty())
     mistakes.add(line, fmt::format("'{}' {}", path, wrong));
+  if (table.header().empty())
+    return false;
   for (const char *column : {"displacement_um", "pressure_MPa"}) {
     if (!table.has(column)) {
       mistakes.add(
-          line, fmt::format("'{}' has no column '{}' in its first line: {}", path, column, first));
+          line, fmt::format("'{}' has no column '{}' in its first line: {}. calendem press makes a "
+                            "curve of a press's own export: columns of other names and units.",
+                            path, column, first));
       continue;
     }
     const std::vector<double> values = table.numbers(column);
@@ -278,7 +276,8 @@ bool check_columns(const std::string &path, const CsvTable &table, int line, Mis
   }
   if (!table.bad_lines().empty())
     mistakes.add(line, fmt::format("'{}': line {} has another number of columns than the first "
-                                   "line. Correct the line, or copy the file again if it is cut.",
+                                   "line. Correct the line, or copy the file again if it is cut. "
+                                   "Numbers with decimal commas need other separators: semicolons.",
                                    path, table.bad_lines().front()));
   if (table.rows() < 2)
     mistakes.add(line, fmt::format("'{}' has {} rows below its first line; a curve has at least 2.",
@@ -338,8 +337,10 @@ void check_stages(const std::string &path, const CsvTable &table, int line, Mist
     return s == "loading" || s == "compression";
   });
   if (wrong != stages.end())
-    mistakes.add(line, fmt::format("'{}': stage of row {} is '{}'; allowed are {}.", path,
-                                   wrong - stages.begin() + 1, *wrong, fmt::join(known, ", ")));
+    mistakes.add(line,
+                 fmt::format("'{}': stage of row {} is '{}'; allowed are {}. calendem press "
+                             "knows other names.",
+                             path, wrong - stages.begin() + 1, *wrong, fmt::join(known, ", ")));
   else if (loads && (stages.front() == "unloading" || stages.front() == "relaxation"))
     mistakes.add(line, fmt::format("'{}': its first row has the stage {}. Rows go in the order of "
                                    "time, from the first touch on.",
@@ -392,6 +393,8 @@ void check_curve(const Experiment &e, const Condition &c, int line, Mistakes &mi
       CsvTable::parse({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
   if (!check_columns(c.curve, table, line, mistakes))
     return;
+  if (const std::string guess = table.guess(); !guess.empty())
+    fmt::print(stderr, "note: {}: read with {}.\n", c.curve, guess);
   check_order(c.curve, table, line, mistakes);
   check_stages(c.curve, table, line, mistakes);
   check_units(c.curve, table, e, c, line, mistakes);

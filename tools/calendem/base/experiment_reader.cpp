@@ -206,6 +206,13 @@ private:
         sd ? Key{key.name + ".sd", "", "", 0, key.high - key.low, key.unit, "standard deviation"}
            : Key{key.name + ".sd_relative", "", "", 0, 1, "fraction", "sd over the value"};
     const auto read = number(sd ? *sd : *relative, rule);
+    if (read == 0.0) {
+      mistakes_.add(line_of(sd ? *sd : *relative),
+                    fmt::format("{} is 0: no measurement is without error. Give the standard "
+                                "deviation of repeats, or leave it out if it is not known.",
+                                rule.name));
+      return false;
+    }
     m.sd = read.value_or(0.0) * (sd ? 1.0 : std::fabs(m.value));
     return read.has_value();
   }

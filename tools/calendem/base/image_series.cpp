@@ -34,7 +34,7 @@ std::vector<std::string> files_of_series(const std::string &file) {
   const std::regex place("%0?[0-9]*d");
   const std::string name = fs::path(file).filename().string();
   std::smatch hit;
-  if (!is_tiff(file) || !std::regex_search(name, hit, place))
+  if ((!is_tiff(file) && image_ending(file) != ".png") || !std::regex_search(name, hit, place))
     return {file};
   const std::string before = hit.prefix(), after = hit.suffix();
   const fs::path folder = fs::absolute(file).parent_path();

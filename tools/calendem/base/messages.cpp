@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/messages.h"
 #include <algorithm>
+#include <cstdio>
 #include <fmt/format.h>
+#include <iostream>
+#include <new>
+#include <nlohmann/json.hpp>
 
 namespace calendem {
 
@@ -76,6 +80,39 @@ std::string as_list(const std::vector<std::string> &texts) {
   for (const std::string &text : texts)
     out += "\n- " + text;
   return out;
+}
+
+namespace {
+
+/// A message that cannot be written, as on a full disk, is no reason for another exit status.
+void say(const std::string &message) { std::fputs(message.c_str(), stderr); }
+
+} // namespace
+
+int exit_status_of(const std::function<int()> &work) {
+  int status = kDone;
+  try {
+    status = work();
+  } catch (const Failure &e) {
+    say(std::string(e.what()) + "\n");
+    return e.exit_status();
+  } catch (const std::bad_alloc &) {
+    say("not enough memory. Take a smaller cell or image, or a machine with more.\n");
+    return kBadInput;
+  } catch (const nlohmann::json::exception &e) {
+    say(fmt::format("a JSON file is not as calendem writes it ({}). Was it edited, or made by "
+                    "another version? Make it again.\n",
+                    e.what()));
+    return kBadInput;
+  } catch (const std::exception &e) {
+    say(fmt::format("calendem: {}\n", e.what()));
+    return kBadInput;
+  }
+  if (std::fflush(stdout) != 0 || !std::cout.flush()) {
+    say("the output could not be written. Is the disk full?\n");
+    return kBadInput;
+  }
+  return status;
 }
 
 } // namespace calendem

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // How the command line reports errors. A Mistake says where, what is wrong with the value met and
 // what is allowed, and what to do. Mistakes collects them, so that all of a file are seen at once.
-// Failure ends the program with them; main prints it and returns its exit status.
+// Failure ends the program with them; exit_status_of prints it.
 #ifndef CALENDEM_BASE_MESSAGES_H
 #define CALENDEM_BASE_MESSAGES_H
 
 #include <climits>
+#include <functional>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -26,6 +27,9 @@ public:
 private:
   ExitStatus exit_status_;
 };
+
+/// Does the work of a program and returns its exit status. What is thrown becomes a message on stderr.
+int exit_status_of(const std::function<int()> &work);
 
 /// Each on a line of its own, after "- "; begins with a line's end.
 std::string as_list(const std::vector<std::string> &texts);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/toml_reader.h"
+#include "base/plain_text.h"
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -33,14 +34,15 @@ std::string read_text(const std::string &file, Mistakes &mistakes) {
     mistakes.add(0, fmt::format("cannot be read: {}.", std::strerror(errno)));
     return text;
   }
-  text.assign(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
-  if (std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isspace(c); })) {
+  const PlainText read = plain_text({std::istreambuf_iterator<char>(in), {}});
+  if (!read.wrong.empty())
+    mistakes.add(0, "the file " + read.wrong);
+  else if (read.text.find_first_not_of(" \t\n\v\f") == std::string::npos)
     mistakes.add(0, "the file is empty. input_scripts/cases/ has examples to start from.");
-    text.clear();
-  }
+  else
+    text = read.text;
   return text;
 }
-
 /// Start and end, without its newline, of line number `line` (from 1).
 std::pair<size_t, size_t> place_of(const std::string &text, int line) {
   size_t begin = 0;
@@ -117,7 +119,6 @@ const std::vector<Described> &kinds() {
        {"experiment", "condition"}},
       {FileKind::Study, "a study", "study", {"study", "vary"}},
       {FileKind::Bank, "a bank", "bank", {"bank", "full_cell", "numerics"}},
-      {FileKind::Round, "a withheld round", "withheld make", {"round"}},
       {FileKind::Material,
        "a material",
        "validate, or its path to the key 'material' of a recipe",

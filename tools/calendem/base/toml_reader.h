@@ -30,7 +30,7 @@ inline int line_of(const toml::node &node) { return static_cast<int>(node.source
 /// A value as a message shows it: `"text"`, `3.5`, `a table`.
 std::string shown(const toml::node &node);
 
-enum class FileKind { Recipe, Film, Tomogram, Case, Experiment, Study, Bank, Round, Material };
+enum class FileKind { Recipe, Film, Tomogram, Case, Experiment, Study, Bank, Material };
 
 /// As parse_toml. Throws Failure(2) if the file's tables are those of another kind.
 TomlFile parse_toml(const std::string &file, FileKind wanted, Mistakes &mistakes);

@@ -2,6 +2,7 @@
 #include "bank/runs.h"
 #include "base/messages.h"
 #include "base/output_folder.h"
+#include "base/provenance.h"
 #include "commands/commands.h"
 #include "simulate/making.h"
 #include <algorithm>

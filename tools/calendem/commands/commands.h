@@ -18,21 +18,21 @@ namespace calendem {
 
 struct StudyOptions;
 
-void add_pack_verb(CLI::App &app);      ///< pack SPEC.toml -o DIR [--seed N] [--ranks N] [--force]
-void add_dry_verb(CLI::App &app);       ///< dry SPEC.toml -o DIR
-void add_tomogram_verb(CLI::App &app);  ///< tomogram SPEC.toml -o FILE.mhd
-void add_run_verb(CLI::App &app);       ///< run CASE.toml -o DIR [--ranks N] [--resume]
-void add_collect_verb(CLI::App &app);   ///< collect DIR: of what plain input scripts left there
-void add_study_verb(CLI::App &app);     ///< study STUDY.toml -o DIR [--jobs N] [--slurm] ...
-void add_bank_verb(CLI::App &app);      ///< bank BANK.toml -o DIR, with the options of study
+void add_pack_verb(CLI::App &app);     ///< pack SPEC.toml -o DIR [--seed N] [--ranks N] [--force]
+void add_dry_verb(CLI::App &app);      ///< dry SPEC.toml -o DIR
+void add_tomogram_verb(CLI::App &app); ///< tomogram SPEC.toml -o FILE.mhd
+void add_run_verb(CLI::App &app);      ///< run CASE.toml -o DIR [--ranks N] [--resume]
+void add_collect_verb(CLI::App &app);  ///< collect DIR: of what plain input scripts left there
+void add_study_verb(CLI::App &app);    ///< study STUDY.toml -o DIR [--jobs N] [--slurm] ...
+void add_bank_verb(CLI::App &app); ///< bank BANK.toml -o DIR [--check], with the options of study
 /// Makes the runs of a bank of points and its table. `from`: tables whose runs are taken.
 void make_bank(const StudyOptions &options, const std::vector<std::string> &from);
 void add_measure_verb(CLI::App &app);   ///< measure DIR|IMAGE -o OUT
 void add_sample_verb(CLI::App &app);    ///< sample DIR... --one gap|pressure -o DIR
+void add_press_verb(CLI::App &app);     ///< press RAW.csv... -o CURVE.csv --diameter-mm D
 void add_report_verb(CLI::App &app);    ///< report DIR... [-o FILE.html]
 void add_compare_verb(CLI::App &app);   ///< compare EXPERIMENT.toml DIR... -o DIR
 void add_diagnose_verb(CLI::App &app);  ///< diagnose EXPERIMENT.toml -o DIR [--bank BANK.toml]
-void add_withheld_verb(CLI::App &app);  ///< withheld make | answer | score | rehearse
 void add_calibrate_verb(CLI::App &app); ///< calibrate EXPERIMENT.toml... -o DIR [--bank BANK.toml]
 void add_predict_verb(
     CLI::App &app);                  ///< predict MODEL.json RECIPE.toml... --pressure 20:300 -o DIR

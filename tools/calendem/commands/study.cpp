@@ -7,6 +7,7 @@
 #include "base/provenance.h"
 #include "commands/commands.h"
 #include "diagnose/bank/bank_table.h"
+#include "diagnose/bank_check.h"
 #include "diagnose/choose_runs.h"
 #include "report/study_page.h"
 #include "simulate/sample.h"
@@ -29,7 +30,9 @@ struct BankOptions {
   std::vector<std::string> from; ///< tables whose runs are taken
   int choose = 0;                ///< points to be chosen, for...
   std::string experiment;
-  double cells = 0.0; ///< 0: from the sample's diameter
+  double cells = 0.0; ///< of a sample; 0: from its diameter, for --check one
+  bool check = false;
+  int draws = 0; ///< for that; 0: packings are left out
 };
 
 /// A study of points and where it goes.
@@ -122,10 +125,23 @@ void print(const RunChoice &choice, const BankOptions &o, const std::string &tab
     fmt::print("- {}\n", text);
 }
 
+/// The table in the output folder, else the one beside the bank's file.
+std::string table_there(const BankOptions &o, const BankSpec &spec) {
+  const std::string own = o.study.folder + "/bank.csv";
+  return std::filesystem::is_regular_file(own) ? own : table_of(spec);
+}
+
+BankCheckOptions check_options(const BankOptions &o, const BankSpec &spec) {
+  BankCheckOptions out = {spec.file, table_there(o, spec), o.study.folder + "/check"};
+  out.jobs = std::max(1, o.study.jobs);
+  out.draws = o.draws;
+  out.cells = std::max(1.0, o.cells);
+  return out;
+}
+
 /// Chosen for what they tell about an experiment: nothing is run.
 void choose_points_of(const BankOptions &o, const BankSpec &spec) {
-  const std::string file = o.study.folder + "/chosen.csv", own = o.study.folder + "/bank.csv",
-                    table = std::filesystem::is_regular_file(own) ? own : table_of(spec);
+  const std::string file = o.study.folder + "/chosen.csv", table = table_there(o, spec);
   must_be_ours(file, "effect,base_point,value");
   std::error_code none;
   if (!spec.chosen_file.empty() && std::filesystem::equivalent(file, spec.chosen_file, none))
@@ -151,6 +167,8 @@ void make_bank(const BankOptions &o) {
   const BankSpec spec = read_bank_spec(o.study.file);
   if (o.choose > 0)
     return choose_points_of(o, spec);
+  if (o.check)
+    return check_bank(check_options(o, spec));
   const std::vector<BankRow> rows = rows_from(o, spec);
   std::vector<Part> parts = parts_of(spec, o, rows);
   if (o.full_cell) {
@@ -165,7 +183,7 @@ void make_bank(const BankOptions &o) {
     return;
   }
   std::optional<Failure> failed; // of some runs: the other part is made all the same
-  for (const Part &part : parts)
+  for (const Part &part : parts) {
     try {
       if (!part.runs.empty())
         make_study(part.study, part.options);
@@ -177,12 +195,44 @@ void make_bank(const BankOptions &o) {
       if (stop_requested() != 0)
         break;
     }
+  }
   if (o.study.slurm.dry_run)
     return;
   make_output_folder(o.study.folder);
   write_table(spec, parts, o.study.folder, rows);
   if (failed)
     throw *failed;
+}
+
+/// Options that ask a bank instead of making it; returns that of the sample's size.
+CLI::Option *add_questions(CLI::App &verb, BankOptions &o) {
+  CLI::Option *choose =
+      verb.add_option("--choose", o.choose,
+                      "run nothing: choose so many points that would tell most about --experiment")
+          ->check(CLI::Range(1, 10000));
+  CLI::Option *experiment =
+      verb.add_option("--experiment", o.experiment, "experiment (TOML) that points are chosen for")
+          ->needs(choose);
+  choose->needs(experiment);
+  CLI::Option *check = verb.add_flag(
+      "--check", o.check,
+      "run nothing: how well the bank diagnoses, each packing left out in turn and its runs taken "
+      "for samples; in check/ of the folder");
+  verb.add_option("--drawn", o.draws,
+                  "leave nothing out: draw so many samples of the base model and of each "
+                  "effect from the bank's predictions, as if its stated errors were exact")
+      ->needs(check)
+      ->check(CLI::Range(1, 100000));
+  for (const char *other :
+       {"--only", "--table", "--slurm", "--slurm-dry-run", "--full-cell", "--from"})
+    for (CLI::Option *instead : {choose, check})
+      instead->excludes(verb.get_option(other));
+  check->excludes(choose);
+  return verb
+      .add_option("--cells", o.cells,
+                  "how many of the bank's cells the sample of --choose (default: from "
+                  "sample_diameter_mm) or --drawn (default: one) is as large as")
+      ->check(finite_range(1.0, 1e12));
 }
 
 } // namespace
@@ -197,27 +247,18 @@ void add_bank_verb(CLI::App &app) {
   verb->add_option("--from", o->from,
                    "tables whose runs are taken and not made again: of this bank, or of one that "
                    "stands for another electrode ([full_cell] with other_electrode)");
-  CLI::Option *choose =
-      verb->add_option("--choose", o->choose,
-                       "run nothing: choose so many points that would tell most about --experiment")
-          ->check(CLI::Range(1, 10000));
-  CLI::Option *experiment = verb->add_option("--experiment", o->experiment,
-                                             "experiment (TOML) that points are chosen for")
-                                ->needs(choose);
-  choose->needs(experiment);
-  for (const char *other :
-       {"--only", "--table", "--slurm", "--slurm-dry-run", "--full-cell", "--from"})
-    choose->excludes(verb->get_option(other));
-  verb->add_option("--cells", o->cells,
-                   "how many of the bank's cells its sample is as large as; default: from "
-                   "sample_diameter_mm")
-      ->needs(choose)
-      ->check(finite_range(1.0, 1e12));
-  verb->callback([o] {
-    if (bank::has_points(o->study.file))
-      make_bank(o->study, o->from);
-    else
+  const CLI::Option *cells = add_questions(*verb, *o);
+  verb->callback([=] {
+    if (cells->count() > 0 && o->choose == 0 && o->draws == 0)
+      throw CLI::RequiresError("--cells", "--choose or --drawn");
+    if (!bank::has_points(o->study.file))
       make_bank(*o);
+    else if (o->check || o->choose > 0)
+      throw Failure(kBadInput, o->study.file +
+                                   " is a bank of points: --check and --choose ask a bank of base "
+                                   "points with effects beside them.");
+    else
+      make_bank(o->study, o->from);
   });
 }
 

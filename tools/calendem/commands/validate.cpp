@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "bank/bank_file.h"
 #include "base/case.h"
 #include "base/experiment.h"
 #include "base/material_notes.h"
@@ -6,11 +7,12 @@
 #include "base/toml_reader.h"
 #include "commands/commands.h"
 #include "diagnose/bank/bank_table.h"
+#include "diagnose/compare/observables.h"
 #include "electrode/pack/from_structure.h"
+#include "electrode/pack/measured_bodies.h"
 #include "electrode/slurry/dry.h"
 #include "electrode/tomogram.h"
 #include "simulate/study_file.h"
-#include "withheld/truths.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
@@ -43,8 +45,6 @@ FileKind kind_of(const std::string &file) {
     return FileKind::Study;
   if (root.contains("bank"))
     return FileKind::Bank;
-  if (root.contains("round"))
-    return FileKind::Round;
   if (root.contains("also_called") || root.contains("calibrated_on"))
     return FileKind::Material;
   FileKind best = FileKind::Recipe;
@@ -64,26 +64,36 @@ FileKind kind_of(const std::string &file) {
 /// Prints what its user should know, too.
 std::string recipe_in_words(const Recipe &recipe) {
   read_input(recipe);
+  if (recipe.shapes.given()) // as pack and dry do
+    library_of(recipe);
   for (const std::string &text : notes_of(recipe))
     fmt::print("note: {}: {}\n", recipe.file, text);
   const std::string sizes = sizes_in_words(recipe);
   return sizes.empty() ? "recipe" : "recipe; " + sizes;
 }
 
+std::string experiment_in_words(const std::string &file) {
+  const Experiment e = read_experiment(file);
+  std::vector<std::string> not_said;
+  for (const Condition &c : e.conditions)
+    image_observables_of(e, c, not_said);
+  return fmt::format("experiment of {} conditions", e.conditions.size());
+}
+
 std::string name_after_check(const std::string &file) {
   switch (kind_of(file)) {
   case FileKind::Experiment:
-    return fmt::format("experiment of {} conditions", read_experiment(file).conditions.size());
+    return experiment_in_words(file);
   case FileKind::Study:
     return fmt::format("study of {} runs", read_study(file).runs.size());
   case FileKind::Bank: {
+    if (bank::has_points(file)) {
+      const bank::Bank points = bank::read_bank(file);
+      return fmt::format("bank of {} runs",
+                         bank::study_of(points, bank::points_of(points.design)).runs.size());
+    }
     const BankSpec spec = read_bank_spec(file);
     return fmt::format("bank of {} runs", pressed_study(spec, bank_runs(spec)).runs.size());
-  }
-  case FileKind::Round: {
-    const Round round = read_round(file);
-    const TruthRuns runs = truth_runs(round, with_pairs(round, draw_truths(round, "any")));
-    return fmt::format("withheld round of {} runs", runs.study.runs.size());
   }
   case FileKind::Case:
     read_case(file);
@@ -92,7 +102,7 @@ std::string name_after_check(const std::string &file) {
     read_tomogram_spec(file);
     return "tomogram";
   case FileKind::Film:
-    read_film_recipe(file);
+    recipe_in_words(read_film_recipe(file).recipe);
     return "recipe of a film";
   case FileKind::Material: {
     const ReferenceMaterial m = read_material(std::filesystem::absolute(file).string());

@@ -11,6 +11,7 @@ namespace calendem {
 
 PhaseImage phases_of(const LabelImage &image, std::int32_t background,
                      std::optional<std::int32_t> cbd) {
+  refuse_negative_labels(image, {background, cbd});
   PhaseImage out;
   static_cast<LabelImage &>(out) = image;
   std::unordered_map<std::int32_t, std::int32_t> number;

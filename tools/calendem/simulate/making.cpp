@@ -243,8 +243,8 @@ void Making::report(int k, const std::string &what) {
 
 std::vector<std::string> Making::command(const char *verb, const std::string &spec,
                                          const std::string &folder) const {
-  return {this_program(),           verb,         spec,       "-o", folder, "--ranks",
-          std::to_string(o_.ranks), "--liggghts", o_.liggghts};
+  return {o_.calendem,  verb,       spec, "-o", folder, "--ranks", std::to_string(o_.ranks),
+          "--liggghts", o_.liggghts};
 }
 
 std::string Making::pack(int k) {
@@ -280,7 +280,7 @@ std::string Making::run(int k) {
 
 std::string Making::measure(int k) {
   const std::string folder = run_folder(states_[k]);
-  return ended_with(run_program({this_program(), "measure", folder, "--moment", "releases"},
+  return ended_with(run_program({o_.calendem, "measure", folder, "--moment", "releases"},
                                 folder + ".measure.log"));
 }
 

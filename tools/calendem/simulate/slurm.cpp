@@ -167,7 +167,7 @@ SlurmArray array_of(const StudyOptions &o, StudyStep step) {
   a.folder = o.folder + "/slurm";
   a.purpose = packings ? "A task makes the packing of the run of its number."
                        : "A task makes the run of its number, when the packings are there.";
-  a.command = {this_program(),
+  a.command = {o.calendem,
                o.verb,
                fs::absolute(o.file).lexically_normal().string(),
                "--output",

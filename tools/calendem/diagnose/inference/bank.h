@@ -4,7 +4,6 @@
 #define CALENDEM_DIAGNOSE_INFERENCE_BANK_H
 
 #include "inference/quantities.h"
-#include <functional>
 #include <utility>
 
 namespace calendem::inference {
@@ -44,23 +43,6 @@ std::vector<std::pair<int, int>> pairs_of(const Bank &bank, const std::string &e
 
 /// Places of the runs that have the observables at these places, beside a base run that has.
 std::vector<int> runs_that_have(const Bank &bank, const std::vector<int> &observables);
-
-/// A mistake of measurement acts on numbers, no simulation is needed: what the instrument shows of
-/// true values, given the amplitudes. Amplitudes 0 must give the values back.
-using FaultAction = std::function<Vector(const std::vector<ObservableId> &, const Vector &values,
-                                         const Vector &amplitudes)>;
-
-/// Adds the fault as an effect, with one run for every base run; amplitudes are spread over their
-/// priors by a Sobol sequence.
-void add_measurement_fault(Bank &bank, const ModelledEffect &fault, const FaultAction &action);
-
-/// One row per run: effect,packing,<base parameters>,<effect.parameter ...>,<keys of observables>.
-/// Numbers with 17 digits: reading gives the same bytes again.
-std::string write_table(const Bank &bank);
-
-/// Fills `runs` of a bank whose parameters, effects and observables are set. `file` is for
-/// messages. Throws Failure(2) with every column that is missing and every line that is damaged.
-void read_table(Bank &bank, const std::string &text, const std::string &file);
 
 } // namespace calendem::inference
 

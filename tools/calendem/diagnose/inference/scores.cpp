@@ -2,7 +2,6 @@
 #include "diagnose/inference/scores.h"
 #include "base/random.h"
 #include <algorithm>
-#include <boost/math/distributions/beta.hpp>
 #include <cmath>
 #include <map>
 
@@ -12,31 +11,6 @@ namespace {
 constexpr std::uint64_t kDrawsStream = 0xb007; // of the stream of draws
 
 } // namespace
-
-double log_score(const std::vector<std::vector<double>> &probabilities,
-                 const std::vector<int> &truths, double floor) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < truths.size(); ++i)
-    sum -= std::log(std::max(probabilities[i][std::size_t(truths[i])], floor));
-  return sum / double(truths.size());
-}
-
-double brier_score(const std::vector<std::vector<double>> &probabilities,
-                   const std::vector<int> &truths) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < truths.size(); ++i)
-    for (std::size_t k = 0; k < probabilities[i].size(); ++k) {
-      const double off = probabilities[i][k] - (int(k) == truths[i] ? 1.0 : 0.0);
-      sum += off * off;
-    }
-  return sum / double(truths.size());
-}
-
-double brier_skill(const std::vector<std::vector<double>> &probabilities,
-                   const std::vector<int> &truths, const std::vector<double> &reference) {
-  const std::vector<std::vector<double>> always(truths.size(), reference);
-  return 1.0 - brier_score(probabilities, truths) / brier_score(always, truths);
-}
 
 double auroc(const std::vector<double> &scores, const std::vector<bool> &positive) {
   double higher = 0.0, pairs = 0.0;
@@ -78,13 +52,6 @@ clustered_bootstrap(const std::vector<int> &cluster_of_case,
     return values[std::size_t(std::lround(share * double(values.size() - 1)))];
   };
   return {at(0.5 * (1.0 - confidence)), at(0.5 * (1.0 + confidence))};
-}
-
-std::pair<double, double> clopper_pearson(int hits, int trials, double confidence) {
-  const double tail = 0.5 * (1.0 - confidence);
-  using Beta = boost::math::beta_distribution<>;
-  return {hits == 0 ? 0.0 : quantile(Beta(hits, trials - hits + 1), tail),
-          hits == trials ? 1.0 : quantile(complement(Beta(hits + 1, trials - hits), tail))};
 }
 
 } // namespace calendem::inference

@@ -256,9 +256,9 @@ bool states_voxel_size(const std::string &file) {
   const std::string ending = image_ending(file);
   if (ending == ".vti")
     return states_voxel_size_of_vti(file);
-  if (is_tiff(file))
-    return false;
   const bool meta = ending == ".mhd" || ending == ".mha";
+  if (!meta && ending != ".nrrd" && ending != ".nhdr")
+    return false;
   const ImageHeader h(file, meta ? "=" : ": ");
   return meta ? h.has("ElementSpacing") || h.has("ElementSize")
               : h.has("spacings") || h.has("space directions");

@@ -88,10 +88,20 @@ long unpacked_bytes(const std::string &file, long offset, long length, long most
 // Label images in TIFF files, by libtiff: VTK's reader changes the numbers of files that show 0 as
 // white, cannot read tiles in a stack and turns a single page upside down, but not a stack.
 
-/// All pages, the first one at the bottom, with rows and numbers as the file stores them, whatever
+/// All pages, also those that a description announces behind the only one, the first at the bottom, with rows and numbers as the file stores them, whatever
 /// colours and orientation it gives them. Throws Failure(2) unless the file is whole and its pages
 /// have one size and one number per voxel.
 vtkSmartPointer<vtkImageData> read_tiff(const std::string &file);
+/// Sides of a voxel [um] as ImageJ (Fiji) or OME state them; 0 where they do not.
+std::array<double, 3> voxel_size_of_tiff(const std::string &file);
+
+// Arrays of NumPy and slices as PNG.
+
+/// Axes (z, y, x) of whole numbers, in a .npy file or alone in a .npz file. Throws Failure(2) unless
+/// the file is whole.
+vtkSmartPointer<vtkImageData> read_numpy(const std::string &file);
+/// Grey values of 8 or 16 bits, the rows as the file stores them. Throws Failure(2) for colours.
+vtkSmartPointer<vtkImageData> read_png(const std::string &file);
 
 } // namespace calendem
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <map>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkIntArray.h>
@@ -93,6 +94,10 @@ vtkSmartPointer<vtkImageData> read_one(const std::string &file) {
     check_nrrd(file);
     vtkNew<vtkNrrdReader> reader;
     image = read_with(file, reader);
+  } else if (ending == ".png") {
+    image = read_png(file);
+  } else if (ending == ".npy" || ending == ".npz") {
+    image = read_numpy(file);
   } else {
     image = read_tiff(file);
   }
@@ -137,22 +142,61 @@ void append(const std::string &file, LabelImage &out) {
   out.n[2] += n[2];
 }
 
+// Sides [um] as the file states them; 0 where it does not. `of_header`: what VTK took.
+Eigen::Vector3d stated_voxel(const std::string &file, const Eigen::Vector3d &of_header) {
+  const bool series = files_of_series(file) != std::vector<std::string>{file};
+  if (series || !is_tiff(file))
+    return double(!series && states_voxel_size(file)) * of_header.cwiseAbs();
+  const std::array<double, 3> v = voxel_size_of_tiff(file);
+  return {v[0], v[1], v[2]};
+}
+
+std::string in_words(const Eigen::Vector3d &voxel) {
+  return fmt::format("{:.4g} x {:.4g} x {:.4g} um", voxel[0], voxel[1], voxel[2]);
+}
+
 void set_voxel_size(const std::string &file, double voxel_um, LabelImage &image) {
-  if (voxel_um > 0.0)
-    image.voxel.setConstant(voxel_um);
-  else if (!states_voxel_size(file))
-    refuse_image(file, fmt::format("the file states no voxel size. Give {}.", kVoxelSizeKeys));
-  else if (image.voxel == Eigen::Vector3d::Ones())
-    fmt::print(stderr,
-               "note: {}: its header says voxels of 1 um. Some programs write that when they do "
-               "not know: if so, give {}.\n",
-               file, kVoxelSizeKeys);
-  image.voxel = image.voxel.cwiseAbs();
+  const Eigen::Vector3d stated = stated_voxel(file, image.voxel);
+  const bool known = stated.minCoeff() > 0.0;
+  if (voxel_um <= 0.0 && !known)
+    refuse_image(file, fmt::format("the file states no voxel size{}. Give {}.",
+                                   stated[0] > 0.0
+                                       ? fmt::format(" but for {:.4g} um along x: the distance of "
+                                                     "the slices is not there",
+                                                     stated[0])
+                                       : "",
+                                   kVoxelSizeKeys));
+  image.voxel = voxel_um > 0.0 ? Eigen::Vector3d::Constant(voxel_um) : stated;
   if (image.voxel.minCoeff() < 1e-3 || image.voxel.maxCoeff() > 10.0)
-    refuse_image(file,
-                 fmt::format("a voxel is {:g} x {:g} x {:g} um by its header; allowed is 0.001 to "
-                             "10 um. If the header is in mm or m, give {}.",
-                             image.voxel[0], image.voxel[1], image.voxel[2], kVoxelSizeKeys));
+    refuse_image(file, fmt::format("a voxel is {} by its header; allowed is 0.001 to 10 um. If the "
+                                   "header is in mm or m, give {}.",
+                                   in_words(image.voxel), kVoxelSizeKeys));
+  if (voxel_um <= 0.0)
+    fmt::print(
+        stderr, "note: {}: voxels of {} by its header{}\n", file, in_words(stated),
+        stated != Eigen::Vector3d::Ones()
+            ? "."
+            : fmt::format(". Some programs write that when they do not know: if so, give {}.",
+                          kVoxelSizeKeys));
+  else if (known && (stated - image.voxel).cwiseAbs().maxCoeff() > 0.01 * voxel_um)
+    fmt::print(stderr,
+               "note: {}: its header says voxels of {}; those of {:g} um are taken, as told.\n",
+               file, in_words(stated), voxel_um);
+}
+
+// Images of phases have few labels; their shares show which is which.
+void print_phases(const LabelImage &image) {
+  constexpr size_t kMost = 4;
+  std::map<std::int32_t, size_t> count;
+  for (const std::int32_t label : image.label)
+    if (++count[label]; count.size() > kMost)
+      return;
+  std::string shares;
+  for (const auto &[label, voxels] : count)
+    shares += fmt::format("{}{} ({:.1f} %)", shares.empty() ? "" : ", ", label,
+                          100.0 * double(voxels) / double(image.label.size()));
+  fmt::print(stderr, "note: {}: {}: labels {}.\n", image.file,
+             count.size() == 2 ? "a binary image" : "few labels, as of phases", shares);
 }
 
 template <class Writer> bool write_with(vtkImageData *data, const std::string &file) {
@@ -204,10 +248,26 @@ LabelImage read_label_image(const std::string &file, double voxel_um) {
                              "Convert it.",
                              image_ending(file), readable_images()));
   LabelImage image;
+  image.file = file;
   for (const std::string &slice : files_of_series(file))
     append(slice, image);
   set_voxel_size(file, voxel_um, image);
+  print_phases(image);
   return image;
+}
+
+void refuse_negative_labels(const LabelImage &image,
+                            const std::vector<std::optional<std::int32_t>> &known) {
+  for (size_t v = 0; v < image.label.size(); ++v)
+    if (const std::int32_t label = image.label[v];
+        label < 0 && std::find(known.begin(), known.end(), label) == known.end())
+      refuse_image(image.file,
+                   fmt::format("voxel ({}, {}, {}) has the label {}; a particle's is above 0. Name "
+                               "it if it is the background's or CBD's (shapes.background, "
+                               "labels_pore, labels_cbd, --background, --cbd-label), or save the "
+                               "labels as unsigned numbers.",
+                               v % size_t(image.n[0]), v / size_t(image.n[0]) % size_t(image.n[1]),
+                               v / size_t(image.n[0]) / size_t(image.n[1]), label));
 }
 
 void write_label_image(const LabelImage &image, const std::string &file) {
@@ -229,7 +289,8 @@ void write_label_image(const LabelImage &image, const std::string &file) {
 namespace fs = std::filesystem;
 namespace {
 
-const char *const kEndings[] = {".vti", ".mhd", ".mha", ".nrrd", ".nhdr", ".tif", ".tiff"};
+const char *const kEndings[] = {".vti", ".mhd",  ".mha", ".nrrd", ".nhdr",
+                                ".tif", ".tiff", ".png", ".npy",  ".npz"};
 
 } // namespace
 

@@ -96,6 +96,7 @@ ShapeLibrary make_library(const LabelImage &image, std::int32_t background,
                           const std::string &source) {
   ShapeLibrary l;
   l.source = fs::path(source).filename().string();
+  refuse_negative_labels(image, {background});
   for (const Region &r : find_regions(image, background)) {
     ++l.labels;
     if (r.cut || r.voxels < kFewestVoxels) {
@@ -110,6 +111,15 @@ ShapeLibrary make_library(const LabelImage &image, std::int32_t background,
     shape.weight = border_weight(image, r);
     l.shapes.push_back(std::move(shape));
   }
+  constexpr int kPhases = 3;
+  if (l.shapes.empty() && l.labels <= kPhases)
+    throw Failure(
+        kBadInput,
+        fmt::format("{}: {} labels beside the background {}, and no whole particle: these "
+                    "look like phases. Shapes need a number for each particle: separate "
+                    "those of the active material first (Fiji: MorphoLibJ > Distance "
+                    "Transform Watershed 3D), or give the right shapes.background.",
+                    source, l.labels, background));
   if (l.shapes.empty())
     throw Failure(kBadInput,
                   fmt::format("{}: of {} labels {} are cut by the border and {} have fewer than {} "

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/structure/image_header.h"
+#include "electrode/structure/particle_data.h"
 #include <algorithm>
 #include <cstdarg>
 #include <cstdint>
@@ -7,7 +8,10 @@
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
+#include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <tiffio.h>
 #include <vector>
 #include <vtkImageData.h>
@@ -60,6 +64,82 @@ private:
   TIFFErrorHandler errors_ = TIFFSetErrorHandler(note_error);
 };
 
+double um_of(const std::string &unit) {
+  static const std::map<std::string, double> known = {
+      {"nm", 1e-3},       {"nanometer", 1e-3}, {"um", 1.0},       {"micron", 1.0},
+      {"microns", 1.0},   {"micrometer", 1.0}, {"\\u00B5m", 1.0}, {"\xC2\xB5m", 1.0},
+      {"\xCE\xBCm", 1.0}, {"\xB5m", 1.0},      {"mm", 1e3},       {"millimeter", 1e3},
+      {"cm", 1e4},        {"m", 1e6},          {"inch", 25400.0}};
+  const auto at = known.find(unit);
+  return at == known.end() ? 0.0 : at->second;
+}
+
+// What the program that wrote the file says of the stack, in the description of its first page:
+// ImageJ (Fiji) by lines name=value, tifffile by {"shape": [...]}, OME by XML.
+class Description {
+public:
+  explicit Description(std::string text) : text_(std::move(text)) {
+    is_imagej_ = text_.rfind("ImageJ=", 0) == 0;
+  }
+
+  /// Pages of one image; 0: not stated.
+  double pages(double voxels_of_page) const {
+    if (is_imagej_)
+      return std::max(1.0, number("images"));
+    if (const auto j = nlohmann::json::parse(text_, nullptr, false);
+        j.is_object() && j.contains("shape") && j["shape"].is_array()) {
+      double all = 1.0;
+      for (const auto &n : j["shape"])
+        all *= n.is_number() ? n.get<double>() : 1.0;
+      return all / voxels_of_page;
+    }
+    return number("SizeZ") * times();
+  }
+  /// Channels and moments: a label image has one of each.
+  double times() const {
+    double all = 1.0;
+    for (const char *name : {"channels", "frames", "SizeC", "SizeT"})
+      all *= std::max(1.0, number(name));
+    return all;
+  }
+  /// Sides [um] of a voxel whose page has so many pixels per unit; 0: not stated.
+  std::array<double, 3> voxel(double x_per_unit, double y_per_unit) const {
+    std::array<double, 3> v = {number("PhysicalSizeX"), number("PhysicalSizeY"),
+                               number("PhysicalSizeZ")};
+    if (is_imagej_) {
+      const double um = um_of(word("unit"));
+      v = {um / x_per_unit, um / y_per_unit, um * std::fabs(number("spacing"))};
+      if (v[2] == 0.0 && x_per_unit == 1.0) // ImageJ leaves out a spacing of 1
+        v[2] = um;
+    } else
+      for (int k = 0; k < 3; ++k) // XML; micrometres unless it says otherwise
+        if (const std::string unit = word(std::string("PhysicalSize") + "XYZ"[k] + "Unit");
+            !unit.empty())
+          v[k] *= um_of(unit);
+    for (double &side : v)
+      side = std::isfinite(side) ? std::max(0.0, side) : 0.0;
+    return v;
+  }
+
+private:
+  std::string text_;
+  bool is_imagej_;
+
+  std::string word(const std::string &name) const {
+    const std::string before = is_imagej_ ? "\n" + name + "=" : " " + name + "=\"";
+    const size_t at = text_.find(before);
+    if (at == std::string::npos)
+      return "";
+    const size_t from = at + before.size(),
+                 to = text_.find_first_of(is_imagej_ ? "\r\n" : "\"", from);
+    return text_.substr(from, to - from);
+  }
+  double number(const std::string &name) const {
+    const double v = number_in(word(name)).value_or(0.0);
+    return std::isfinite(v) ? v : 0.0;
+  }
+};
+
 class Tiff {
 public:
   explicit Tiff(const std::string &file) : file_(file), tiff_(TIFFOpen(file.c_str(), "r")) {
@@ -69,7 +149,16 @@ public:
 
   vtkSmartPointer<vtkImageData> read() {
     const Page first = page();
-    const long pages = count_pages(first), row = long(first.width) * first.bits / 8;
+    const Description description = description_of_first();
+    if (description.times() > 1.0)
+      refuse_image(file_, fmt::format("it holds {:.0f} channels or moments of the image; a label "
+                                      "image has one. Save one of them (Fiji: Image > Duplicate).",
+                                      description.times()));
+    const double stated = description.pages(double(first.width) * first.height);
+    long pages = count_pages(first);
+    const long row = long(first.width) * first.bits / 8;
+    if (stated > double(pages))
+      return read_behind_first(first, pages, stated);
     check_axes(file_, {long(first.width), long(first.height), pages}, file_size(), kPacked);
     const auto image = vtkSmartPointer<vtkImageData>::New();
     image->SetDimensions(int(first.width), int(first.height), int(pages));
@@ -81,6 +170,13 @@ public:
           !(TIFFIsTiled(tiff_.get()) ? read_tiles(first, row, to) : read_rows(first, row, to)))
         refuse_page(k + 1);
     return image;
+  }
+
+  std::array<double, 3> voxel() const {
+    float x = 1.0F, y = 1.0F; // pixels per unit
+    TIFFGetField(tiff_.get(), TIFFTAG_XRESOLUTION, &x);
+    TIFFGetField(tiff_.get(), TIFFTAG_YRESOLUTION, &y);
+    return description_of_first().voxel(x, y);
   }
 
 private:
@@ -96,6 +192,48 @@ private:
                                     "TIFF file. Copy it again.",
                                     number, said.empty() ? "it contradicts itself" : said));
   }
+  Description description_of_first() const { // before a second page is asked for
+    const char *text = nullptr;
+    TIFFGetField(tiff_.get(), TIFFTAG_IMAGEDESCRIPTION, &text);
+    return Description(text ? text : "");
+  }
+
+  // ImageJ and tifffile write large stacks with one directory: the other pages lie behind the first.
+  vtkSmartPointer<vtkImageData> read_behind_first(const Page &p, long pages, double stated) {
+    std::uint16_t compression = COMPRESSION_NONE;
+    TIFFGetFieldDefaulted(tiff_.get(), TIFFTAG_COMPRESSION, &compression);
+    const double page = double(p.width) * p.height * p.bits / 8.0;
+    const std::uint32_t last = TIFFNumberOfStrips(tiff_.get()) - 1;
+    const auto offset = [&](std::uint32_t strip) {
+      return TIFFGetStrileOffset(tiff_.get(), strip);
+    };
+    const std::uint64_t from = offset(0);
+    const bool dense =
+        !TIFFIsTiled(tiff_.get()) &&
+        (last == 0 || double(offset(last) - from + TIFFRawStripSize64(tiff_.get(), last)) == page);
+    if (pages != 1 || compression != COMPRESSION_NONE || stated != std::floor(stated) || !dense ||
+        double(from) + stated * page > double(file_size()))
+      refuse_image(file_,
+                   fmt::format("its description announces {:.10g} pages, {} can be read: the "
+                               "file is cut or only a part of the image. Copy it again, or "
+                               "save it with a page for each slice.",
+                               stated, pages));
+    check_axes(file_, {long(p.width), long(p.height), long(stated)}, file_size(), kPacked);
+    const auto image = vtkSmartPointer<vtkImageData>::New();
+    image->SetDimensions(int(p.width), int(p.height), int(stated));
+    image->AllocateScalars(p.type(), 1);
+    const long voxels = long(p.width) * p.height * long(stated);
+    std::ifstream in(file_, std::ios::binary);
+    in.seekg(long(from));
+    if (!in.read(static_cast<char *>(image->GetScalarPointer()), voxels * p.bits / 8))
+      refuse_page(2);
+    if (TIFFIsByteSwapped(tiff_.get()) && p.bits == 16)
+      TIFFSwabArrayOfShort(static_cast<std::uint16_t *>(image->GetScalarPointer()), voxels);
+    if (TIFFIsByteSwapped(tiff_.get()) && p.bits == 32)
+      TIFFSwabArrayOfLong(static_cast<std::uint32_t *>(image->GetScalarPointer()), voxels);
+    return image;
+  }
+
   long file_size() const { return long(std::filesystem::file_size(file_)); }
 
   Page page() const {
@@ -158,5 +296,7 @@ private:
 } // namespace
 
 vtkSmartPointer<vtkImageData> read_tiff(const std::string &file) { return Tiff(file).read(); }
+
+std::array<double, 3> voxel_size_of_tiff(const std::string &file) { return Tiff(file).voxel(); }
 
 } // namespace calendem
