@@ -2,7 +2,7 @@
 // fix ID all bond/bpm bodies FILE youngs_modulus E nu NU radius_ratio L tensile S shear T
 //     criterion signed|unsigned|as_printed damping D weibull M SEED breakable yes|no log FILE
 //     pressure PLATEN_FIX contact_diameter D surface_inset S inset_fading F LAW NUMBERS ...
-// fix_modify ID LAW NUMBERS ...       with a further law of strength, see registry/bond_strengths.h
+// fix_modify ID LAW NUMBERS ...       with a further law of strength, see laws/bond_laws.h
 // fix_modify ID bridges E NU L GAP S_AM S_CBD S_COLLECTOR RATIO
 // fix_modify ID shrinkage EPS T
 //
@@ -18,7 +18,7 @@
 // default, and by the part F times the part of its bonds that is broken less. All
 // stresses in kPa (units micro). Everything restarts, under the same fix ID. Bridges
 // (physics/binder_bridge.h) of modulus E, radius ratio L and tensile strengths S between CBD and
-// AM, CBD, collector (types as in registry/phases.h) are made with the bonds and damped as they
+// AM, CBD, collector (types as in laws/phases.h) are made with the bonds and damped as they
 // are; the script gives them again after a restart. No bond of a body and nothing of bodies counts
 // them. In the time T [us] from their creation they shrink by EPS (physics/drying_shrinkage.h); a
 // restart with another EPS, T, D, S or F is refused. Global vector: 1-9 as compute bond/bpm; bridges
