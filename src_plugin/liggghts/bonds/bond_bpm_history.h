@@ -21,8 +21,8 @@ enum BondState {
 };
 
 /// View of one pair's history values; vectors change sign in the host's mirrored copies. State and
-/// meeting distance stand last, beside the friction's values: a contact without a bond reads no
-/// more.
+/// meeting distance are the last two values, beside those of friction, so that a contact without a
+/// bond touches one cache line.
 class BondHistory {
 public:
   static constexpr int kSize = 11;
