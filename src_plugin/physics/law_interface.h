@@ -27,7 +27,7 @@
 //   range(surfaces)                    overlap over the smaller radius up to which the law has been
 //                                      compared with what it stands for
 //   limits(phases, params)             ContactLimits of the first parameter, all of them given
-// The list of registry/contact_law.h makes it known.
+// The list of laws/contact_laws.h makes it known.
 #ifndef CALENDEM_PHYSICS_LAW_INTERFACE_H
 #define CALENDEM_PHYSICS_LAW_INTERFACE_H
 

@@ -21,8 +21,8 @@ enum BondState {
 };
 
 /// View of one pair's history values; vectors change sign in the host's mirrored copies. State and
-/// meeting distance stand last, beside the friction's values: a contact without a bond reads no
-/// more.
+/// meeting distance are the last two values, beside those of friction, so that a contact without a
+/// bond touches one cache line.
 class BondHistory {
 public:
   static constexpr int kSize = 11;
@@ -31,7 +31,7 @@ public:
 
   int state() const { return static_cast<int>(h_[kState]); }
   void set_state(BondState s) { h_[kState] = s; }
-  /// Of the bond or the bridge: centre distance at its creation [um].
+  /// Centre distance at the creation of the bond or the bridge [um].
   double length() const { return h_[kLength]; }
   /// Centre distance [um] from which the contact counts: that at creation while bonded, and until a
   /// broken pair has separated; 0: the sum of radii; negative: the sum of radii and this.

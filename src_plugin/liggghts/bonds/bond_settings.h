@@ -3,8 +3,8 @@
 #ifndef CALENDEM_BOND_SETTINGS_H
 #define CALENDEM_BOND_SETTINGS_H
 
+#include "laws/bond_laws.h"
 #include "physics/bond_pair.h"
-#include "registry/bond_strengths.h"
 
 namespace LAMMPS_NS {
 

@@ -2,6 +2,7 @@
 #include "fix_bond_bpm.h"
 #include "bond_command.h"
 #include "bond_sums.h"
+#include "cell_growth.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -85,7 +86,7 @@ int FixBondBpm::modify_param(int narg, char **arg) {
 
 void FixBondBpm::init() {
   time_->stop_if_state_is_lost(this);
-  refuse_minimizer();
+  refuse_styles();
   grid_.choose();
   ledger_ = WorkLedger::find(lmp);
   MaterialChecks(lmp, this).check_properties();
@@ -103,13 +104,21 @@ void FixBondBpm::init() {
 }
 
 // A minimizer follows an energy, and the host's contacts have none; each of its iterations would
-// advance histories like a time step.
-void FixBondBpm::refuse_minimizer() {
+// advance histories like a time step. Respa does not call what makes the bonds. Fix multisphere
+// excludes pairs of one molecule before it has told spheres that they are in none.
+void FixBondBpm::refuse_styles() {
   if (update->whichflag == 2)
     error->fix_error(
         FLERR, this,
         "'minimize' does not know the energy of contacts and bonds. To let spheres come "
         "to rest, 'run' with fix viscous or nve/limit, or with 'damping' of the bonds");
+  if (!strcmp(update->integrate_style, "respa"))
+    error->fix_error(FLERR, this,
+                     "'run_style respa' makes no bonds. Use 'run_style verlet', the default");
+  if (modify->n_fixes_style("multisphere") + modify->n_fixes_style("concave") > 0)
+    error->fix_error(FLERR, this,
+                     "fix multisphere leaves pairs of spheres out of LIGGGHTS' first lists, and "
+                     "with them their bonds. For rigid clusters of spheres use fix rigid");
 }
 
 void FixBondBpm::check_bridges() {
@@ -134,6 +143,8 @@ void FixBondBpm::check_radii() {
 void FixBondBpm::setup_pre_exchange() { grid_.put_atoms_on(); }
 
 void FixBondBpm::post_integrate() {
+  if (domain->box_change_size && !CellGrowth::find(lmp))
+    grid_.choose(); // of fix deform; fix elongation keeps the cell on it
   grid_.put_atoms_on();
   if (bridges_.shrinkage().strain > 0.0)
     bridges_.shrink(update->dt);

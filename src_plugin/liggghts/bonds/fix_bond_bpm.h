@@ -2,7 +2,7 @@
 // fix ID all bond/bpm bodies FILE youngs_modulus E nu NU radius_ratio L tensile S shear T
 //     criterion signed|unsigned|as_printed damping D weibull M SEED breakable yes|no log FILE
 //     pressure PLATEN_FIX contact_diameter D surface_inset S inset_fading F LAW NUMBERS ...
-// fix_modify ID LAW NUMBERS ...       with a further law of strength, see registry/bond_strengths.h
+// fix_modify ID LAW NUMBERS ...       with a further law of strength, see laws/bond_laws.h
 // fix_modify ID bridges E NU L GAP S_AM S_CBD S_COLLECTOR RATIO
 // fix_modify ID shrinkage EPS T
 //
@@ -12,13 +12,18 @@
 // first set-up after the fix appears, between touching primaries of one body, once), the breaks,
 // and the event log. Every copy of a pair breaks in the same step, without communication; the
 // rank that owns the lower tag records the event, and events are gathered on
-// request, at the latest after 100 steps. Two primaries of one body that are not bonded, nor have
-// touched since their bond broke, meet at D times the sum of their radii, 1 by default. For all
-// other spheres, but not for walls, the surface of a body's primary lies S [um] inside it, 0 by
-// default, and by the part F times the part of its bonds that is broken less. All
-// stresses in kPa (units micro). Everything restarts, under the same fix ID. Bridges
+// request, at the latest after 100 steps. Contacts begin at a centre distance:
+//   two spheres with a bond, or not apart since       its length at creation
+//     it broke
+//   two primaries of one body, never bonded or        D times the sum of their radii (default 1)
+//     apart since their bond broke
+//   any other two spheres                             the sum of their radii, less for a primary
+//                                                     of a body the inset S [um] (default 0) times
+//                                                     1 - F times the part of its bonds broken
+//   a sphere and a wall                               its radius
+// All stresses in kPa (units micro). Everything restarts, under the same fix ID. Bridges
 // (physics/binder_bridge.h) of modulus E, radius ratio L and tensile strengths S between CBD and
-// AM, CBD, collector (types as in registry/phases.h) are made with the bonds and damped as they
+// AM, CBD, collector (types as in laws/phases.h) are made with the bonds and damped as they
 // are; the script gives them again after a restart. No bond of a body and nothing of bodies counts
 // them. In the time T [us] from their creation they shrink by EPS (physics/drying_shrinkage.h); a
 // restart with another EPS, T, D, S or F is refused. Global vector: 1-9 as compute bond/bpm; bridges
@@ -147,7 +152,7 @@ private:
   int overflowed_ = 0;          // tag of an atom whose forces are beyond the units of their sum
   double largest_radius_ = 0.0; // from which these units follow [um]
 
-  void refuse_minimizer();
+  void refuse_styles();
   void check_bridges();
   void check_radii();
   RepeatedSettings settings_to_repeat() const;

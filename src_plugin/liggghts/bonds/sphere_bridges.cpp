@@ -3,10 +3,10 @@
 #include "bond_sums.h"
 #include "error.h"
 #include "fix.h"
+#include "laws/phases.h"
 #include "material_checks.h"
 #include "modify.h"
 #include "mpi_liggghts.h"
-#include "registry/phases.h"
 #include "words.h"
 #include <algorithm>
 

@@ -3,15 +3,15 @@
 // others ask for: force, area, energy. Used by `model hertz_effects`, the energy ledger, the
 // collapse of CBD and the check of the time step. The laws, and the properties that the script
 // gives them (peratomtypepair, units micro; one that is missing is 0 everywhere), are those of
-// registry/contact_law.h; a pair of types may have one of them. A contact's history holds its
+// laws/contact_laws.h; a pair of types may have one of them. A contact's history holds its
 // law's State, at most kMemory numbers.
 #ifndef CALENDEM_CONTACT_EFFECTS_H
 #define CALENDEM_CONTACT_EFFECTS_H
 
+#include "laws/contact_laws.h"
 #include "physics/contact_pair.h"
 #include "physics/contact_range.h"
 #include "pointers.h"
-#include "registry/contact_law.h"
 #include <type_traits>
 #include <vector>
 

@@ -314,9 +314,12 @@ calendem::WideSum FixWallGranPlaten::load_of_rank() const {
   return load;
 }
 
-// Ranks wait for each other only at the end of an average's block.
+// Ranks wait for each other only at the end of an average's block. Once the platen has ended, pressure
+// and gap stay those at which contact was lost: averages over a platen at rest belong to no one gap.
 void FixWallGranPlaten::measure() {
   record_.load = load_of_rank();
+  if (stage_of(record_.state) == calendem::PlatenStage::Done)
+    return;
   record_.block.add(record_.load);
   record_.work += 0.5 * record_.load.value() * record_.state.speed * update->dt;
   if (!record_.height.add(record_.state.position))

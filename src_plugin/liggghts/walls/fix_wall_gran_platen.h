@@ -18,7 +18,8 @@
 //   now, 7 work done on the particles [fJ], 8 closing speed, 9 largest averaged pressure, 10 target
 //   reached, 11 1 when the dwell is over and `release no` holds the platen, 12 averaging window
 //   [us], 13 position averaged as 5 is: what the averaged pressure is compared with, 14 passes
-//   that are still to come, 15 speed of the surface along x.
+//   that are still to come, 15 speed of the surface along x. At stage 4, 5 and 13 stay those at
+//   which contact was lost.
 // bridges yes: the wall holds CBD by the binder bridges of fix bond/bpm, which stands before it.
 // A position is what the machine shows, which is `compliance` [um/kPa] times the pressure further.
 // Load is positive when the wall presses the film. State restarts under the same fix ID.

@@ -5,9 +5,9 @@
 #include "error.h"
 #include "fix_bond_bpm.h"
 #include "fix_property_atom.h"
+#include "laws/phases.h"
 #include "modify.h"
 #include "mpi_liggghts.h"
-#include "registry/phases.h"
 #include "update.h"
 #include "work_ledger.h"
 

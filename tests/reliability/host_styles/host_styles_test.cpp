@@ -60,6 +60,22 @@ const std::vector<HostUse> kUses = {
      "fix plane all mesh/surface file plane.stl type 1\n"
      "fix flow all massflow/mesh mesh plane count once vec_side 0. 0. -1. delete_atoms yes\n"
      "velocity far set 0 0 -500 units box\n"},
+    {"fix massflow/mesh/sieve",
+     "fix plane all mesh/surface file plane.stl type 1\n"
+     "fix flow all massflow/mesh/sieve mesh plane count multiple vec_side 0. 0. -1. sieveSize 1.0 "
+     "sieveSpacing 0.1 sieveStiffness 1e5 sieveDamping 0.0\nvelocity far set 0 0 -500 units box\n"},
+    {"fix insert/stream",
+     kSpheresToInsert +
+         "fix face all mesh/surface/planar file face.stl type 1\n"
+         "fix ins all insert/stream seed 32452843 distributiontemplate some nparticles 4 "
+         "particlerate 2000 overlapcheck yes all_in no vel constant 0. 0. -500. insertion_face "
+         "face "
+         "extrude_length 1.3\n"},
+    {"fix deform", "", "fix box all deform 10 x final -5.0 5.05 units box\n"},
+    {"change_box", "", "", "change_box all y final -5.0 5.05 units box\n"},
+    {"compute contact/atom", "", "compute n all contact/atom\n", "", "c_n"},
+    {"read_dump", "", "dump early all custom 100 early.txt id type x y z radius\n",
+     "read_dump early.txt 200 x y z radius\n"},
     {"fix adapt", "", "variable d equal 1.0+1e-4*step\nfix grow far adapt 50 atom diameter v_d\n"},
     {"fix ave/euler", "", "fix euler all ave/euler nevery 50 cell_size_relative 3 parallel yes\n"},
     {"fix freeze", "", "fix still far freeze\n"},
@@ -88,6 +104,23 @@ const std::vector<HostUse> kUses = {
      "shear 1e9\n"},
 };
 
+// What the plugin or the host refuses, and the words in which it does.
+struct Refusal {
+  HostUse use;
+  std::string words;
+};
+
+const std::vector<Refusal> kRefused = {
+    {{"fix multisphere", "", "fix ms all multisphere allow_group_and_set yes\n"},
+     "fix multisphere leaves pairs of spheres out of LIGGGHTS' first lists"},
+    {{"run_style respa", "", "run_style respa 2 2\n"}, "'run_style respa' makes no bonds"},
+    {{"fix multicontact/halfspace", "", "fix half all multicontact/halfspace\n"},
+     "Surface model is not multicontact"},
+    {{"compute group/group", "",
+      "compute g held group/group chain\nfix g all ave/time 1 1 1 c_g file energy.txt\n"},
+     "Pair style does not support compute group/group"},
+};
+
 const double kRadius = 0.8;
 
 Files spheres() {
@@ -102,6 +135,11 @@ Files spheres() {
                                        {{4.225, 0, -3}, kRadius, 0, {0, 0.5, 0}}};
   Files files = files_of(all, {-5, -5, -5}, {5, 5, 5});
   files["ranks.in"] = "processors * * *\n";
+  files["face.stl"] =
+      "solid p\nfacet normal 0 0 -1\nouter loop\nvertex -3.9 -3.9 3.2\nvertex 3.9 3.9 3.2\n"
+      "vertex 3.9 -3.9 3.2\nendloop\nendfacet\nfacet normal 0 0 -1\nouter loop\n"
+      "vertex -3.9 -3.9 3.2\nvertex -3.9 3.9 3.2\nvertex 3.9 3.9 3.2\nendloop\nendfacet\n"
+      "endsolid p\n";
   files["plane.stl"] =
       "solid p\nfacet normal 0 0 1\nouter loop\nvertex -3.9 -3.9 1\nvertex 3.9 -3.9 1\n"
       "vertex 3.9 3.9 1\nendloop\nendfacet\nfacet normal 0 0 1\nouter loop\n"
@@ -194,6 +232,30 @@ TEST(HostStylesOnRanks, FindTheSameContactsOnTwoRanks) {
   }
 }
 
+TEST(HostStylesRefused, ByName) {
+  for (const Refusal &r : kRefused)
+    for (const char *fused : {"on", "off"}) {
+      const CaseRun run("in.host", settings_of(r.use, fused), 1, files_of_use(r.use));
+      EXPECT_FALSE(run.finished()) << r.use.name;
+      EXPECT_NE(run.why().find(r.words), std::string::npos) << r.use.name << run.why();
+    }
+}
+
+// Both copies of a bond through a face give the same force to the last bit, where the cell's sides lie on the
+// grid of positions; elsewhere one copy could break alone, which is an error. The cell moves to where the grid
+// that it began with is too fine for ghosts.
+TEST(HostStylesOnRanks, CopiesOfABondAgreeInADeformedCell) {
+  HostUse use = {"fix deform", "", "fix box all deform 1 x final 5.0123 15.0212345 units box\n",
+                 "run 37\nprint '$(fx[2]+fx[3]+fx[4]) $(fx[3] != 0)' file sum.txt\n"};
+  Files files = files_of_use(use);
+  for (const int ranks : {1, 2}) {
+    files["ranks.in"] = ranks == 1 ? "processors 1 1 1\n" : "processors 2 1 1\n";
+    const CaseRun run("in.host", settings_of(use, "on"), ranks, files);
+    ASSERT_TRUE(run.finished()) << run.why();
+    EXPECT_EQ(run.text("sum.txt"), "0 1\n");
+  }
+}
+
 // The host has made its own fix of histories before the plugin's, which could not return them in time.
 TEST(HostStylesRefused, ABondFixAfterARunWithoutPairStyleAgain) {
   HostUse late = {"pair_style", "pair_style gran model hertz tangential history\npair_coeff * *\n"
@@ -212,6 +274,8 @@ TEST(HostStylesPage, NamesEveryUse) {
   ASSERT_FALSE(page.empty()) << CALENDEM_PAGE;
   for (const HostUse &u : kUses)
     EXPECT_NE(page.find("`" + u.name + "`"), std::string::npos) << u.name;
+  for (const Refusal &r : kRefused)
+    EXPECT_NE(page.find("`" + r.use.name + "`"), std::string::npos) << r.use.name;
 }
 
 TEST(HostStylesPage, KnowsEverySourceOfTheHostThatReadsContacts) {

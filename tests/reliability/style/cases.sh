@@ -29,13 +29,13 @@ physics_is_self_contained() {
       { echo "FAILED: $name does not compile by itself"; exit 1; }
   done
 }
-includes_point_one_way() { # physics <- registry <- liggghts, tools/calendem; tests on top
-  includes src_plugin/registry | without '#include (<[a-z_]+>|"(physics|registry)/[a-z0-9_]+\.h")' |
-    report "registry may include standard headers, physics and its own"
+includes_point_one_way() { # physics <- laws <- liggghts, tools/calendem; tests on top
+  includes src_plugin/laws | without '#include (<[a-z_]+>|"(physics|laws)/[a-z0-9_]+\.h")' |
+    report "laws may include standard headers, physics and its own"
   includes src_plugin | matching '"[^"]*(calendem|tools|tests|gtest)[^"]*"' |
     report "src_plugin must not include tools or tests" || exit 1
   # A folder of tools/calendem knows itself, those before it in this list, and its CMake library links no other.
-  local folder known=physics\|registry
+  local folder known=physics\|laws
   for folder in effects base inference electrode/structure electrode/pack electrode/slurry electrode simulate bank measure report \
     diagnose/inference diagnose/compare diagnose/bank diagnose predict commands .; do
     known="$known|$folder"
@@ -51,7 +51,7 @@ includes_point_one_way() { # physics <- registry <- liggghts, tools/calendem; te
 }
 named_files_exist() { # those that heads of laws name, and pages (.md) that any comment names; or a program writes them
   local file name folder found
-  { grep -nE '^//' src_plugin/physics/*.h src_plugin/registry/*.h | grep -oE '^[^:]+:[0-9]+|[A-Za-z0-9_/.]+\.(h|cpp|md|sh)\b'
+  { grep -nE '^//' src_plugin/physics/*.h src_plugin/laws/*.h | grep -oE '^[^:]+:[0-9]+|[A-Za-z0-9_/.]+\.(h|cpp|md|sh)\b'
     cxx_files | xargs grep -nE '//.*\.md\b' | grep -oE '^[^:]+:[0-9]+|[A-Za-z0-9_/.]+\.md\b'; } |
     while read -r name; do
       case $name in *:[0-9]*) file=$name; continue ;; esac
@@ -88,8 +88,8 @@ states_are_claimed() { # a restart's states that no fix takes are lost: fix time
     report "fixes with a state that kStylesWithState of base/fix_time_bpm.cpp does not name"
 }
 header_options=(-std=c++17 -Wall -Wextra -I src_plugin -I tools/calendem -I tests/validation -isystem /usr/include/eigen3 -x c++)
-all_headers() { # of physics, registry, tools/calendem and tests/validation as one translation unit
-  { find src_plugin/physics src_plugin/registry -name '*.h' -printf '%P %H\n' | sed 's|\(.*\) src_plugin/\(.*\)|\2/\1|'
+all_headers() { # of physics, laws, tools/calendem and tests/validation as one translation unit
+  { find src_plugin/physics src_plugin/laws -name '*.h' -printf '%P %H\n' | sed 's|\(.*\) src_plugin/\(.*\)|\2/\1|'
     find tools/calendem tests/validation -name '*.h' -printf '%P\n'; } | LC_ALL=C sort | sed 's/.*/#include "&"/'
 }
 headers_agree() { # no two definitions of one name

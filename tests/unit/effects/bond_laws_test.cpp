@@ -2,7 +2,7 @@
 // Requirement: the rows of laws of bond strength and the keywords of fix bond/bpm are the same,
 // with the same numbers in the same ranges.
 #include "base/registry.h"
-#include "registry/bond_strengths.h"
+#include "laws/bond_laws.h"
 #include <algorithm>
 #include <gtest/gtest.h>
 

@@ -56,7 +56,7 @@ void write_generated(const std::string &top, bool check) {
       write_file(path, f.text);
   }
   if (check && !stale.empty())
-    throw Failure(kCheckFailed, fmt::format("not what the rows of src_plugin/registry make: {}. "
+    throw Failure(kCheckFailed, fmt::format("not what the rows of src_plugin/laws make: {}. "
                                             "`calendem registry {}` writes them.",
                                             fmt::join(stale, ", "), top));
   for (const std::string &path : stale)

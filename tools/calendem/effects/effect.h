@@ -7,9 +7,9 @@
 #define CALENDEM_EFFECTS_EFFECT_H
 
 #include "effects/key.h"
+#include "laws/contact_laws.h"
+#include "laws/phases.h"
 #include "physics/press_instruments.h"
-#include "registry/contact_law.h"
-#include "registry/phases.h"
 #include <cmath>
 #include <string>
 #include <utility>

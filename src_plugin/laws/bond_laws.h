@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The laws of bond strength that fix bond/bpm can switch on, a row each, and the factor that all of
 // them together put on sigma_c and tau_c of a bond at its creation.
-#ifndef CALENDEM_REGISTRY_BOND_STRENGTHS_H
-#define CALENDEM_REGISTRY_BOND_STRENGTHS_H
+#ifndef CALENDEM_LAWS_BOND_LAWS_H
+#define CALENDEM_LAWS_BOND_LAWS_H
 
 #include "physics/body_strength.h"
 #include "physics/pre_cracks.h"

@@ -4,8 +4,8 @@
 // may have one law; it acts where its first property is > 0.
 // To add one: its header in src_plugin/physics; its class in ContactLaws below, anywhere. All other
 // steps: docs/developer/add_a_law.md.
-#ifndef CALENDEM_REGISTRY_CONTACT_LAW_H
-#define CALENDEM_REGISTRY_CONTACT_LAW_H
+#ifndef CALENDEM_LAWS_CONTACT_LAWS_H
+#define CALENDEM_LAWS_CONTACT_LAWS_H
 
 #include "physics/confined_contact.h"
 #include "physics/ductile_contact.h"

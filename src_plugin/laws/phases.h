@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The phases, by their atom type in the input scripts.
-#ifndef CALENDEM_REGISTRY_PHASES_H
-#define CALENDEM_REGISTRY_PHASES_H
+#ifndef CALENDEM_LAWS_PHASES_H
+#define CALENDEM_LAWS_PHASES_H
 
 namespace calendem {
 
