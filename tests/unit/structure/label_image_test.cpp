@@ -244,10 +244,12 @@ TEST(LabelImage, StacksThatAnnounceMoreThanIsThereAreRefused) {
 
 TEST(LabelImage, VoxelSizeOfFijiIsRead) {
   const fs::path folder = test_folder();
+  double pixels_per_um = 2.5;
   const auto read = [&](const std::string &lines, double voxel_um = 0.0) {
-    return read_label_image(
-               write_one_directory(folder / "a.tif", "ImageJ=1.53t\nimages=4\n" + lines, "w", 2.5),
-               voxel_um)
+    return read_label_image(write_one_directory(folder / "a.tif",
+                                                "ImageJ=1.53t\nimages=4\n" + lines, "w",
+                                                pixels_per_um),
+                            voxel_um)
         .voxel;
   };
   const Eigen::Vector3d flat(0.4, 0.4, 0.5);
@@ -256,9 +258,11 @@ TEST(LabelImage, VoxelSizeOfFijiIsRead) {
   EXPECT_NEAR((read("unit=mm\nspacing=0.5\n", 0.3) - Eigen::Vector3d::Constant(0.3)).norm(), 0.0,
               0.0);
   expect_parts(refusal([&] { read("unit=mm\nspacing=0.5\n"); }), {"400 x 400 x 500 um"});
-  expect_parts(refusal([&] { read("unit=micron\n"); }),
-               {"0.4 um along x", "distance of the slices"});
+  expect_parts(refusal([&] { read("unit=micron\n"); }), {"no voxel size along z. Give"});
   expect_parts(refusal([&] { read("unit=pixel\nspacing=0.5\n"); }), {"states no voxel size"});
+  pixels_per_um = 0.0;
+  expect_parts(refusal([&] { read("unit=micron\nspacing=0.5\n"); }),
+               {"no voxel size along x, y. Give"});
   const std::string ome = "<OME><Pixels SizeZ=\"4\" PhysicalSizeX=\"400\" PhysicalSizeXUnit=\"nm\" "
                           "PhysicalSizeY=\"0.4\" PhysicalSizeZ=\"0.5\"/></OME>";
   EXPECT_NEAR((read_label_image(write_one_directory(folder / "o.tif", ome)).voxel - flat).norm(),

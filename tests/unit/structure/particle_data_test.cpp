@@ -4,6 +4,7 @@
 #include "support.h"
 #include <algorithm>
 #include <map>
+#include <zlib.h>
 
 namespace {
 using namespace calendem;
@@ -155,7 +156,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(ParticleData, FilesThatAreNoneAreRefused) {
   expect_parts(refusal([] { read_text(""); }), {"empty"});
   expect_parts(refusal([] { read_text("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\n"); }),
-               {"no section Atoms", "write_data"});
+               {"this is a dump", "write_data"});
 }
 
 TEST(ParticleData, TheFirstTenMistakesAreReportedTheOthersCounted) {
@@ -188,6 +189,54 @@ TEST(ParticleData, UnitsThatCannotBeAreNamedWithThoseThatCan) {
                  read_file(kData + "lammps_micro.data", {"sphere", 1e4, 1.0, false});
                }),
                {"In units micro"});
+}
+
+void expect_good(const ParticleData &d) {
+  const ParticleData right = read_text(kGood);
+  ASSERT_EQ(d.particles.size(), 2u);
+  EXPECT_EQ(d.box, right.box);
+  for (size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(d.particles[k].type, right.particles[k].type);
+    EXPECT_EQ(d.particles[k].x, right.particles[k].x);
+  }
+}
+
+TEST(ParticleData, TypesMayHaveLabels) {
+  const std::string text =
+      replaced(replaced(kGood, "1 1 4.4", "1 AM 4.4"), "7 2 1.3", "7 binder 1.3");
+  expect_good(read_text(
+      replaced(text, "Atoms # sphere", "Atom Type Labels\n\n1 AM\n2 binder\n\nAtoms # sphere")));
+  expect_parts(refusal([&] { read_text(text); }), {"type 'AM' is not a whole number"});
+}
+
+TEST(ParticleData, GeneralBoxesWithRightAnglesAreRead) {
+  const std::string box = "-6 6 xlo xhi\n0 12 ylo yhi\n-1 9 zlo zhi\n",
+                    edges = "12 0 0 avec\n0 12 0 bvec\n0 0 10 cvec\n-6 0 -1 abc origin\n";
+  expect_good(read_text(replaced(kGood, box, edges)));
+  expect_parts(
+      refusal([&] { read_text(replaced(kGood, box, replaced(edges, "0 12 0", "3 12 0"))); }),
+      {":7: ", "the box is tilted ('3 12 0 bvec')"});
+  expect_parts(
+      refusal([&] { read_text(replaced(kGood, box, replaced(edges, "0 0 10 cvec\n", ""))); }),
+      {"no line 'lo hi zlo zhi'"});
+}
+
+TEST(ParticleData, FilesPackedByGzipAreRead) {
+  const std::string file = (test_folder() / "a.data.gz").string();
+  gzFile out = gzopen(file.c_str(), "wb");
+  gzwrite(out, kGood.data(), unsigned(kGood.size()));
+  gzclose(out);
+  const ParticleData whole = read_file(file);
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 12);
+  expect_parts(refusal([&] { read_file(file); }), {"does not unpack (gzip)"});
+  expect_good(whole);
+}
+
+TEST(ParticleData, FilesOfAnotherKindAreNamed) {
+  const auto said = [](const std::string &text) { return refusal([&] { read_text(text); }); };
+  expect_parts(said("type,x,y,z,r\n1,0.1,0.2,0.3,0.006\n"),
+               {"this is a table", "id type diameter"});
+  expect_parts(said("PK\3\4"), {"ZIP archive"});
 }
 
 } // namespace

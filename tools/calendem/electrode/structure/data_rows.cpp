@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <memory>
 #include <sstream>
+#include <vtk_zlib.h>
 
 namespace calendem {
 
@@ -75,6 +77,22 @@ std::optional<long> whole_number_in(const std::string &word) {
   return error != std::errc() || end != word.data() + word.size() ? std::nullopt : std::optional(v);
 }
 
+std::string unpacked_text(const std::string &file, Mistakes &mistakes) {
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> in(gzopen(file.c_str(), "rb"), gzclose);
+  std::string text, part(1 << 20, '\0');
+  int read = 0;
+  while (in && (read = gzread(in.get(), part.data(), unsigned(part.size()))) > 0)
+    text.append(part, 0, size_t(read));
+  int state = Z_OK;
+  if (in)
+    gzerror(in.get(), &state);
+  if (!in || text.empty())
+    mistakes.add(0, "cannot be read or is empty. Give a data file of LAMMPS or LIGGGHTS.");
+  else if (read < 0 || (state != Z_OK && state != Z_STREAM_END))
+    mistakes.add(0, "does not unpack (gzip): it is cut or damaged. Copy it again.");
+  return text;
+}
+
 std::string columns_name(const std::string &atom_style) {
   return atom_style == "granular" ? "sphere" : atom_style;
 }
@@ -103,11 +121,14 @@ bool AtomRows::has_its_columns(int line, size_t words) {
   return false;
 }
 
-void AtomRows::read(int line, const std::vector<std::string> &words, long types) {
+void AtomRows::read(int line, std::vector<std::string> words, long types) {
   ++rows_;
   if (!has_its_columns(line, words.size()))
     return;
   const Columns &c = columns(style_);
+  if (const auto label = number_of_label_.find(words[size_t(c.type)]);
+      label != number_of_label_.end())
+    words[size_t(c.type)] = label->second;
   const bool flags = words.size() - 3 >= c.fewest;
   molecules_ = c.molecule >= 0 && words.size() - (flags ? 3 : 0) > size_t(c.molecule);
   Row row(words);
@@ -186,7 +207,9 @@ void DataHeader::read(int line, const std::vector<std::string> &words) {
     read_count(line, name, words[0], numbers);
   else if (side != kSides + 3)
     read_side(line, int(side - kSides), words, numbers);
-  else if (name == "xy xz yz" || name == "avec" || name == "bvec" || name == "cvec")
+  else if (name == "avec" || name == "bvec" || name == "cvec" || name == "abc origin")
+    read_edge(line, words, numbers);
+  else if (name == "xy xz yz")
     read_tilt(line, words, numbers);
   else if (std::find(std::begin(kOthers), std::end(kOthers), name) == std::end(kOthers))
     mistakes_.add(line,
@@ -220,8 +243,32 @@ void DataHeader::read_side(int line, int axis, const std::vector<std::string> &w
                                   joined(words).substr(0, 80)));
 }
 
+// "ax ay az avec" and so on, "x y z abc origin"
+void DataHeader::read_edge(int line, const std::vector<std::string> &words, size_t numbers) {
+  if (numbers != 3)
+    return read_tilt(line, words, numbers);
+  Eigen::Vector3d v;
+  for (int axis = 0; axis < 3; ++axis)
+    v[axis] = *number_in(words[size_t(axis)]);
+  if (words[3] == "abc")
+    origin_ = v;
+  else {
+    const int axis = words[3][0] - 'a';
+    edge_[axis] = v[axis];
+    v[axis] = 0.0;
+    if (v != Eigen::Vector3d::Zero())
+      return read_tilt(line, words, numbers);
+  }
+  for (int axis = 0; axis < 3; ++axis)
+    if (edge_[axis] != 0.0)
+      read_side(line, axis,
+                {fmt::format("{:.17g}", origin_[axis]),
+                 fmt::format("{:.17g}", origin_[axis] + edge_[axis]), words[3]},
+                2);
+}
+
 void DataHeader::read_tilt(int line, const std::vector<std::string> &words, size_t numbers) {
-  bool straight = words.back() == "yz" && numbers == 3;
+  bool straight = words.back() == "yz" && numbers == 3; // edges come here where they are not
   for (size_t k = 0; k < numbers; ++k)
     straight = straight && *number_in(words[k]) == 0.0;
   if (!straight)

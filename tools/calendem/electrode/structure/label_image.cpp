@@ -158,14 +158,13 @@ std::string in_words(const Eigen::Vector3d &voxel) {
 void set_voxel_size(const std::string &file, double voxel_um, LabelImage &image) {
   const Eigen::Vector3d stated = stated_voxel(file, image.voxel);
   const bool known = stated.minCoeff() > 0.0;
+  std::string missing;
+  for (int axis = 0; axis < 3 && stated.maxCoeff() > 0.0; ++axis)
+    if (stated[axis] == 0.0)
+      missing += fmt::format("{}{}", missing.empty() ? " along " : ", ", "xyz"[axis]);
   if (voxel_um <= 0.0 && !known)
-    refuse_image(file, fmt::format("the file states no voxel size{}. Give {}.",
-                                   stated[0] > 0.0
-                                       ? fmt::format(" but for {:.4g} um along x: the distance of "
-                                                     "the slices is not there",
-                                                     stated[0])
-                                       : "",
-                                   kVoxelSizeKeys));
+    refuse_image(file,
+                 fmt::format("the file states no voxel size{}. Give {}.", missing, kVoxelSizeKeys));
   image.voxel = voxel_um > 0.0 ? Eigen::Vector3d::Constant(voxel_um) : stated;
   if (image.voxel.minCoeff() < 1e-3 || image.voxel.maxCoeff() > 10.0)
     refuse_image(file, fmt::format("a voxel is {} by its header; allowed is 0.001 to 10 um. If the "

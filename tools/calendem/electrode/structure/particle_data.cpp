@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/structure/particle_data.h"
+#include "base/plain_text.h"
 #include "base/recipe.h"
 #include <algorithm>
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <fstream>
 #include <map>
 #include <set>
+#include <sstream>
 
 namespace calendem {
 
@@ -53,6 +55,8 @@ public:
       header_.read(number_, words);
     else if (section_ == "Atoms")
       atoms_.read(number_, words, header_.types());
+    else if (section_ == "Atom Type Labels" && words.size() == 2)
+      atoms_.name_type(words[0], words[1]);
     else
       ++rows_[section_];
   }
@@ -143,11 +147,37 @@ private:
 
 } // namespace
 
+namespace {
+
+// What a file is that is none of a structure, and what to do; empty: it may be one.
+std::string other_kind(const std::string &text) {
+  const std::string first = text.substr(0, std::min(text.find('\n'), size_t(200)));
+  if (first.rfind("ITEM:", 0) == 0)
+    return "this is a dump, which has neither all densities nor the types' number: write the "
+           "structure with write_data (of a dump: read_dump, then write_data).";
+  if (const PlainText plain = plain_text(text.substr(0, 200));
+      !plain.wrong.empty() || plain.encoding == "UTF-16")
+    return "this is no data file: it " +
+           (plain.wrong.empty() ? "is UTF-16. Save it as UTF-8." : plain.wrong);
+  if (first.find(',') != std::string::npos && first.find_first_of("xX") != std::string::npos &&
+      text.find("Atoms") == std::string::npos)
+    return fmt::format(
+        "this is a table ('{}') without a box. Write a data file: 'N atoms', 'N atom "
+        "types', the box, then Atoms with the rows id type diameter density x y z.",
+        first.substr(0, 60));
+  return "";
+}
+
+} // namespace
+
 ParticleData parse_particle_data(const std::string &file, const DataFormat &format,
                                  std::string &style, Mistakes &mistakes) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in || in.peek() == EOF)
-    mistakes.add(0, "cannot be read or is empty. Give a data file of LAMMPS or LIGGGHTS.");
+  const std::string text = unpacked_text(file, mistakes);
+  if (const std::string kind = other_kind(text); !kind.empty()) {
+    mistakes.add(0, kind);
+    return {};
+  }
+  std::istringstream in(text);
   Reader reader(format, mistakes);
   std::string line;
   bool newline = true;

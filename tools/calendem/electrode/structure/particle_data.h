@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -73,8 +74,12 @@ class AtomRows {
 public:
   AtomRows(const std::string &atom_style, Mistakes &mistakes);
 
+  /// Rows may name the type so (section Atom Type Labels).
+  void name_type(const std::string &number, const std::string &label) {
+    number_of_label_[label] = number;
+  }
   /// `types`: as many as the header announces.
-  void read(int line, const std::vector<std::string> &words, long types);
+  void read(int line, std::vector<std::string> words, long types);
 
   size_t rows() const { return rows_; }               ///< good and bad
   bool molecules() const { return molecules_; }       ///< there is a column for them
@@ -88,8 +93,13 @@ private:
   std::vector<DataParticle> good_;
   std::unordered_map<long, int> line_of_id_;
 
+  std::map<std::string, std::string> number_of_label_;
+
   bool has_its_columns(int line, size_t words);
 };
+
+/// The bytes of a file, unpacked if it is packed by gzip. A mistake where it is cut.
+std::string unpacked_text(const std::string &file, Mistakes &mistakes);
 
 std::vector<std::string> words_of(const std::string &line);
 /// The words from `first` on with one blank between them.
@@ -113,12 +123,14 @@ public:
 private:
   Mistakes &mistakes_;
   long atoms_ = -1, types_ = LONG_MAX;
-  int atoms_line_ = 0, types_line_ = 0;              ///< 0: there is none
-  std::array<bool, 3> side_ = {false, false, false}; ///< there is a line for it
+  int atoms_line_ = 0, types_line_ = 0;                               ///< 0: there is none
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero(), edge_ = origin_; ///< of LAMMPS' general box
+  std::array<bool, 3> side_ = {false, false, false};                  ///< there is a line for it
   Eigen::Vector3d low_ = Eigen::Vector3d::Constant(NAN), high_ = low_;
 
   void read_count(int line, const std::string &name, const std::string &word, size_t numbers);
   void read_side(int line, int axis, const std::vector<std::string> &words, size_t numbers);
+  void read_edge(int line, const std::vector<std::string> &words, size_t numbers);
   void read_tilt(int line, const std::vector<std::string> &words, size_t numbers);
 };
 

@@ -102,13 +102,14 @@ public:
       all *= std::max(1.0, number(name));
     return all;
   }
-  /// Sides [um] of a voxel whose page has so many pixels per unit; 0: not stated.
+  /// Sides [um] of a voxel whose page has so many pixels per unit (0: not stated); 0: not stated.
   std::array<double, 3> voxel(double x_per_unit, double y_per_unit) const {
     std::array<double, 3> v = {number("PhysicalSizeX"), number("PhysicalSizeY"),
                                number("PhysicalSizeZ")};
     if (is_imagej_) {
       const double um = um_of(word("unit"));
-      v = {um / x_per_unit, um / y_per_unit, um * std::fabs(number("spacing"))};
+      v = {x_per_unit > 0.0 ? um / x_per_unit : 0.0, y_per_unit > 0.0 ? um / y_per_unit : 0.0,
+           um * std::fabs(number("spacing"))};
       if (v[2] == 0.0 && x_per_unit == 1.0) // ImageJ leaves out a spacing of 1
         v[2] = um;
     } else
@@ -173,7 +174,7 @@ public:
   }
 
   std::array<double, 3> voxel() const {
-    float x = 1.0F, y = 1.0F; // pixels per unit
+    float x = 0.0F, y = 0.0F; // pixels per unit
     TIFFGetField(tiff_.get(), TIFFTAG_XRESOLUTION, &x);
     TIFFGetField(tiff_.get(), TIFFTAG_YRESOLUTION, &y);
     return description_of_first().voxel(x, y);
