@@ -31,7 +31,7 @@ public:
 
   int state() const { return static_cast<int>(h_[kState]); }
   void set_state(BondState s) { h_[kState] = s; }
-  /// Of the bond or the bridge: centre distance at its creation [um].
+  /// Centre distance at the creation of the bond or the bridge [um].
   double length() const { return h_[kLength]; }
   /// Centre distance [um] from which the contact counts: that at creation while bonded, and until a
   /// broken pair has separated; 0: the sum of radii; negative: the sum of radii and this.
