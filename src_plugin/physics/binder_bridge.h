@@ -3,10 +3,8 @@
 // bond (physics/parallel_bond.h, eqs 4-5) of the carbon-binder domain with its own modulus, radius
 // and strengths, from CBD to CBD, to active material and to the collector.
 //
-//   made     once, at the start, where the surfaces that meet are at most `gap` apart:
-//              r' <= R_i + R_j + gap,  r' = r + d_0;  on the collector height <= R + gap
-//            with d_0 the reference of the pair's contact (acting_contact.h): the inset S of a
-//            primary's surface, 0 between CBD
+//   made     once, at the start, where the film as packed has the spheres at most `gap` apart:
+//              r <= R_i + R_j + gap;  on the collector height <= R + gap
 //   length   l = r, the distance of the centres then; on the collector the height of the centre
 //            above it. There a bridge has no load: forces of a fresh film are those without bridges
 //   radius   lambda min(R_i, R_j); on the collector lambda R
@@ -14,11 +12,11 @@
 //            sigma_c by the phases that it joins and tau_c = ratio sigma_c
 //
 // The pair's contact goes on beside it as if there were no bridge: Hertz or the law of an effect,
-// friction, and SJKR, all from the same d_0, which neither the making of a bridge nor its break
-// changes. So nothing jumps when a bridge breaks but its own force; what is left is an ordinary
-// contact. Where the bridges alone shall hold, the cohesion energy density is to be 0. The bridge
-// itself has no d_0: a parallel bond goes from centre to centre, and its strain counts from its
-// creation.
+// friction, and SJKR, all from the reference d_0 of acting_contact.h, e.g. the inset S of a body's
+// surface, which neither the making of a bridge nor its break changes. So nothing jumps when a
+// bridge breaks but its own force; what is left is an ordinary contact. Where the bridges alone
+// shall hold, the cohesion energy density is to be 0. The bridge itself has no d_0: a parallel bond
+// goes from centre to centre, and its strain counts from its creation.
 // A bridge on the collector ends at the point of the wall below the centre at its creation, which
 // stands for the second sphere: at rest, without spin.
 // Signs and energy: as in parallel_bond.h; a break loses the strain energy.
@@ -28,8 +26,9 @@
 // foil under tension and shear: Luo et al. 2018, doi:10.1039/c7ra12382e (shear strength almost
 // twice the tensile one). PVDF and its composites with carbon black break below 10 % elongation:
 // Chen, Christensen & Dahn, J. Electrochem. Soc. 2003.
-// Deviations: none from parallel_bond.h; the collector's foil does not bend. Beside an inset a
-// bridge is shorter than one of touching spheres by S, and stiffer by S/l: 7 % at S = 0.09 um.
+// Deviations: none from parallel_bond.h; the collector's foil does not bend. A packing knows no
+// inset and leaves CBD at the tips of primaries: there a bridge joins surfaces up to S + gap apart.
+// One of surfaces in touch is shorter by S than one of tips, and stiffer by S/l: 7 % at 0.09 um.
 // Verified by tests/verification/binder_bridges.
 #ifndef CALENDEM_PHYSICS_BINDER_BRIDGE_H
 #define CALENDEM_PHYSICS_BINDER_BRIDGE_H
@@ -51,10 +50,8 @@ struct BinderBridges {
   double shear_ratio = 1.0;          ///< tau_c / sigma_c [-]
 
   bool on() const { return tensile[0] > 0.0 || tensile[1] > 0.0 || tensile[2] > 0.0; }
-  /// True if what touches at the distance `contact` [um] is to be joined at r' [um].
-  bool spans(double contact, double acting_distance) const {
-    return acting_distance <= contact + gap;
-  }
+  /// True where a bridge is made: `contact` is the sum of radii, or the radius at the collector.
+  bool spans(double contact, double distance) const { return distance <= contact + gap; }
   double tensile_of(BridgeKind kind) const {
     return kind == BridgeKind::None ? 0.0 : tensile[static_cast<int>(kind)];
   }

@@ -105,8 +105,7 @@ BridgeKind SphereBridges::kind_of(int i, int j) const {
 void SphereBridges::make(int i, int j, double r, BondHistory &bond) const {
   const double tensile = law_.tensile_of(kind_of(i, j));
   const double radius_sum = atom->radius[i] + atom->radius[j];
-  if (bond.state() == kNeverBonded && tensile > 0.0 &&
-      law_.spans(radius_sum, bond.contact(r, radius_sum).distance))
+  if (bond.state() == kNeverBonded && tensile > 0.0 && law_.spans(radius_sum, r))
     bond.create(r, tensile, kBridge);
 }
 

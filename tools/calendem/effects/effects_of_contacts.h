@@ -282,7 +282,7 @@ inline Effect binder_bridges() {
                  "collector, by that of the sphere)"),
       setting(at + "gap_um", "bridge_gap_um", "0.02")
           .range(0, BinderBridges::kMostGap, "um")
-          .means("largest gap between surfaces that is bridged at the start")};
+          .means("largest gap between spheres that is bridged at the start")};
   e.parameter = strength(e.settings[0]).log_uniform(1, 25);
   for (const char *key : {"strength_MPa", "am_strength_MPa", "collector_strength_MPa"}) {
     e.relations.push_back({at + key, Relation::Is::AtMost, at + "modulus_GPa",
