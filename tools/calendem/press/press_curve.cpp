@@ -24,7 +24,8 @@ std::size_t first_contact(const std::string &file, const std::vector<double> &p,
                   file, contact, *std::max_element(p.begin(), p.end())));
 }
 
-/// Loading up to each maximum, unloading down to each minimum.
+/// Loading up to each maximum of the pressure behind which the platen goes back, unloading down to
+/// each minimum.
 void find_stages(PressCurve &c) {
   const double noise = kTurn * c.highest();
   bool loading = true;
@@ -37,7 +38,8 @@ void find_stages(PressCurve &c) {
     c.cycle[k] = c.cycle[k - 1];
     if (beyond > 0.0)
       extreme = k;
-    if (beyond >= -noise)
+    const bool back = (c.displacement[k] < c.displacement[extreme]) == loading;
+    if (beyond >= -noise || !back) // pressure that falls as the film gives way is no turn
       continue;
     loading = !loading;
     std::fill(c.stage.begin() + long(extreme) + 1, c.stage.begin() + long(k) + 1,
@@ -93,7 +95,7 @@ PressCurve make_press_curve(const std::string &file, const PressExport &from, do
   const double zero = c.displacement.front(),
                sign = c.displacement[std::size_t(top)] < zero ? -1.0 : 1.0;
   for (double &d : c.displacement)
-    d = sign * (d - zero);
+    d = sign * (d - zero) + 0.0; // no -0
   if (c.stage.empty())
     find_stages(c);
   else
