@@ -119,44 +119,6 @@ std::vector<RankedHypothesis> ranked_hypotheses(const PosteriorProblem &problem,
   return all;
 }
 
-std::vector<IndistinguishableEffects> indistinguishable_effects(const PosteriorProblem &problem,
-                                                                const Posterior &posterior,
-                                                                int material, double certain) {
-  const std::vector<Switch> switches = switches_of(problem, material);
-  const Matrix on = indicators(switches, posterior, material);
-  const Vector weights = weights_of_draws(posterior), single = on.transpose() * weights;
-  std::vector<char> taken(switches.size(), 0);
-  std::vector<IndistinguishableEffects> out;
-  for (;;) {
-    Index first = -1;
-    for (Index s = 0; s < single.size(); ++s)
-      if (!taken[std::size_t(s)] && single[s] < certain && (first < 0 || single[s] > single[first]))
-        first = s;
-    if (first < 0)
-      return out;
-    IndistinguishableEffects group;
-    Vector any = Vector::Zero(on.rows());
-    for (Index next = first; next >= 0;) {
-      taken[std::size_t(next)] = 1;
-      group.effects.push_back(switches[std::size_t(next)]);
-      any = any.cwiseMax(on.col(next));
-      double most = weights.dot(any);
-      next = -1;
-      for (Index s = 0; s < single.size(); ++s) {
-        const double with = weights.dot(any.cwiseMax(on.col(s)));
-        if (!taken[std::size_t(s)] && with > most && single[s] < certain &&
-            correlation_of(any, on.col(s), weights) < kExclusive) {
-          most = with;
-          next = s;
-        }
-      }
-    }
-    group.probability = weights.dot(any);
-    if (group.effects.size() > 1 && group.probability >= certain)
-      out.push_back(group);
-  }
-}
-
 CredibleRange parameter_range(const Posterior &posterior, int parameter, int material) {
   std::vector<double> values, weights;
   for (const Draw &d : posterior.draws) {

@@ -38,16 +38,6 @@ std::vector<RankedHypothesis> ranked_hypotheses(const PosteriorProblem &problem,
                                                 const Posterior &posterior, int material,
                                                 double share = 0.95);
 
-/// Effects of which one acts, but the data do not say which: each excludes the others.
-struct IndistinguishableEffects {
-  std::vector<Switch> effects;
-  double probability = 0.0; ///< that at least one of them acts
-};
-/// Groups of two effects or more, none of which reaches `certain` alone but all do together.
-std::vector<IndistinguishableEffects> indistinguishable_effects(const PosteriorProblem &problem,
-                                                                const Posterior &posterior,
-                                                                int material, double certain = 0.8);
-
 /// Range of a parameter's score over the draws.
 CredibleRange parameter_range(const Posterior &posterior, int parameter, int material);
 
