@@ -96,6 +96,23 @@ struct Stretch {
   Index at, count;
 };
 
+/// Weights of the draws without the data, from their logarithms, and what follows from them.
+void weigh_without(const Posterior &posterior, const std::vector<double> &logs, LeftOutData &to) {
+  const Eigen::Map<const Vector> log(logs.data(), Index(logs.size()));
+  const double top = log.maxCoeff();
+  Vector weights = (log.array() - top).exp();
+  const double sum = weights.sum();
+  to.log_density = -top - std::log(sum);
+  weights /= sum;
+  to.effective = 1.0 / weights.squaredNorm();
+  for (std::size_t d = 0; d < posterior.draws.size(); ++d) {
+    const double with = posterior.draws[d].weight;
+    to.gain += with * std::log(with / std::max(weights[Index(d)], 1e-300));
+  }
+  for (NormalMixture &m : to.predicted)
+    m.weights.assign(weights.begin(), weights.end());
+}
+
 std::vector<LeftOutData> leave_out(const PosteriorProblem &problem, const Posterior &posterior,
                                    const std::vector<Stretch> &stretches) {
   const auto states = film_states(problem, posterior.draws);
@@ -125,19 +142,7 @@ std::vector<LeftOutData> leave_out(const PosteriorProblem &problem, const Poster
   for (std::size_t k = 0; k < stretches.size(); ++k) {
     out[k].film = stretches[k].film;
     out[k].datum = stretches[k].datum;
-    Eigen::Map<const Vector> log(logs[k].data(), Index(logs[k].size()));
-    const double top = log.maxCoeff();
-    Vector weights = (log.array() - top).exp();
-    const double sum = weights.sum();
-    out[k].log_density = -top - std::log(sum);
-    weights /= sum;
-    out[k].effective = 1.0 / weights.squaredNorm();
-    for (std::size_t d = 0; d < posterior.draws.size(); ++d) {
-      const double with = posterior.draws[d].weight;
-      out[k].gain += with * std::log(with / std::max(weights[Index(d)], 1e-300));
-    }
-    for (NormalMixture &m : out[k].predicted)
-      m.weights.assign(weights.begin(), weights.end());
+    weigh_without(posterior, logs[k], out[k]);
   }
   return out;
 }
