@@ -36,7 +36,7 @@ includes_point_one_way() { # physics <- registry <- liggghts, tools/calendem; te
     report "src_plugin must not include tools or tests" || exit 1
   # A folder of tools/calendem knows itself, those before it in this list, and its CMake library links no other.
   local folder known=physics\|registry
-  for folder in effects base inference electrode/structure electrode/pack electrode/slurry electrode simulate measure report \
+  for folder in effects base inference electrode/structure electrode/pack electrode/slurry electrode simulate measure report press \
     diagnose/inference diagnose/compare diagnose/bank diagnose predict withheld commands .; do
     known="$known|$folder"
     find "tools/calendem/$folder" -maxdepth 1 -name '*.h' -o -maxdepth 1 -name '*.cpp' | LC_ALL=C sort |
