@@ -122,6 +122,17 @@ TEST(Press, FindsContactTurnsAndEnd) {
   expect_parts(refusal([&] { curve_of(cycles(1), 11.0); }), {"never stays above 11 MPa", "is 10"});
 }
 
+// Requirement: a pressure that falls while the platen goes on is the film's, no turn.
+TEST(Press, AFilmThatGivesWayIsNoTurn) {
+  std::string rows = "force_N,weg_um\n";
+  for (const auto &[p, d] : {std::pair(1, 0), {5, 4}, {8, 6}, {6, 7}, {10, 9}, {4, 8}, {0, 7}})
+    rows += fmt::format("{},{}\n", p * kArea, d);
+  const PressCurve c = curve_of(rows);
+  EXPECT_EQ(c.cycle.back(), 1);
+  EXPECT_EQ(c.stage[3], "loading");
+  EXPECT_EQ(c.stage[5], "unloading");
+}
+
 // Requirement: what the press gives way in a blank run is taken off, and no more.
 TEST(Press, TakesOffTheMachine) {
   PressCurve with = curve_of(cycles(1, 0.3));
