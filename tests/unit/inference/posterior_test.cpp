@@ -3,7 +3,6 @@
 // N) for N particles, the error of N independent draws 4.5 standard deviations out (one in 150 000);
 // draws are fewer than independent by resampling, and more by the moves afterwards.
 #include "inference/active_effects.h"
-#include "inference/predictive.h"
 #include "linear_films.h"
 #include <gtest/gtest.h>
 

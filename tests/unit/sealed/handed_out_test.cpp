@@ -133,7 +133,7 @@ TEST(HandedOut, CurvesAreThoseOfThePressTrueButForItsErrors) {
     const double d = std::stod(line), p = std::stod(line.substr(line.find(',') + 1));
     const bool down = line.find("compression") != std::string::npos;
     const double true_d = (down ? 0.0 : 2.0) + (down ? 3.0 : 1.0) * 1.1 * p / 50;
-    EXPECT_NEAR(d, find_hidden("displacement_scale")->displacement_factor * true_d, 5 * 0.02);
+    EXPECT_NEAR(d, find_hidden("displacement_scale")->press.displacement_factor * true_d, 5 * 0.02);
   }
   EXPECT_EQ(rows, 40 + 39);
   EXPECT_NEAR(sample_area_cm2(e) * 1e8, 3 * 36.0, 1e-3); // um2: three of the bank's cells
@@ -147,7 +147,7 @@ TEST(HandedOut, APressMayShowTooMuchPressureSpringBackLateAndDrift) {
   truth.pressure_error = 0.0;
   truth.hidden = {"pressure_offset", "frame_hysteresis", "drift"};
   EXPECT_NEAR(truth_runs(round, {truth}).study.runs[1].settings.number("platen.max_pressure_MPa"),
-              50 - find_hidden("pressure_offset")->pressure_offset_MPa, 1e-9);
+              50 - find_hidden("pressure_offset")->press.pressure_offset_MPa, 1e-9);
   const Experiment e = handed(round, truth, 1);
   std::ifstream in(e.conditions[1].curve);
   std::string line;

@@ -164,4 +164,22 @@ Residuals residuals_of(const PosteriorProblem &problem, const std::vector<int> &
   return out;
 }
 
+std::vector<std::vector<FilmState>> film_states(const PosteriorProblem &problem,
+                                                const std::vector<Draw> &draws) {
+  std::vector<std::vector<FilmState>> out(draws.size());
+  const auto count = Eigen::Index(draws.size());
+  Matrix scores(problem.parameters, count), amplitudes(Eigen::Index(problem.effects.size()), count);
+  for (int f = 0; f < int(problem.films.size()); ++f) {
+    for (Eigen::Index d = 0; d < count; ++d) {
+      const Draw &draw = draws[std::size_t(d)];
+      scores.col(d) = draw.scores.col(problem.films[std::size_t(f)].material);
+      amplitudes.col(d) = amplitudes_of(problem, draw, f);
+    }
+    const FilmPredictions all = problem.predict(f, scores, amplitudes);
+    for (Eigen::Index d = 0; d < count; ++d)
+      out[std::size_t(d)].push_back(state_of(all, d));
+  }
+  return out;
+}
+
 } // namespace calendem::inference

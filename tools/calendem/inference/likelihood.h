@@ -44,6 +44,10 @@ struct Residuals {
 Residuals residuals_of(const PosteriorProblem &problem, const std::vector<int> &films,
                        const std::vector<FilmState> &states, const Draw &draw);
 
+/// States of all films under each draw, asked of the model at once.
+std::vector<std::vector<FilmState>> film_states(const PosteriorProblem &problem,
+                                                const std::vector<Draw> &draws);
+
 } // namespace calendem::inference
 
 #endif
