@@ -26,7 +26,7 @@ int place_of(const std::string &name) {
              inputs.begin());
 }
 
-// Of 600 points an effect acts in its share, less where another one excludes it; four standard deviations.
+// An effect acts in its share of 600 points, less where another one excludes it; four standard deviations.
 TEST(Points, FillTheSpaceAndEffectsActInTheirShare) {
   const bank::Design &design = shipped().design;
   const auto points = bank::points_of(design);

@@ -173,7 +173,7 @@ struct Passes {
   std::vector<double> peaks; ///< largest pressure of each compression
 };
 
-// Of a film that springs back by a quarter: stiffer on the way back.
+// A film that springs back by a quarter is stiffer on the way back.
 Passes passes_of(const PlatenProgramme &p, bool may_release) {
   Press press(p);
   double set = 0.0;

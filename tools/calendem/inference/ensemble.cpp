@@ -71,7 +71,7 @@ std::vector<std::size_t> resampled(const Vector &weights, int count) {
 
 Ensemble::Ensemble(const PosteriorProblem &problem, const SamplerSettings &settings)
     : problem_(problem), seed_(settings.seed) {
-  std::vector<Proposal> first{std::size_t(settings.particles)};
+  std::vector<ProposedMove> first{std::size_t(settings.particles)};
   for (std::size_t k = 0; k < first.size(); ++k) {
     Particle &p = first[k].to;
     p.draw = prior_draw(problem, seed_, k);
@@ -83,15 +83,15 @@ Ensemble::Ensemble(const PosteriorProblem &problem, const SamplerSettings &setti
   for (int m = 0; m < problem.materials; ++m)
     predict(m, first);
   weigh(-1, first);
-  for (Proposal &p : first)
+  for (ProposedMove &p : first)
     particles_.push_back(std::move(p.to));
 }
 
 Random Ensemble::random(std::size_t particle) const { return {seed_, (move_ << 20) + particle}; }
 
-void Ensemble::predict(int material, std::vector<Proposal> &proposals) {
+void Ensemble::predict(int material, std::vector<ProposedMove> &proposals) {
   std::vector<Particle *> moved;
-  for (Proposal &p : proposals)
+  for (ProposedMove &p : proposals)
     if (p.moved)
       moved.push_back(&p.to);
   const auto count = Index(moved.size());
@@ -117,8 +117,8 @@ void Ensemble::predict(int material, std::vector<Proposal> &proposals) {
     moved[std::size_t(k)]->other_data[material] = logs[k];
 }
 
-void Ensemble::weigh(int material, std::vector<Proposal> &proposals) {
-  for (Proposal &p : proposals) {
+void Ensemble::weigh(int material, std::vector<ProposedMove> &proposals) {
+  for (ProposedMove &p : proposals) {
     if (!p.moved)
       continue;
     for (int f = 0; f < int(problem_.films.size()); ++f)
@@ -129,18 +129,18 @@ void Ensemble::weigh(int material, std::vector<Proposal> &proposals) {
   }
 }
 
-std::vector<Proposal> Ensemble::proposals() const {
-  std::vector<Proposal> out{particles_.size()};
+std::vector<ProposedMove> Ensemble::proposals() const {
+  std::vector<ProposedMove> out{particles_.size()};
   for (std::size_t k = 0; k < out.size(); ++k)
     out[k].to = particles_[k];
   return out;
 }
 
-double Ensemble::accept(std::vector<Proposal> &proposals) {
+double Ensemble::accept(std::vector<ProposedMove> &proposals) {
   int moved = 0, accepted = 0;
   begin_move();
   for (std::size_t k = 0; k < proposals.size(); ++k) {
-    Proposal &p = proposals[k];
+    ProposedMove &p = proposals[k];
     if (!p.moved)
       continue;
     ++moved;

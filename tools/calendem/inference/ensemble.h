@@ -21,7 +21,7 @@ struct Particle {
 };
 
 /// A state to which a particle may go.
-struct Proposal {
+struct ProposedMove {
   Particle to;
   bool moved = false;
   double log_ratio = 0.0; ///< of priors and of the chances to propose, backward over forward
@@ -43,13 +43,13 @@ public:
   Random random(std::size_t particle) const;
 
   /// Asks the model for a material's films in the proposals that moved.
-  void predict(int material, std::vector<Proposal> &proposals);
+  void predict(int material, std::vector<ProposedMove> &proposals);
   /// Likelihood of the proposals that moved; of the films of one material, or (-1) of all.
-  void weigh(int material, std::vector<Proposal> &proposals);
+  void weigh(int material, std::vector<ProposedMove> &proposals);
   /// Metropolis and Hastings; returns the accepted share of those that moved.
-  double accept(std::vector<Proposal> &proposals);
+  double accept(std::vector<ProposedMove> &proposals);
   /// A proposal for each particle, to be changed.
-  std::vector<Proposal> proposals() const;
+  std::vector<ProposedMove> proposals() const;
 
   /// Raises the temperature as far as the effective share allows, and resamples. Returns what this
   /// adds to the logarithm of the evidence.

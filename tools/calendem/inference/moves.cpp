@@ -135,7 +135,7 @@ struct Exchanged {
 };
 
 Exchanged propose_exchange(const Exchange &exchange, const Particle &from, Random &random,
-                           Proposal &p) {
+                           ProposedMove &p) {
   const std::vector<int> slots = exchange.slots(from.draw);
   const int slot = slots[std::size_t(random.uniform() * double(slots.size()))];
   Exchanged e;
@@ -152,7 +152,7 @@ Exchanged propose_exchange(const Exchange &exchange, const Particle &from, Rando
 }
 
 /// Adds the chance of the way back.
-void add_way_back(const Exchange &exchange, const Exchanged &e, Proposal &p) {
+void add_way_back(const Exchange &exchange, const Exchanged &e, ProposedMove &p) {
   p.log_ratio += exchange.choices(p.to, e.by).log_density(e.now) -
                  std::log(double(exchange.slots(p.to.draw).size()));
 }
@@ -169,7 +169,7 @@ void move_value(double &value, const Prior &prior, Random &random) {
 
 /// A move of the errors that asks for no prediction.
 template <class Change> void move_all(Ensemble &ensemble, const Change &change) {
-  std::vector<Proposal> proposals = ensemble.proposals();
+  std::vector<ProposedMove> proposals = ensemble.proposals();
   ensemble.begin_move();
   for (std::size_t k = 0; k < proposals.size(); ++k) {
     Random random = ensemble.random(k);
@@ -181,7 +181,7 @@ template <class Change> void move_all(Ensemble &ensemble, const Change &change) 
 }
 
 /// Off or on, with a new factor; half of the proposals each.
-void move_understatement(const PosteriorProblem &problem, Proposal &p, Random &random) {
+void move_understatement(const PosteriorProblem &problem, ProposedMove &p, Random &random) {
   Vector &factors = p.to.draw.understatement;
   double &factor = factors[Index(random.uniform() * double(factors.size()))];
   const auto log_chance = [&] {
@@ -217,7 +217,7 @@ std::vector<LocalModel> local_models(Ensemble &ensemble, int material) {
 
 double move_switches(Ensemble &ensemble, int material, const std::vector<LocalModel> &models) {
   const std::vector<Particle> &from = ensemble.particles();
-  std::vector<Proposal> proposals = ensemble.proposals();
+  std::vector<ProposedMove> proposals = ensemble.proposals();
   std::vector<Exchange> exchanges;
   std::vector<Exchanged> exchanged;
   ensemble.begin_move();
@@ -240,7 +240,7 @@ double move_parameters(Ensemble &ensemble, int material, const std::vector<Local
   const std::vector<Particle> &from = ensemble.particles();
   const std::vector<int> films = films_of(problem, material);
   const double keep = std::sqrt(1.0 - step * step);
-  std::vector<Proposal> proposals = ensemble.proposals();
+  std::vector<ProposedMove> proposals = ensemble.proposals();
   ensemble.begin_move();
   const auto mean = [&](const Particle &p, const Vector &prior_mean) -> Vector {
     const Vector scores = p.draw.scores.col(material);
@@ -266,7 +266,7 @@ double move_parameters(Ensemble &ensemble, int material, const std::vector<Local
   ensemble.predict(material, proposals);
   ensemble.weigh(material, proposals);
   for (std::size_t k = 0; k < proposals.size(); ++k) {
-    Proposal &p = proposals[k];
+    ProposedMove &p = proposals[k];
     if (!std::isfinite(p.to.log_likelihood))
       continue;
     const MaterialPrior prior = material_given(problem, from[k].draw, material);
@@ -278,22 +278,22 @@ double move_parameters(Ensemble &ensemble, int material, const std::vector<Local
 
 void move_errors(Ensemble &ensemble) {
   const PosteriorProblem &problem = ensemble.problem();
-  move_all(ensemble, [&](Proposal &p, Random &random) {
+  move_all(ensemble, [&](ProposedMove &p, Random &random) {
     move_value(p.to.draw.discrepancy, problem.discrepancy, random);
   });
   if (problem.films.size() > 1)
-    move_all(ensemble, [&](Proposal &p, Random &random) {
+    move_all(ensemble, [&](ProposedMove &p, Random &random) {
       move_value(p.to.draw.shared, kShareOfVariance, random);
     });
   if (problem.materials > 1)
-    move_all(ensemble, [&](Proposal &p, Random &random) {
+    move_all(ensemble, [&](ProposedMove &p, Random &random) {
       const double before = log_density_of_materials(problem, p.to.draw);
       move_value(p.to.draw.material_correlation, kShareOfVariance, random);
       p.log_ratio = log_density_of_materials(problem, p.to.draw) - before;
     });
   if (problem.understated > 0.0)
     move_all(ensemble,
-             [&](Proposal &p, Random &random) { move_understatement(problem, p, random); });
+             [&](ProposedMove &p, Random &random) { move_understatement(problem, p, random); });
 }
 
 } // namespace calendem::inference

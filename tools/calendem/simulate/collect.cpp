@@ -298,6 +298,19 @@ nlohmann::json provenance(const std::string &folder, const Rows &rows, const Set
   return s;
 }
 
+/// What happened to carbon and binder and to the bonds.
+nlohmann::json what_changed(const Rows &rows, const RawRow &top, const UnionVolume &filled,
+                            const ElectrodeFacts &e) {
+  nlohmann::json s = {{"broken_fraction_at_max", top.made > 0 ? top.broken / top.made : 0.0},
+                      {"broken_fraction_after", top.made > 0 ? rows.back().broken / top.made : 0.0},
+                      {"bonds_initial", static_cast<long>(rows.back().made)}};
+  if (const auto &cbd = filled.cbd_spheres;
+      e.nanoporosity > 0.0 && !cbd.empty() && cbd.back() > 0.0)
+    s["cbd_nanoporosity_after"] = // its spheres keep their solid
+        1.0 - (1.0 - e.nanoporosity) * cbd.front() / cbd.back();
+  return s;
+}
+
 void warn(const nlohmann::json &s, const std::string &folder) {
   for (const std::string &warning :
        warnings_of_electrode(RunFolder(folder).object("electrode.json")))
@@ -332,13 +345,7 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   s.update(provenance(folder, rows, settings, e, facts));
   if (!frames.empty())
     s["height_of_tops_after_um"] = height_of_tops(folder, frames.back().first);
-  if (const auto &cbd = filled.cbd_spheres;
-      e.nanoporosity > 0.0 && !cbd.empty() && cbd.back() > 0.0)
-    s["cbd_nanoporosity_after"] = // its spheres keep their solid
-        1.0 - (1.0 - e.nanoporosity) * cbd.front() / cbd.back();
-  s["broken_fraction_at_max"] = top.made > 0 ? top.broken / top.made : 0.0;
-  s["broken_fraction_after"] = top.made > 0 ? rows.back().broken / top.made : 0.0;
-  s["bonds_initial"] = static_cast<long>(rows.back().made);
+  s.update(what_changed(rows, top, filled, e));
   s["bodies"] = bodies;
   s["cracked_bodies"] = cracked;
   s["cracked_criterion"] = "at least 8 % of its bonds broken and more than one fragment";
