@@ -149,7 +149,7 @@ TEST(BetweenRuns, ARestartUnderAnotherIdIsRefused) {
 TEST(BetweenRuns, ARestartOfAnotherVersionIsRefused) {
   const CaseRun first = hold("write_restart half.restart\n");
   std::string file = first.text("half.restart");
-  const double begins[] = {2.0, 1.0}, older = 1.0;
+  const double begins[] = {3.0, 1.0}, older = 2.0;
   const size_t place =
       file.find(std::string(reinterpret_cast<const char *>(begins), sizeof begins));
   ASSERT_NE(place, std::string::npos);

@@ -82,9 +82,17 @@ TEST(ShapeLibrary, EveryBadFileIsNamedAtOnce) {
 
 TEST(ShapeLibrary, AnImageWithoutWholeParticlesIsRefused) {
   LabelImage image = empty_image(20, 20, 20, 0.25);
+  for (int label = 1; label <= 6; ++label)
+    add_sphere(image, {0.0, 3.0 * label - 1.0, 10.0}, 1.4, label);
+  expect_parts(refusal([&] { make_library(image, 0, "image"); }),
+               {"of 6 labels 6 are cut", "larger or finer image"});
+}
+
+TEST(ShapeLibrary, AnImageOfPhasesIsNamedAsSuch) {
+  LabelImage image = empty_image(20, 20, 20, 0.25);
   add_sphere(image, {2, 10, 10}, 6, 1);
   expect_parts(refusal([&] { make_library(image, 0, "image"); }),
-               {"of 1 labels 1 are cut", "larger or finer image"});
+               {"these look like phases", "a number for each particle"});
 }
 
 TEST(MeasuredShape, DepthIsTheDistanceToTheSurface) {

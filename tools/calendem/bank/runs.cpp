@@ -17,14 +17,14 @@ struct Number {
   const char *in_summary; ///< of "presses"; null: found elsewhere
 };
 constexpr Number kNumbers[] = {
-    {"pressure_MPa", &PressedFilm::pressure, "max_pressure_shown_MPa"},
-    {"thickness_at_max_um", &PressedFilm::thickness_at_max, "thickness_at_max_shown_um"},
-    {"thickness_after_um", &PressedFilm::thickness_after, "thickness_after_shown_um"},
-    {"porosity_at_max", &PressedFilm::porosity_at_max, "porosity_at_max"},
-    {"porosity_after", &PressedFilm::porosity_after, "porosity_after_shown"},
-    {"cracked_fraction", &PressedFilm::cracked, "cracked_fraction_after"},
-    {"broken_fraction", &PressedFilm::broken, "broken_fraction_after"},
-    {"cbd_nanoporosity_after", &PressedFilm::cbd_nanoporosity, "cbd_nanoporosity_after"},
+    {"pressure_MPa", &PressedFilm::pressure, "pressure_MPa"},
+    {"thickness_at_max_um", &PressedFilm::thickness_at_max, "thickness_loaded_um"},
+    {"thickness_after_um", &PressedFilm::thickness_after, "thickness_released_um"},
+    {"porosity_at_max", &PressedFilm::porosity_at_max, "porosity_loaded"},
+    {"porosity_after", &PressedFilm::porosity_after, "porosity_released"},
+    {"cracked_fraction", &PressedFilm::cracked, "cracked_fraction"},
+    {"broken_fraction", &PressedFilm::broken, "broken_fraction"},
+    {"cbd_nanoporosity_after", &PressedFilm::cbd_nanoporosity, "cbd_nanoporosity"},
     {"inverse_tortuosity", &PressedFilm::inverse_tortuosity, nullptr}};
 
 std::string cell(double v, const char *form = "{:.6g}") {

@@ -115,8 +115,9 @@ public:
     PressExport out;
     const std::string guess = table_.guess();
     out.said.push_back(guess.empty() ? "commas between columns" : guess);
-    const bool direct = format_.columns.count("pressure") > 0 ||
-                        (format_.columns.count("force") == 0 && format_.area_mm2 == 0.0);
+    const bool by_force = format_.columns.count("force") > 0 || format_.area_mm2 > 0.0 ||
+                          (find("pressure").name.empty() && !find("force").name.empty()),
+               direct = format_.columns.count("pressure") > 0 || !by_force;
     const double area = direct ? 1.0 : format_.area_mm2;
     if (area == 0.0)
       refuse("the force becomes a pressure by the disc's size. Give --diameter-mm or --area-mm2.");

@@ -52,10 +52,23 @@ double porosity_after(const Run &run) {
   return kPercent * number_in(run.summary, "porosity_after_relaxation");
 }
 
-/// A number of summary.json of the press that went to this pressure [%]; NaN: there is none.
+/// Presses of summary.json; a sample of cells has only the one that its summary is of.
+json presses_of(const Run &run) {
+  if (run.summary.contains("presses"))
+    return run.summary["presses"];
+  const json whole = {
+      {"pressure_MPa", or_null(max_pressure(run))},
+      {"porosity_loaded", or_null(number_in(run.summary, "porosity_at_max"))},
+      {"porosity_released", or_null(number_in(run.summary, "porosity_after_relaxation"))},
+      {"cracked_fraction",
+       or_null(number_in(run.summary, "cracked_bodies") / number_in(run.summary, "bodies"))}};
+  return json::array({whole});
+}
+
+/// A number of the press that went to this pressure [%]; NaN: there is none.
 double of_press(const Run &run, double pressure, const char *key) {
-  for (const json &press : run.summary.value("presses", json::array()))
-    if (std::abs(number_in(press, "max_pressure_shown_MPa") - pressure) <= kSamePressure * pressure)
+  for (const json &press : presses_of(run))
+    if (std::abs(number_in(press, "pressure_MPa") - pressure) <= kSamePressure * pressure)
       return kPercent * number_in(press, key);
   return kNaN;
 }
@@ -123,14 +136,14 @@ json porosity_row(const std::vector<Run> &runs, const MeasuredPorosity &point) {
                [](const Run &run) { return kPercent * run.curve["porosity_total"].front(); });
   json made =
       row(runs, "Total porosity after relaxation, %", p, point.porosity_percent, point.sd_percent,
-          [p](const Run &run) { return of_press(run, p, "porosity_after_shown"); });
+          [p](const Run &run) { return of_press(run, p, "porosity_released"); });
   add_verdict(made);
   return made;
 }
 
 json loaded_row(const std::vector<Run> &runs, double pressure) {
   return row(runs, "Total porosity under load, %", pressure, kNaN, kNaN, [=](const Run &run) {
-    const double of_its_press = of_press(run, pressure, "porosity_at_max");
+    const double of_its_press = of_press(run, pressure, "porosity_loaded");
     return std::isfinite(of_its_press)
                ? of_its_press
                : kPercent * at_first_crossing(run.curve, pressure, "porosity_total");
@@ -139,9 +152,8 @@ json loaded_row(const std::vector<Run> &runs, double pressure) {
 
 /// In the paper's tomograms.
 json cracked_row(const std::vector<Run> &runs, double pressure, const char *seen) {
-  json made = row(runs, "Cracked particles, %", pressure, kNaN, kNaN, [=](const Run &run) {
-    return of_press(run, pressure, "cracked_fraction_after");
-  });
+  json made = row(runs, "Cracked particles, %", pressure, kNaN, kNaN,
+                  [=](const Run &run) { return of_press(run, pressure, "cracked_fraction"); });
   made["paper_text"] = seen;
   return made;
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/case.h"
 #include "base/run_folder.h"
 #include "simulate/collect.h"
 #include <algorithm>
@@ -58,17 +59,16 @@ nlohmann::json presses_of(const std::string &path, const std::vector<RawRow> &ro
       return total_porosity(e, press.thickness_shown(thickness), row.elongation);
     };
     out.push_back(
-        {{"max_pressure_shown_MPa", press.pressure_shown(top.p_top)},
-         {"time_at_max_us", top.time},
-         {"time_after_us", last.time},
-         {"thickness_at_max_shown_um", press.thickness_shown(top.gap)},
-         {"thickness_after_shown_um", press.thickness_shown(gap)},
-         {"porosity_at_max", total_porosity(e, top.gap, top.elongation)},
-         {"porosity_after_shown", porosity(gap, last)},
-         {"broken_fraction_after", last.made > 0 ? last.broken / last.made : 0.0},
-         {"cracked_fraction_after",
-          or_null(mistakes.empty() ? cracked_at(cracks, last.time) : NAN)},
-         {"cbd_nanoporosity_after", or_null(nanoporosity_at(filled, e.nanoporosity, last.time))}});
+        {{"pressure_MPa", press.pressure_shown(top.p_top)},
+         {"time_loaded_us", top.time},
+         {"time_released_us", last.time},
+         {"thickness_loaded_um", press.thickness_shown(top.gap)},
+         {"thickness_released_um", press.thickness_shown(gap)},
+         {"porosity_loaded", total_porosity(e, top.gap, top.elongation)},
+         {"porosity_released", porosity(gap, last)},
+         {"broken_fraction", last.made > 0 ? last.broken / last.made : 0.0},
+         {"cracked_fraction", or_null(mistakes.empty() ? cracked_at(cracks, last.time) : NAN)},
+         {"cbd_nanoporosity", or_null(nanoporosity_at(filled, e.nanoporosity, last.time))}});
   }
   return out;
 }
