@@ -32,10 +32,8 @@ char yes_word[] = "yes";
 PlatenArguments::PlatenArguments(int narg, char **arg) {
   int i = 0;
   for (; i < narg && strcmp(arg[i], "side") != 0; ++i) {
-    if (!strcmp(arg[i], "primitive")) {
-      host_.push_back(store_force_word);
-      host_.push_back(yes_word);
-    }
+    if (!strcmp(arg[i], "primitive"))
+      host_.insert(host_.end(), {store_force_word, yes_word});
     host_.push_back(arg[i]);
   }
   for (; i < narg; ++i)
