@@ -6,6 +6,7 @@
 #include "simulate/collect.h"
 #include "support/test_folder.h"
 #include <cmath>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace {
@@ -110,5 +111,48 @@ TEST(AveragingWindow, IsBoundByTheFastestSpeed) {
       EXPECT_NE(std::string(f.what()).find(said), std::string::npos) << f.what();
   }
 }
+
+/// Two presses, to 50 and 100 MPa, of which curve.csv holds the first rows.
+nlohmann::json two_presses(const UnionVolume &filled, std::size_t held = 6) {
+  const Settings settings = case_with("");
+  const auto folder = calendem_test::test_folder();
+  std::vector<RawRow> rows = {row(1, 20.0, 0.0), row(1, 18.0, 50.0),  row(3, 18.5, 0.2),
+                              row(1, 18.4, 9.0), row(1, 16.0, 100.0), row(3, 16.8, 0.5)};
+  std::string curve = "time_us,stage,pressure_MPa\n";
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    rows[k].time = double(k);
+    if (k < held)
+      curve += fmt::format("{},{},{}\n", k, rows[k].stage > 2.5 ? "relaxation" : "compression",
+                           rows[k].p_top);
+  }
+  write_file((folder / "curve.csv").string(), curve);
+  ElectrodeFacts e = {};
+  e.solid = 10.0;
+  e.lx = e.ly = e.area = 1.0;
+  e.nanoporosity = 0.5;
+  return presses_of(folder.string(), rows, filled, e, settings);
+}
+
+// Requirement: each press has its pressure and what it left; what no frame or table tells is null.
+TEST(Presses, HaveWhatEachLeft) {
+  const nlohmann::json p = two_presses({});
+  ASSERT_EQ(p.size(), 2u);
+  EXPECT_EQ(p[0]["pressure_MPa"], 50.0);
+  EXPECT_EQ(p[1]["pressure_MPa"], 100.0);
+  EXPECT_NEAR(p[1]["porosity_loaded"], 1.0 - 10.0 / 16.0, 1e-12);
+  // from 100 MPa at 16 um to 0.5 at 16.8: contact is lost at 1 MPa, after a share 99 / 99.5
+  EXPECT_NEAR(p[1]["thickness_released_um"], 16.0 + 0.8 * 99.0 / 99.5, 1e-12);
+  EXPECT_TRUE(p[0]["cbd_nanoporosity"].is_null());
+  EXPECT_TRUE(p[0]["cracked_fraction"].is_null());
+  UnionVolume frames;
+  frames.time = {0.0, 2.05, 4.0};
+  frames.cbd_spheres = {4.0, 3.2, 3.0};
+  const nlohmann::json seen = two_presses(frames);
+  EXPECT_NEAR(seen[0]["cbd_nanoporosity"], 1.0 - 0.5 * 4.0 / 3.2, 1e-12);
+  EXPECT_TRUE(seen[1]["cbd_nanoporosity"].is_null()); // no frame within 0.1 us of the end
+}
+
+// Requirement: a curve without rows is no reason to lose the rest of a summary.
+TEST(Presses, OfNoCurveThereAreNone) { EXPECT_TRUE(two_presses({}, 0).empty()); }
 
 } // namespace

@@ -138,7 +138,7 @@ inference::Emulator emulator_of(const Runs &runs, const std::string &table) {
       return inference::Emulator(training_of(runs),
                                  json.at("groups").get<inference::Hyperparameters>());
   }
-  fmt::print("{}: the emulator is fitted, which takes minutes once\n", table);
+  fmt::print("{}: the emulator is fitted once; the fit is kept beside the table\n", table);
   const inference::Emulator emulator(training_of(runs));
   try {
     write_file(file,

@@ -21,7 +21,8 @@ double nanoporosity_at(const UnionVolume &filled, double initial, double time) {
       near = apart;
       now = filled.cbd_spheres[k];
     }
-  return initial > 0.0 ? 1.0 - (1.0 - initial) * filled.cbd_spheres.front() / now : NAN;
+  return initial > 0.0 && now > 0.0 ? 1.0 - (1.0 - initial) * filled.cbd_spheres.front() / now
+                                    : NAN;
 }
 
 /// Share of the bodies with bonds that are cracked at a time, by cracks.csv.
@@ -46,6 +47,8 @@ nlohmann::json presses_of(const std::string &path, const std::vector<RawRow> &ro
       folder.columns("cracks.csv", {"time_us", "bodies_cracked", "bodies_with_bonds"}, mistakes);
   const PressInstruments press = instruments_of(settings);
   nlohmann::json out = nlohmann::json::array();
+  if (curve.rows() == 0)
+    return out;
   double highest = 0.0;
   for (const Press &p : curve.presses()) {
     const std::vector<RawRow> until(rows.begin(), rows.begin() + long(p.last) + 1);
