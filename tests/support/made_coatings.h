@@ -4,10 +4,11 @@
 #ifndef CALENDEM_TESTS_MADE_COATINGS_H
 #define CALENDEM_TESTS_MADE_COATINGS_H
 
+#include "base/provenance.h"
 #include "base/random.h"
-#include "diagnose/bank/bank_table.h"
 #include "predict/calibration.h"
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 namespace calendem_test {
 
@@ -43,46 +44,58 @@ inline double made_nanoporosity(double yield, double pressure) {
 /// GPa.
 inline double made_modulus(const std::vector<double> &p) { return 0.01 * p[0]; }
 
-inline SimulatedRun made_coating(const BankPoint &point, double target) {
+/// Places of the effects among the bank's.
+constexpr int kYields = 0, kCollapses = 1;
+/// What a film of the larger cell's loading is denser by.
+constexpr double kLargerIsDenser = 0.03;
+
+inline bank::PressedFilm made_press(const bank::Point &point, double pressure) {
   Random packing(std::uint64_t(point.packing), 11);
-  SimulatedRun r;
-  r.control = "pressure";
-  r.target = r.max_pressure = target;
-  r.porosity_initial = 0.01 * point.base[3];
-  r.porosity_after =
-      made_porosity(point.base, point.effect == "nmc_plasticity" ? point.value : 0.0, target) -
-      (point.effect == "cbd_collapse" ? made_collapse(point.value, target) : 0.0) +
-      0.002 * packing.normal();
-  r.porosity_at_max = 1.0 - (1.0 - r.porosity_after) * (1.0 + made_springback(point.base, target));
-  r.cracked_fraction = made_cracked(point.base, target);
-  r.broken_fraction = 0.3 * r.cracked_fraction;
+  const std::vector<double> p(point.values.begin(), point.values.begin() + 5);
+  const double yield = point.values[5], collapse = point.values[6];
+  bank::PressedFilm r;
+  r.pressure = pressure;
+  r.porosity_after = made_porosity(p, std::isnan(yield) ? 0.0 : yield, pressure) -
+                     (std::isnan(collapse) ? 0.0 : made_collapse(collapse, pressure)) -
+                     (point.larger ? kLargerIsDenser : 0.0) + 0.002 * packing.normal();
+  r.porosity_at_max = 1.0 - (1.0 - r.porosity_after) * (1.0 + made_springback(p, pressure));
+  r.cracked = made_cracked(p, pressure);
+  r.broken = 0.3 * r.cracked;
   r.inverse_tortuosity = made_inverse(r.porosity_after);
-  if (point.effect == "cbd_collapse")
-    r.cbd_nanoporosity = made_nanoporosity(point.value, target);
-  r.solid_column = 12.0;
+  r.cbd_nanoporosity = std::isnan(collapse) ? 0.5 : made_nanoporosity(collapse, pressure);
   r.thickness_at_max = 12.0 / (1.0 - r.porosity_at_max);
-  for (const double share : {0.25, 0.5, 0.75, 0.95}) { // linear: a modulus of made_modulus
-    r.release_pressure.push_back(share * target);
-    r.release_displacement.push_back(10.0 - (1.0 - share) * target * 1e-3 /
-                                                made_modulus(point.base) * r.thickness_at_max);
-  }
+  for (const double share : bank::kReleasedTo) // linear: a modulus of made_modulus
+    r.release.push_back(10.0 -
+                        (1.0 - share) * pressure * 1e-3 / made_modulus(p) * r.thickness_at_max);
   return r;
 }
 
-inline BankTable made_coatings(const std::vector<std::string> &effects = {"nmc_plasticity"}) {
-  BankTable table;
-  table.spec = read_bank_spec(CALENDEM_SOURCE_DIR "/tests/support/made_coatings.toml");
-  table.spec.effects = effects;
-  table.spec.full_cell.points = 0;
-  table.spec.nanoporosity_within = 0.0;
-  for (const BankPoint &point : bank_points(table.spec))
-    for (const double target : table.spec.pressures)
-      table.rows.push_back({point, made_coating(point, target)});
-  return table;
+inline bank::Runs made_coatings() {
+  bank::Runs runs;
+  runs.bank = bank::read_bank(CALENDEM_SOURCE_DIR "/tests/support/made_coatings.toml");
+  runs.bank.nanoporosity_within = 0.0;
+  for (const bank::Point &point : bank::points_of(runs.bank.design)) {
+    bank::Run run;
+    run.point = point;
+    run.porosity_before = 0.01 * point.values[3];
+    for (const double pressure : bank::pressures_of(runs.bank))
+      run.presses.push_back(made_press(point, pressure));
+    run.loading.assign(bank::curve_pressures().size(), NAN);
+    runs.runs.push_back(run);
+  }
+  return runs;
+}
+
+/// An emulator with the hyperparameters that made_coatings.fit.json keeps, so that no test fits them.
+inline FilmBank film_bank_of(const bank::Runs &runs) {
+  static const auto kept = nlohmann::json::parse(
+      text_of_file(CALENDEM_SOURCE_DIR "/tests/support/made_coatings.fit.json"));
+  return FilmBank(
+      runs, inference::Emulator(bank::training_of(runs), kept.get<inference::Hyperparameters>()));
 }
 
 inline const FilmBank &made_film_bank() {
-  static const FilmBank bank(made_coatings());
+  static const FilmBank bank(film_bank_of(made_coatings()));
   return bank;
 }
 

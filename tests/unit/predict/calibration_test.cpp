@@ -27,19 +27,21 @@ Calibration of(const Truth &truth, std::uint64_t seed = 1) {
 }
 
 double probability(const Calibration &c, const std::string &name, std::size_t material = 0) {
-  for (const Weighed &w : c.hypotheses)
-    if (w.name == name)
-      return w.probability[material];
-  return NAN;
+  for (const EffectSet &set : effect_sets_of(made_film_bank(), c))
+    if (set.name == name)
+      return set.probability[material];
+  return 0.0;
 }
 
+// Each of two effects acts with a probability of 0.1 before the data. 200 draws: standard deviations of 0.028 and 0.021,
+// of which three are allowed.
 TEST(Calibrate, WithoutDataNothingIsLearnt) {
   Calibration c;
   c.films = {made_film("a", 48.0, 2.0)};
   calibrate(made_film_bank(), few(), c);
-  EXPECT_NEAR(probability(c, "none"), 0.5, 1e-9);
+  EXPECT_NEAR(probability(c, "none"), 0.81, 0.084);
+  EXPECT_NEAR(acting(c, kYields, 0), 0.1, 0.063);
   EXPECT_EQ(c.draws.size(), 200u);
-  EXPECT_NEAR(c.hypotheses[0].effective_samples, 1024.0, 1e-6);
 }
 
 // A measured film is known by what it is, whatever it is called.
@@ -72,13 +74,12 @@ TEST(Calibrate, FindsWhatTheDataShow) {
 
 TEST(Calibrate, NamesAnEffectThatActs) {
   const Calibration c = of({{190.0, 1.7, 260.0}, 1.0}); // no other material falls as far
-  EXPECT_GT(probability(c, "nmc_plasticity"), 0.9);
+  EXPECT_GT(acting(c, kYields, 0), 0.9);
 }
 
-// Truth as of together.h: the effect that takes most counts, the other one at first, yielding above 90 MPa. No
-// other material falls as far as the yielding one, and none falls as fast at first as with the other effect.
+// No other material falls as far as the yielding one, and none falls as fast at first as with the other effect.
 TEST(Calibrate, FindsTwoEffectsThatActTogether) {
-  const FilmBank bank(made_coatings({"nmc_plasticity", "cbd_collapse"}));
+  const FilmBank &bank = made_film_bank();
   const std::vector<double> material = {190.0, 1.7, 260.0};
   const auto calibrated = [&](double yield, double collapse) {
     Random random(4, 21);
@@ -86,12 +87,8 @@ TEST(Calibrate, FindsTwoEffectsThatActTogether) {
     c.error = {0.0, 0.001, 0.003, 0.1};
     measure({material, yield}, made_film("a", 48.0, 2.0), kPressures, 0.001, random, c);
     measure({material, yield}, made_film("b", 43.0, 3.0), kPressures, 0.001, random, c);
-    for (Datum &d : c.data) {
-      const auto p = all_parameters({material}, c.films[std::size_t(d.film)]);
-      const double fall = made_porosity(p, 0.0, d.pressure) - made_porosity(p, yield, d.pressure);
-      if (collapse > 0.0)
-        d.measured -= std::max(0.0, made_collapse(collapse, d.pressure) - fall);
-    }
+    for (Datum &d : c.data)
+      d.measured -= collapse > 0.0 ? made_collapse(collapse, d.pressure) : 0.0;
     calibrate(bank, few(), c);
     return c;
   };
@@ -108,19 +105,6 @@ TEST(Calibrate, FindsTwoEffectsThatActTogether) {
     }
   EXPECT_NEAR(yield / n, std::log(1.6), 0.5);
   EXPECT_NEAR(collapse / n, std::log(20.0), 0.7);
-}
-
-// All four sets of two effects are alike.
-TEST(Calibrate, AnEffectActsAsProbablyAsNotBeforeTheData) {
-  Calibration c;
-  c.films = {made_film("a", 48.0, 2.0)};
-  const FilmBank bank(made_coatings({"nmc_plasticity", "cbd_collapse"}));
-  calibrate(bank, few(), c);
-  ASSERT_EQ(c.hypotheses.size(), 4u);
-  for (const char *name :
-       {"none", "nmc_plasticity", "cbd_collapse", "nmc_plasticity + cbd_collapse"})
-    EXPECT_NEAR(probability(c, name), 0.25, 1e-9);
-  EXPECT_NEAR(acting(bank, c, 0, 0), 0.5, 1e-9);
 }
 
 // No binder of the bank is as soft as this film asks for.
@@ -143,19 +127,12 @@ TEST(Calibrate, SaysThatNoMaterialComesNear) {
   EXPECT_NE(said.find("No material of the bank comes near"), std::string::npos) << said;
 }
 
-// Exact data leave few of the prior's samples.
-TEST(Calibrate, SaysThatFewSamplesCarryTheResult) {
-  Calibration c;
-  c.error = {0.0, 1e-4, 2e-4, 0.1};
-  c.films = {made_film("a", 48.0, 2.0)};
-  for (const double p : kPressures)
-    c.data.push_back({0, "p", FilmNumber::PorosityAfter, p, 0.0,
-                      made_porosity({190.0, 2.4, 480.0, 48.0, 2.0}, 0.0, p), 1e-4});
-  CalibrationSettings s = few();
-  s.samples = 64;
-  calibrate(made_film_bank(), s, c);
+// A posterior that hardly any move of the sampler finds.
+TEST(Calibrate, SaysThatTheSamplerHardlyMoved) {
+  Calibration c = of({});
+  c.acceptance = 0.001;
   const std::string said = fmt::format("{}", fmt::join(warnings_of(made_film_bank(), c), "\n"));
-  EXPECT_NE(said.find("samples carry the result"), std::string::npos) << said;
+  EXPECT_NE(said.find("Of the sampler's moves 0.1 % were taken"), std::string::npos) << said;
 }
 
 /// A film that is measured well at all pressures, of that material.
@@ -234,19 +211,17 @@ TEST(Calibrate, TheOrderOfMaterialsDoesNotMatter) {
   EXPECT_NEAR(probability(a, "none", 1), probability(b, "none", 0), 0.1);
 }
 
-// Two materials have the same effects as often as they are alike, half of the time before the data; the others have each
-// as often as the prior says. 200 draws: 0.035 a standard deviation.
+// One that was not measured follows half of the time; otherwise it has effects of its own, one of two with 0.19. 200 draws:
+// 0.035 a standard deviation, of which three are allowed.
 TEST(Calibrate, AMaterialThatWasNotMeasuredMayHaveOtherEffects) {
   const Calibration c = of({{190.0, 1.7, 260.0}, 1.0});
   const double measured = 1.0 - probability(c, "none");
   EXPECT_GT(measured, 0.9);
-  double acts = 0.0, same = 0.0;
-  for (const Draw &d : c.draws) {
+  double acts = 0.0;
+  for (const Draw &d : c.draws)
     acts += !d.materials[1].effects.empty() / 200.0;
-    same += effects_of(d.materials[0]) == effects_of(d.materials[1]) ? 1.0 / 200.0 : 0.0;
-  }
-  EXPECT_NEAR(acts, 0.5 * measured + 0.5 * 0.5, 0.1);
-  EXPECT_NEAR(same, 0.75, 0.1);
+  EXPECT_GT(acts, 0.19);
+  EXPECT_LT(acts, 0.5 * measured + 0.5 * 0.19 + 0.105);
 }
 
 // The other material's films change the odds of an effect by less than a factor of two: at most 3 to 1 in favour of what they

@@ -122,9 +122,9 @@ TEST(Crushed, OneLoadTellsTheStrengthAsFarAsTheModelGoes) {
 
 // With four crushed particles in the bank, which scatter by a factor of 1.8, the line is what is known least.
 TEST(Crushed, FewParticlesInTheBankSayLess) {
-  BankTable few = made_coatings({});
-  few.spec.crushing_file = table("5,500,45\n5,500,14\n20,500,180\n20,500,55\n");
-  const FilmBank bank(few);
+  bank::Runs few = made_coatings();
+  few.bank.crushing_file = table("5,500,45\n5,500,14\n20,500,180\n20,500,55\n");
+  const FilmBank bank = film_bank_of(few);
   const double load = std::exp(bank.crushing()->log_load(10.0, 500.0)),
                open = bank.crushing()->covariance(10.0, 10.0);
   EXPECT_GT(open, kCrushingModel * kCrushingModel);

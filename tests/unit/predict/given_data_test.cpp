@@ -20,9 +20,9 @@ TEST(GivenData, APartOfTheModelsErrorIsSharedBetweenFilms) {
   const auto pulled = [&](const Film &film, double pressure) {
     Calibration without = c;
     without.data.clear();
-    const Wanted wanted = {film, FilmNumber::PorosityAfter, {pressure}};
-    return given_data(bank, c, draw, wanted)[0].mean -
-           given_data(bank, without, draw, wanted)[0].mean;
+    const Query query = {film, FilmNumber::PorosityAfter, {pressure}};
+    return given_data(bank, c, draw, query)[0].mean -
+           given_data(bank, without, draw, query)[0].mean;
   };
   EXPECT_NEAR(pulled(c.films[0], 80.0), 0.02, 0.004);
   EXPECT_NEAR(pulled(made_film("b", 48.1, 2.0), 80.0), 0.01, 0.002);

@@ -20,7 +20,6 @@ Calibration measured(const std::vector<double> &pressures) {
 
 // Porosities that need no effect, and a domain of carbon and binder with half of its nanopores or with fewer.
 TEST(Calibrate, LearnsFromNanopores) {
-  const FilmBank bank(made_coatings({"nmc_plasticity", "cbd_collapse"}));
   const auto collapses = [&](double nanoporosity) {
     Random random(7, 1);
     Calibration c;
@@ -30,20 +29,17 @@ TEST(Calibrate, LearnsFromNanopores) {
     CalibrationSettings s;
     s.samples = 1024;
     s.draws = 200;
-    calibrate(bank, s, c);
-    double sum = 0.0;
-    for (const Weighed &w : c.hypotheses)
-      sum += w.name.find("cbd_collapse") != std::string::npos ? w.probability[0] : 0.0;
-    return sum;
+    calibrate(made_film_bank(), s, c);
+    return acting(c, kCollapses, 0);
   };
   EXPECT_GT(collapses(0.3), 0.95);
   EXPECT_LT(collapses(0.5), 0.3);
 }
 
 // What the others predict is what a calibration without the datum predicts.
-TEST(Lessons, AreThoseOfACalibrationWithoutTheDatum) {
+TEST(LeftOutData, AreThoseOfACalibrationWithoutTheDatum) {
   const Calibration all = measured({30.0, 60.0, 120.0, 240.0});
-  const auto lessons = lessons_of(made_film_bank(), all);
+  const auto lessons = left_out_data_of(made_film_bank(), all);
   ASSERT_EQ(lessons.size(), 4u);
   for (const std::size_t k : {1, 3}) {
     Calibration without = all;
@@ -62,19 +58,19 @@ TEST(Lessons, AreThoseOfACalibrationWithoutTheDatum) {
 
 // A value that is read again teaches less than the first; one that contradicts the others moves
 // parameters.
-TEST(Lessons, ARepeatTeachesLittle) {
+TEST(LeftOutData, ARepeatTeachesLittle) {
   Calibration c = measured({30.0, 100.0});
   c.data.push_back(c.data[1]);
   c.data.push_back(c.data[1]);
   CalibrationSettings s;
   calibrate(made_film_bank(), s, c);
-  const auto lessons = lessons_of(made_film_bank(), c);
+  const auto lessons = left_out_data_of(made_film_bank(), c);
   EXPECT_LT(lessons[3].gain, 0.5 * lessons[0].gain);
   EXPECT_GE(lessons[3].gain, 0.0);
 }
 
-TEST(Lessons, OneDatumHasNone) {
-  EXPECT_TRUE(lessons_of(made_film_bank(), measured({80.0})).empty());
+TEST(LeftOutData, OneDatumHasNone) {
+  EXPECT_TRUE(left_out_data_of(made_film_bank(), measured({80.0})).empty());
 }
 
 // Porosity shows the product of the binder's stiffness and the root of the strength: one makes up for the other.

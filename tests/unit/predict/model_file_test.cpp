@@ -14,25 +14,30 @@ using namespace calendem_test;
 /// The made bank on disk.
 std::string bank_on_disk(const std::filesystem::path &folder) {
   namespace fs = std::filesystem;
-  const fs::path source = CALENDEM_SOURCE_DIR, cases = source / "input_scripts/cases";
-  fs::create_directories(folder / "coatings");
-  for (const char *file : {"electrode.toml", "case.toml", "crushing.csv"})
-    fs::copy(cases / "coatings" / file, folder / "coatings" / file);
-  std::string text = text_of_file((source / "tests/support/made_coatings.toml").string());
-  const std::string there = "../../input_scripts/cases/coatings/";
+  const fs::path source = CALENDEM_SOURCE_DIR, films = source / "input_scripts/cases/films",
+                 support = source / "tests/support";
+  fs::create_directories(folder / "films");
+  for (const fs::path &file :
+       {films / "electrode.toml", films / "crushing.csv", support / "made_case.toml"})
+    fs::copy(file, folder / "films" / file.filename());
+  std::string text = text_of_file((support / "made_coatings.toml").string());
+  const std::string there = "../../input_scripts/cases/films/";
   for (auto at = text.find(there); at != std::string::npos; at = text.find(there))
     text.erase(at, there.size());
-  text.erase(text.find("[full_cell]"), text.find("[[numerics]]") - text.find("[full_cell]"));
-  const std::string file = (folder / "coatings/bank.toml").string();
+  const std::string file = (folder / "films/bank.toml").string(),
+                    table = (folder / "films/bank.csv").string();
   write_file(file, text);
-  write_file(table_file(file), write_bank_table(made_coatings()));
+  write_file(table, bank::write_runs(made_coatings()));
+  write_file((folder / "films/bank.fit.json").string(),
+             "{\"table\": \"" + hash_of_file(table) + "\", \"groups\": " +
+                 text_of_file((support / "made_coatings.fit.json").string()) + "}");
   return file;
 }
 
 struct OnDisk {
   std::filesystem::path folder = test_folder();
   std::string bank_file = bank_on_disk(folder);
-  FilmBank bank{read_bank_table(read_bank_spec(bank_file), table_file(bank_file))};
+  FilmBank bank{bank_file};
   Calibration calibration;
   std::string file = (folder / "model.json").string();
 
@@ -112,15 +117,17 @@ TEST(ModelFile, WhatIsNoModelOrHasAnotherBankIsRefused) {
   write_file(d.file, other);
   EXPECT_NE(refusal(d.file).find("Was it edited?"), std::string::npos) << refusal(d.file);
   write_file(d.file, whole);
-  for (const char *file : {"electrode.toml", "case.toml", "crushing.csv"}) { // that the bank reads
-    const std::string name = (d.folder / "coatings" / file).string(), text = text_of_file(name);
+  for (const char *file :
+       {"electrode.toml", "made_case.toml", "crushing.csv"}) { // that the bank reads
+    const std::string name = (d.folder / "films" / file).string(), text = text_of_file(name);
     write_file(name, text + "\n");
     EXPECT_NE(refusal(d.file).find(std::string(file) + " is not there or has changed"),
               std::string::npos)
         << refusal(d.file);
     write_file(name, text);
   }
-  write_file(table_file(d.bank_file), text_of_file(table_file(d.bank_file)) + "\n");
+  const std::string table = bank::table_of(d.bank.spec());
+  write_file(table, text_of_file(table) + "\n");
   EXPECT_NE(refusal(d.file).find("has changed since"), std::string::npos);
 }
 
@@ -135,17 +142,17 @@ TEST(ModelFile, TheCaseIsOneThatRunTakes) {
 // A bank's collapse, bonds and materials need not be those of the defaults: whoever runs the case
 // gets the bank's, but for what the calibration moves and what belongs to its runs alone.
 TEST(ModelFile, TheCaseHasTheBanksSettingsOfItsEffect) {
-  BankTable table = made_coatings({"cbd_collapse"});
-  table.spec.case_file = (test_folder() / "case.toml").string();
-  write_file(table.spec.case_file,
-             text_of_file(CALENDEM_SOURCE_DIR "/input_scripts/cases/bank/case.toml") +
-                 "\n[bond]\nsurface_inset_um = 0.1\ntensile_strength_MPa = 600\n"
+  bank::Runs runs = made_coatings();
+  runs.bank.case_file = (test_folder() / "case.toml").string();
+  write_file(runs.bank.case_file,
+             text_of_file(CALENDEM_SOURCE_DIR "/tests/support/made_case.toml") +
+                 "\n[effects.cbd_collapse]\nfloor_nanoporosity = 0\nhardening_MPa = "
+                 "10\n[bond]\nsurface_inset_um = 0.1\ntensile_strength_MPa = 600\n"
                  "contact_diameter = \"lattice\"\n"
                  "[material.cbd]\nfriction = 0.2\n");
-  const FilmBank bank(table);
+  const FilmBank bank = film_bank_of(runs);
   Calibration c;
-  c.hypotheses = {{"none", {0.1}, 100.0}, {"cbd_collapse", {0.9}, 100.0}};
-  c.draws = {{{{{190.0, 2.4, 480.0}, {{0, 0.5}}}}, {0.001, 0.5}}};
+  c.draws = {{{{{190.0, 2.4, 480.0}, {{kCollapses, 0.5}}}}, {0.001, 0.5}}};
   const std::string text = case_of(bank, c, 0);
   for (const char *part :
        {"[effects.cbd_collapse]", "floor_nanoporosity = 0\n", "hardening_MPa = 10\n",

@@ -53,10 +53,10 @@ TEST(AddPressError, IsTheSlopeTimesTheErrorOfTheLogarithm) {
   // Two draws of one slope, 0.04 to a factor of e below 50 MPa and 0.02 above.
   const double e = std::exp(1.0);
   const std::vector<double> pressures = {50.0 / e, 50.0, 50.0 * e};
-  Guesses draws = {{{0.34, 0.0}, {0.30, 1e-4}, {0.28, 0.0}},
-                   {{0.36, 0.0}, {0.32, 1e-4}, {0.30, 0.0}}};
+  Predictions draws = {{{0.34, 0.0}, {0.30, 1e-4}, {0.28, 0.0}},
+                       {{0.36, 0.0}, {0.32, 1e-4}, {0.30, 0.0}}};
   add_press_error(draws, pressures, 0.1);
-  for (const std::vector<Guess> &d : draws) {
+  for (const std::vector<MeanVariance> &d : draws) {
     EXPECT_NEAR(d[0].variance, 16e-6, 1e-12);
     EXPECT_NEAR(d[1].variance, 1e-4 + 9e-6, 1e-12); // the mean of both slopes
     EXPECT_NEAR(d[2].variance, 4e-6, 1e-12);
@@ -74,13 +74,13 @@ TEST(GivenData, IsTheEmulatorAndWhatTheModelMisses) {
       bank.at(bank.at_pressures(FilmNumber::PorosityAfter, film, material), 80.0).mean;
   c.data = {{0, "p080", FilmNumber::PorosityAfter, 80.0, 0.02, expected + 0.015, 0.003}};
   c.draws.front().missed = {0.02, 0.5};
-  const Wanted wanted = {made_film("other", 44.0, 2.5), FilmNumber::PorosityAfter, {80.0, 300.0}};
-  const auto all = given_data(made_film_bank(), c, c.draws.front(), wanted);
-  const auto missed = missed_given_data(made_film_bank(), c, c.draws.front(), wanted, false);
+  const Query query = {made_film("other", 44.0, 2.5), FilmNumber::PorosityAfter, {80.0, 300.0}};
+  const auto all = given_data(made_film_bank(), c, c.draws.front(), query);
+  const auto missed = missed_given_data(made_film_bank(), c, c.draws.front(), query, false);
   const auto curve =
-      made_film_bank().at_pressures(wanted.number, wanted.film, c.draws.front().materials[0]);
+      made_film_bank().at_pressures(query.number, query.film, c.draws.front().materials[0]);
   for (std::size_t k = 0; k < 2; ++k) {
-    const Guess g = made_film_bank().at(curve, wanted.pressures[k]);
+    const MeanVariance g = made_film_bank().at(curve, query.pressures[k]);
     EXPECT_NEAR(all[k].mean, g.mean + missed[k].mean, 1e-12);
     EXPECT_NEAR(all[k].variance, g.variance + missed[k].variance, 1e-12);
   }
@@ -94,15 +94,16 @@ TEST(OwnRuns, EveryDrawHasItsMaterialItsPackingAndThePressures) {
   Calibration c = exact();
   c.draws.clear();
   for (int k = 0; k < 100; ++k)
-    c.draws.push_back({{{{150.0 + k, 2.0, 400.0},
-                         k < 50 ? std::vector<Acting>() : std::vector<Acting>{{0, 0.4}}}},
-                       {0.001, 0.5}});
+    c.draws.push_back(
+        {{{{150.0 + k, 2.0, 400.0},
+           k < 50 ? std::vector<ActiveEffect>() : std::vector<ActiveEffect>{{0, 0.4}}}},
+         {0.001, 0.5}});
   const std::vector<Draw> draws = some_draws(c, 4);
   ASSERT_EQ(draws.size(), 4u);
   EXPECT_EQ(draws[0].materials[0].parameters[0], 162.0);
   EXPECT_EQ(draws[3].materials[0].parameters[0], 237.0);
   const auto file = calendem_test::test_folder() / "other.toml";
-  std::ofstream(file) << "name = \"other\"\nmaterial = \"xu2023\"\n[particles]\nsigma_ln = "
+  std::ofstream(file) << "name = \"other\"\n[particles]\nsigma_ln = "
                          "0.3\n[cell]\nx_um = 7\ny_um = 7\n";
   const Recipe recipe = read_recipe(file.string());
   const FilmBank &bank = made_film_bank();
@@ -123,15 +124,15 @@ TEST(OwnRuns, EveryDrawHasItsMaterialItsPackingAndThePressures) {
 
 // A material whose CBD has 3 points more nanopores than recipes say is packed and collapses so.
 TEST(OwnRuns, HaveTheNanoporesOfTheirMaterial) {
-  BankTable table = made_coatings({"cbd_collapse"});
-  table.spec.nanoporosity_within = 10.0;
-  const FilmBank bank(table);
+  bank::Runs runs = made_coatings();
+  runs.bank.nanoporosity_within = 10.0;
+  const FilmBank bank = film_bank_of(runs);
   std::vector<Draw> draws(4);
   for (Draw &d : draws)
-    d.materials = {{{190.0, 2.4, 480.0, 3.0}, {{0, 0.4}}}};
+    d.materials = {{{190.0, 2.4, 480.0, 3.0}, {{kCollapses, 0.4}}}};
   const auto file = calendem_test::test_folder() / "film.toml";
   std::ofstream(file)
-      << "material = \"xu2023\"\nname = \"film\"\n[cbd]\nnanoporosity_percent = 45\n";
+      << "name = \"film\"\n[cbd]\nnanoporosity_percent = 45\n";
   const Study study = own_runs(bank, draws, read_recipe(file.string()), 0, {50.0});
   EXPECT_NEAR(study.runs.front().recipe.nanoporosity, 0.48, 1e-12);
   EXPECT_NEAR(study.runs.front().settings.number("effects.cbd_collapse.initial_nanoporosity"), 0.48,
@@ -145,7 +146,7 @@ TEST(OwnRuns, UnderARollEveryPassTakesTheSame) {
   for (Draw &d : draws)
     d.materials = {{{190.0, 2.4, 480.0}, {}}};
   const auto file = calendem_test::test_folder() / "film.toml";
-  std::ofstream(file) << "material = \"xu2023\"\nname = \"film\"\n[coating]\nloading_mg_cm2 = 6\n";
+  std::ofstream(file) << "name = \"film\"\n[coating]\nloading_mg_cm2 = 6\n";
   const Recipe recipe = read_recipe(file.string());
   const FilmBank &bank = made_film_bank();
   const double before = bank.solid_column(bank.described(recipe)) / (1.0 - 0.4797);
@@ -167,11 +168,11 @@ TEST(OwnRuns, UnderARollEveryPassTakesTheSame) {
 TEST(Chances, AnAssuredProbabilityHoldsForFourOfFiveMaterials) {
   const Target target = {0.3, 0.01, 1.0};
   const auto of = [](FilmNumber number) {
-    Guesses draws;
+    Predictions draws;
     for (int k = 0; k < 100; ++k)
-      draws.push_back(number == FilmNumber::Cracked ? std::vector<Guess>(2, Guess{0.1, 0.0})
-                      : k < 70 ? std::vector<Guess>{{0.3, 1e-12}, {0.3, 3.64e-4}}
-                               : std::vector<Guess>{{0.4, 1e-12}, {0.3, 3.64e-4}});
+      draws.push_back(number == FilmNumber::Cracked ? std::vector<MeanVariance>(2, MeanVariance{0.1, 0.0})
+                      : k < 70 ? std::vector<MeanVariance>{{0.3, 1e-12}, {0.3, 3.64e-4}}
+                               : std::vector<MeanVariance>{{0.4, 1e-12}, {0.3, 3.64e-4}});
     return draws;
   };
   const auto c = chances_from({50.0, 100.0}, of, target);
@@ -187,7 +188,7 @@ TEST(Chances, AnAssuredProbabilityHoldsForFourOfFiveMaterials) {
 TEST(Chances, OfFewDrawsFourOfFiveReachTheAssured) {
   for (const int n : {5, 10, 20, 400}) {
     std::vector<double> all; // of the draws, ascending
-    Guesses after;
+    Predictions after;
     for (int k = 0; k < n; ++k) {
       after.push_back({{0.3, std::pow(0.01 * (n - k), 2)}});
       all.push_back(std::erf(1.0 / (n - k) / std::sqrt(2.0)));
@@ -201,8 +202,9 @@ TEST(Chances, OfFewDrawsFourOfFiveReachTheAssured) {
 TEST(Chances, ADrawThatLacksANumberIsLeftOut) {
   const auto of = [](FilmNumber number) {
     if (number == FilmNumber::InverseTortuosity)
-      return Guesses{{{NAN, 0.0}}, {{0.5, 0.0}}, {{0.2, 0.0}}};
-    return Guesses{{{0.0, 0.0}}, {{0.3, 0.0}}, {{0.3, 0.0}}}; // the first would miss the porosity
+      return Predictions{{{NAN, 0.0}}, {{0.5, 0.0}}, {{0.2, 0.0}}};
+    return Predictions{
+        {{0.0, 0.0}}, {{0.3, 0.0}}, {{0.3, 0.0}}}; // the first would miss the porosity
   };
   const auto c = chances_from({80.0}, of, {0.3, 0.01, 1.0, 3.0});
   EXPECT_EQ(c[0].porosity, 1.0);
@@ -212,7 +214,7 @@ TEST(Chances, ADrawThatLacksANumberIsLeftOut) {
                                  [](FilmNumber number) {
                                    const double after =
                                        number == FilmNumber::PorosityAfter ? NAN : 0.3;
-                                   return Guesses{{{after, 0.0}}};
+                                   return Predictions{{{after, 0.0}}};
                                  },
                                  {0.3, 0.01, 1.0});
   EXPECT_EQ(none[0].all, 0.0);
@@ -258,13 +260,12 @@ TEST(Chances, ABoundOnTheTortuosityCounts) {
               0.03 * tau);
 }
 
-// A bank of before has neither broken bonds nor tortuosities; nor has one whose effect was run without.
 TEST(Chances, WhatABankDoesNotHaveCannotBeAskedFor) {
-  BankTable table = made_coatings();
-  for (BankRow &row : table.rows)
-    if (!row.point.effect.empty())
-      row.run.inverse_tortuosity = NAN;
-  const FilmBank bank(table);
+  bank::Runs runs = made_coatings();
+  for (bank::Run &run : runs.runs)
+    for (bank::PressedFilm &press : run.presses)
+      press.inverse_tortuosity = NAN;
+  const FilmBank bank = film_bank_of(runs);
   EXPECT_FALSE(bank.knows(FilmNumber::InverseTortuosity));
   EXPECT_TRUE(bank.knows(FilmNumber::Broken));
   const Film film = made_film("x", 46.0, 2.0);

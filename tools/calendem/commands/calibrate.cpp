@@ -68,17 +68,17 @@ void say_effects(const FilmBank &bank, const Calibration &c) {
   for (std::size_t e = 0; e < bank.effects().size(); ++e) {
     fmt::print("  {:<28}", bank.effects()[e].name);
     for (std::size_t m = 0; m < c.materials.size(); ++m)
-      fmt::print(" {:5.1f} %", kPercent * acting(bank, c, int(e), m));
+      fmt::print(" {:5.1f} %", kPercent * acting(c, int(e), m));
     fmt::print("\n");
   }
   fmt::print("sets of them, from {:.0f} % on\n", kPercent * kWorthSaying);
-  for (const Weighed &w : c.hypotheses) {
-    if (*std::max_element(w.probability.begin(), w.probability.end()) < kWorthSaying)
+  for (const EffectSet &set : effect_sets_of(bank, c)) {
+    if (*std::max_element(set.probability.begin(), set.probability.end()) < kWorthSaying)
       continue;
-    fmt::print("  {}:", w.name);
-    for (const double probability : w.probability)
+    fmt::print("  {}:", set.name);
+    for (const double probability : set.probability)
       fmt::print(" {:.1f} %", kPercent * probability);
-    fmt::print(" ({:.0f} effective samples)\n", w.effective_samples);
+    fmt::print("\n");
   }
 }
 
@@ -110,10 +110,10 @@ Experiment experiment_of_its_material(const std::string &file) {
 }
 
 void run_calibrate(const CalibrateOptions &o) {
-  const FilmBank bank(read_bank_table(read_bank_spec(o.bank), table_file(o.bank)));
+  const FilmBank bank(o.bank);
   Calibration c;
   double numerics = 0.0;
-  for (const Numerics &n : bank.spec().numerics)
+  for (const bank::Numerics &n : bank.spec().numerics)
     numerics += n.porosity_points * n.porosity_points;
   c.error.numerics = std::sqrt(numerics) / kPercent;
   std::vector<std::string> not_said;
@@ -160,7 +160,7 @@ void run_calibrate(const CalibrateOptions &o) {
 
 void add_calibrate_verb(CLI::App &app) {
   auto o = std::make_shared<CalibrateOptions>();
-  o->bank = input_scripts() + "/cases/coatings/bank.toml";
+  o->bank = input_scripts() + "/cases/films/bank.toml";
   CLI::App *verb =
       app.add_subcommand("calibrate", "Infer a material's parameters and effects from measured "
                                       "films; predict each film from the others");
@@ -168,7 +168,7 @@ void add_calibrate_verb(CLI::App &app) {
   verb->add_option("-o,--output", o->folder, "folder for model.json, case.toml and model.html")
       ->required();
   verb->add_option("--bank", o->bank, "bank (TOML) with its table (CSV) beside it");
-  verb->add_option("--samples", o->settings.samples, "of each set of effects, from its prior")
+  verb->add_option("--samples", o->settings.samples, "that the posterior is sampled with")
       ->check(CLI::Range(64, 1 << 20));
   add_run_options(*verb, o->runs, o->study, "--confirm",
                   "so many simulations of every film at every pressure, each with another draw of "

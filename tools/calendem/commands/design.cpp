@@ -17,7 +17,7 @@ struct DesignOptions : FilmOptions {
 /// What is predicted of a film, and the numbers from which its chances follow.
 struct Settled {
   PredictedFilm predicted;
-  GuessesOf of;
+  PredictionsOf of;
 };
 
 Settled settled(const FilmBank &bank, const GapDraws &draws) {
@@ -114,7 +114,7 @@ void say_confirmed(const Confirmation &c) {
 
 /// Pressing makes no film more porous.
 void check_target(const AskedFilms &a, double porosity) {
-  const std::vector<BankParameter> &of = a.model.bank.film();
+  const std::vector<bank::Input> &of = a.model.bank.film();
   for (const Film &f : a.films)
     for (std::size_t k = 0; k < of.size(); ++k)
       if (of[k].keys.front() == kPorosityKey && f.recipe[k] <= porosity)

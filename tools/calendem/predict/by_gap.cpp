@@ -13,13 +13,13 @@ constexpr double kNearlyAll = 0.99;
 
 /// One draw at one gap: the logarithm of its pressure, and other numbers at that pressure.
 struct Met {
-  Guess log_pressure;
+  MeanVariance log_pressure;
   bool below = false, above = false; ///< the bank's pressures
   double place = 0.0;                ///< in the grid
 };
 
 /// Where a falling curve meets a value; the ends where it does not.
-Met meets(const std::vector<double> &logs, const std::vector<Guess> &load, double porosity) {
+Met meets(const std::vector<double> &logs, const std::vector<MeanVariance> &load, double porosity) {
   Met out;
   const std::size_t last = load.size() - 1;
   std::size_t k = 0;
@@ -38,7 +38,7 @@ Met meets(const std::vector<double> &logs, const std::vector<Guess> &load, doubl
 }
 
 /// A number at the draw's pressure, with what the error of that pressure adds.
-Guess number_at(const std::vector<Guess> &row, const Met &met, double step) {
+MeanVariance number_at(const std::vector<MeanVariance> &row, const Met &met, double step) {
   const auto k = std::min(std::size_t(met.place), row.size() - 2);
   const double at = met.place - double(k), slope = (row[k + 1].mean - row[k].mean) / step;
   return {(1.0 - at) * row[k].mean + at * row[k + 1].mean,
@@ -57,9 +57,9 @@ void check_gap(const Film &film, double gap, double solid, double before) {
                                          gap, film.name, solid / (1.0 - before)));
 }
 
-Mixture of_gap(const Guesses &draws, std::size_t gap) {
+Mixture of_gap(const Predictions &draws, std::size_t gap) {
   Mixture out;
-  for (const std::vector<Guess> &d : draws)
+  for (const std::vector<MeanVariance> &d : draws)
     if (std::isfinite(d[gap].mean))
       out.of.push_back(d[gap]);
   return out;
@@ -89,7 +89,7 @@ AtGap at_gap(const GapDraws &d, std::size_t k) {
 }
 
 /// Porosity of the film after release, from its springback.
-Guess porosity_left(const Guess &springback, double gap, double solid) {
+MeanVariance porosity_left(const MeanVariance &springback, double gap, double solid) {
   const double thickness = gap * (1.0 + springback.mean),
                slope = solid * gap / (thickness * thickness);
   return {1.0 - solid / thickness, slope * slope * springback.variance};
@@ -98,10 +98,10 @@ Guess porosity_left(const Guess &springback, double gap, double solid) {
 } // namespace
 
 std::vector<double> pressures_of_curves(const FilmBank &bank) {
-  return spread_pressures(bank.spec().pressures.front(), bank.spec().pressures.back(), kGrid);
+  return spread_pressures(bank.pressures().front(), bank.pressures().back(), kGrid);
 }
 
-FilmCurves curves_at(const std::vector<double> &pressures, const GuessesOf &of) {
+FilmCurves curves_at(const std::vector<double> &pressures, const PredictionsOf &of) {
   FilmCurves out;
   out.pressures = pressures;
   out.springback = of(FilmNumber::Springback);
@@ -122,7 +122,7 @@ void add_met(const FilmCurves &curves, const std::vector<std::vector<double>> &p
   const double step = logs[1] - logs[0], share = 1.0 / double(curves.load.size());
   for (std::size_t d = 0; d < curves.load.size(); ++d) {
     std::vector<Met> met;
-    std::vector<Guess> log_pressures;
+    std::vector<MeanVariance> log_pressures;
     for (std::size_t k = 0; k < draws.gaps.size(); ++k) {
       met.push_back(meets(logs, curves.load[d], porosities[d][k]));
       log_pressures.push_back(met[k].log_pressure);
@@ -130,7 +130,7 @@ void add_met(const FilmCurves &curves, const std::vector<std::vector<double>> &p
       draws.above[k] += met[k].above * share;
     }
     draws.log_pressure.push_back(log_pressures);
-    const auto add = [&](const Guesses &of, Guesses &to) {
+    const auto add = [&](const Predictions &of, Predictions &to) {
       if (of.empty())
         return;
       to.emplace_back();
@@ -152,8 +152,8 @@ GapDraws gaps_of(const FilmBank &bank, const Film &film, const std::vector<doubl
   const double before = porosity_before(bank, film);
   for (const double gap : gaps)
     check_gap(film, gap, out.solid, before);
-  out.lowest = bank.spec().pressures.front();
-  out.highest = bank.spec().pressures.back();
+  out.lowest = bank.pressures().front();
+  out.highest = bank.pressures().back();
   return out;
 }
 
@@ -192,12 +192,12 @@ std::vector<AtGap> at_gaps(const GapDraws &draws) {
   return out;
 }
 
-GuessesOf numbers_at_gaps(const GapDraws &draws) {
-  return [draws](FilmNumber number) -> Guesses {
+PredictionsOf numbers_at_gaps(const GapDraws &draws) {
+  return [draws](FilmNumber number) -> Predictions {
     switch (number) {
     case FilmNumber::PorosityAfter: {
-      Guesses out = draws.springback;
-      for (std::vector<Guess> &d : out)
+      Predictions out = draws.springback;
+      for (std::vector<MeanVariance> &d : out)
         for (std::size_t k = 0; k < d.size(); ++k)
           d[k] = porosity_left(d[k], draws.gaps[k], draws.solid);
       return out;

@@ -26,8 +26,8 @@ struct GapDraws {
   std::vector<double> gaps;           ///< [um]
   double solid = 0.0;                 ///< thickness without pores [um]
   double lowest = 0.0, highest = 0.0; ///< pressures that the bands may hold [MPa]
-  Guesses log_pressure;               ///< of MPa
-  Guesses springback, cracked, broken, inverse_tortuosity; ///< as FilmNumber; empty: not known
+  Predictions log_pressure;           ///< of MPa
+  Predictions springback, cracked, broken, inverse_tortuosity; ///< as FilmNumber; empty: not known
   /// By gap: the share of draws whose pressure lies below or above the bank's.
   std::vector<double> below, above;
   int runs = 0; ///< of its own at each gap; 0: by the bank's emulators
@@ -35,11 +35,11 @@ struct GapDraws {
 
 /// A film against pressure under each draw: draws x pressures at equal ratios.
 struct FilmCurves {
-  std::vector<double> pressures;                           ///< [MPa]
-  Guesses load;                                            ///< porosity under load
-  Guesses springback, cracked, broken, inverse_tortuosity; ///< as FilmNumber; empty: not known
+  std::vector<double> pressures;                               ///< [MPa]
+  Predictions load;                                            ///< porosity under load
+  Predictions springback, cracked, broken, inverse_tortuosity; ///< as FilmNumber; empty: not known
 };
-FilmCurves curves_at(const std::vector<double> &pressures, const GuessesOf &of);
+FilmCurves curves_at(const std::vector<double> &pressures, const PredictionsOf &of);
 /// The pressures of such curves.
 std::vector<double> pressures_of_curves(const FilmBank &bank);
 
@@ -61,7 +61,7 @@ void check_reached(const GapDraws &draws);
 
 std::vector<AtGap> at_gaps(const GapDraws &draws);
 /// The porosity after release follows from gap and springback.
-GuessesOf numbers_at_gaps(const GapDraws &draws);
+PredictionsOf numbers_at_gaps(const GapDraws &draws);
 /// In what a film lies beyond the bank, in words. Runs need the emulators only for what the model
 /// error changes.
 std::vector<std::string> beyond_at_gaps(const FilmBank &bank, const Film &film, int runs);

@@ -64,8 +64,8 @@ void add_experiment(const Experiment &experiment, const FilmBank &bank, Calibrat
     if (!c.max_pressure_MPa || !bank.covers(c.max_pressure_MPa->value)) {
       not_said.push_back(fmt::format("{}, {}: its pressure is not known, or outside the bank's "
                                      "{:g} to {:g} MPa: left out.",
-                                     experiment.name, c.id, bank.spec().pressures.front(),
-                                     bank.spec().pressures.back()));
+                                     experiment.name, c.id, bank.pressures().front(),
+                                     bank.pressures().back()));
       continue;
     }
     if (c.porosity_before_percent || loading_of(experiment, c))
@@ -106,16 +106,20 @@ struct Spot {
   double log_pressure, sizes;
 };
 
+/// Errors of model and emulator change over a factor e of pressure.
+double near(double log_pressure, double other) {
+  return std::exp(-0.5 * std::pow(log_pressure - other, 2));
+}
+
 /// A part of what the model misses is common to all films of one material, and less of it to others;
 /// it changes over a factor e of pressure. One shift of the bank's numerics is common to all
 /// porosities, and one slope with the particles' size to all films.
 double error_covariance(const ModelError &e, const Draw &draw, const Spot &a, const Spot &b) {
   if (a.number != b.number)
     return 0.0;
-  const Missed &missed = draw.missed;
-  const double off = a.log_pressure - b.log_pressure;
+  const ModelDiscrepancy &missed = draw.missed;
   const double between = missed.shared * (a.material == b.material ? 1.0 : draw.alike);
-  const double alike = std::exp(-0.5 * off * off) * (a.film == b.film ? 1.0 : between);
+  const double alike = near(a.log_pressure, b.log_pressure) * (a.film == b.film ? 1.0 : between);
   switch (a.number) {
   case FilmNumber::PorosityAfter:
     return e.numerics * e.numerics + missed.sd * missed.sd * alike +
@@ -140,31 +144,25 @@ Spot spot_of(const Calibration &c, const Datum &d) {
 /// Emulated values of the data, and what is uncertain about them but for the measurement.
 struct Predicted {
   Vector mean, variance, by_pressure; ///< by_pressure: for one sd of the press's pressure
-  std::vector<std::vector<double>> by_full_cell; ///< FilmBank::full_cell_errors of each datum
 };
-
-double product(const std::vector<double> &a, const std::vector<double> &b) {
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-}
 
 Predicted predicted_data(const FilmBank &bank, const Calibration &c, const Draw &draw,
                          Curves &curves) {
   const auto n = Eigen::Index(c.data.size());
-  Predicted out = {Vector(n), Vector(n), Vector(n), {}};
+  Predicted out = {Vector(n), Vector(n), Vector(n)};
   for (Eigen::Index k = 0; k < n; ++k) {
     const Datum &d = c.data[std::size_t(k)];
     const Film &film = c.films[std::size_t(d.film)];
     auto [at, is_new] = curves.try_emplace({d.film, d.number});
     if (is_new)
       at->second = bank.at_pressures(d.number, film, draw.of(film));
-    const Guess g = bank.at(at->second, d.pressure);
+    const MeanVariance g = bank.at(at->second, d.pressure);
     out.mean[k] = g.mean;
     out.variance[k] = g.variance;
     const auto [below, above] = bank.beside(d.pressure);
     const double slope = (bank.at(at->second, above).mean - bank.at(at->second, below).mean) /
                          std::log(above / below);
     out.by_pressure[k] = slope * d.pressure_sd;
-    out.by_full_cell.push_back(bank.full_cell_errors(d.number, film, d.pressure));
   }
   return out;
 }
@@ -184,10 +182,11 @@ Matrix covariance_of(const Calibration &c, const Predicted &p, const Draw &draw)
       out(i, j) = error_covariance(c.error, draw, spot_of(c, a), spot_of(c, b));
       if (a.film == b.film)
         out(i, j) += p.by_pressure[i] * p.by_pressure[j];
-      if (a.number == b.number)
-        out(i, j) += product(p.by_full_cell[std::size_t(i)], p.by_full_cell[std::size_t(j)]);
+      if (a.number == b.number && a.film == b.film)
+        out(i, j) += std::sqrt(p.variance[i] * p.variance[j]) *
+                     near(std::log(a.pressure), std::log(b.pressure));
       if (i == j)
-        out(i, j) += a.sd * a.sd + p.variance[i];
+        out(i, j) += a.sd * a.sd;
     }
   return out;
 }
@@ -212,13 +211,13 @@ double log_likelihood(const FilmBank &bank, const Calibration &c, const Draw &dr
          Matrix(chol.matrixL()).diagonal().array().log().sum();
 }
 
-std::vector<Guess> each_from_the_others(const FilmBank &bank, const Calibration &c,
-                                        const Draw &draw) {
+std::vector<MeanVariance> each_from_the_others(const FilmBank &bank, const Calibration &c,
+                                               const Draw &draw) {
   const Predicted p = predicted_data(bank, c, draw);
   const auto n = Eigen::Index(c.data.size());
   const Matrix precision = Cholesky(covariance_of(c, p, draw)).solve(Matrix::Identity(n, n));
   const Vector measured = measured_of(c), pull = precision * (measured - p.mean);
-  std::vector<Guess> out;
+  std::vector<MeanVariance> out;
   for (Eigen::Index k = 0; k < n; ++k)
     out.push_back({measured[k] - pull[k] / precision(k, k), 1.0 / precision(k, k)});
   return out;
@@ -231,16 +230,7 @@ inference::Prior discrepancy_of(const ModelError &error) {
 namespace {
 
 constexpr double kOuterTenth = 0.8; // of a scaled range, -1 to 1
-constexpr double kFewSamples = 50.0;
-
-/// Number for all hypotheses together.
-double effective_samples(const Calibration &c) {
-  double squares = 0.0;
-  for (const Weighed &w : c.hypotheses)
-    if (w.probability[0] > 0.0)
-      squares += w.probability[0] * w.probability[0] / w.effective_samples;
-  return 1.0 / squares;
-}
+constexpr double kFewMoves = 0.02;
 
 /// -1 or 1 where half of the draws lie in the outer tenth of the range at that end, else 0.
 template <class Value>
@@ -280,10 +270,11 @@ std::vector<std::string> warnings_of(const FilmBank &bank, const Calibration &c)
                               "misses lies at the upper end of its range, {:g} points of porosity. "
                               "Check pressures and porosities, or use a bank of such films.",
                               100.0 * missed.b));
-  if (const double samples = effective_samples(c); samples < kFewSamples)
-    out.push_back(fmt::format("Only {:.0f} samples carry the result (effective number; {:g} or "
-                              "more are wanted): its intervals are rough. Ask for more --samples.",
-                              samples, kFewSamples));
+  if (c.acceptance < kFewMoves)
+    out.push_back(
+        fmt::format("Of the sampler's moves {:.1f} % were taken in its worst step ({:g} % or "
+                    "more are wanted): the intervals are rough. Ask for more --samples.",
+                    100.0 * c.acceptance, 100.0 * kFewMoves));
   return out;
 }
 
@@ -297,44 +288,39 @@ bool is_same_film(const Film &a, const Film &b) {
          std::fabs(a.loading - b.loading) <= 1e-9 * b.loading;
 }
 
-std::vector<Guess> missed_given_data(const FilmBank &bank, const Calibration &c, const Draw &draw,
-                                     const Wanted &wanted, bool by_bank) {
+std::vector<MeanVariance> missed_given_data(const FilmBank &bank, const Calibration &c,
+                                            const Draw &draw, const Query &query, bool by_bank) {
   const auto known = std::find_if(c.films.begin(), c.films.end(),
-                                  [&](const Film &f) { return is_same_film(f, wanted.film); });
+                                  [&](const Film &f) { return is_same_film(f, query.film); });
   const int film = known == c.films.end() ? -1 : int(known - c.films.begin());
   const auto n = Eigen::Index(c.data.size());
   const Predicted p = predicted_data(bank, c, draw);
   const Cholesky chol(covariance_of(c, p, draw));
   const Vector weights = chol.solve(measured_of(c) - p.mean);
-  std::vector<Guess> out;
-  for (const double pressure : wanted.pressures) {
+  std::vector<MeanVariance> out;
+  for (const double pressure : query.pressures) {
     // runs have the film's own particles
-    const Spot here = {film, wanted.film.material, wanted.number, std::log(pressure),
-                       by_bank ? wanted.film.sizes : 0.0};
-    const std::vector<double> by_full_cell =
-        by_bank ? bank.full_cell_errors(wanted.number, wanted.film, pressure)
-                : std::vector<double>();
+    const Spot here = {film, query.film.material, query.number, std::log(pressure),
+                       by_bank ? query.film.sizes : 0.0};
     Vector with(n);
     for (Eigen::Index k = 0; k < n; ++k) {
       const Datum &d = c.data[std::size_t(k)];
       with[k] = error_covariance(c.error, draw, spot_of(c, d), here);
-      if (d.number == wanted.number)
-        with[k] += product(by_full_cell, p.by_full_cell[std::size_t(k)]);
     }
-    const double left = error_covariance(c.error, draw, here, here) +
-                        product(by_full_cell, by_full_cell) - with.dot(Vector(chol.solve(with)));
+    const double left =
+        error_covariance(c.error, draw, here, here) - with.dot(Vector(chol.solve(with)));
     out.push_back({with.dot(weights), std::max(0.0, left)});
   }
   return out;
 }
 
-std::vector<Guess> given_data(const FilmBank &bank, const Calibration &c, const Draw &draw,
-                              const Wanted &wanted) {
-  const std::vector<Guess> curve =
-      bank.at_pressures(wanted.number, wanted.film, draw.of(wanted.film));
-  std::vector<Guess> out = missed_given_data(bank, c, draw, wanted, true);
+std::vector<MeanVariance> given_data(const FilmBank &bank, const Calibration &c, const Draw &draw,
+                                     const Query &query) {
+  const std::vector<MeanVariance> curve =
+      bank.at_pressures(query.number, query.film, draw.of(query.film));
+  std::vector<MeanVariance> out = missed_given_data(bank, c, draw, query, true);
   for (std::size_t k = 0; k < out.size(); ++k) {
-    const Guess g = bank.at(curve, wanted.pressures[k]);
+    const MeanVariance g = bank.at(curve, query.pressures[k]);
     out[k] = {g.mean + out[k].mean, g.variance + out[k].variance};
   }
   return out;

@@ -37,7 +37,7 @@ struct ModelError {
 };
 
 /// The model's own error.
-struct Missed {
+struct ModelDiscrepancy {
   double sd = 0.0;     ///< of porosity 0-1
   double shared = 0.5; ///< of its variance, that all films of one material have in common, 0-1
 };
@@ -45,7 +45,7 @@ struct Missed {
 struct Draw {
   /// One for each of Calibration::materials, and last for one more that was not measured.
   std::vector<Material> materials;
-  Missed missed;
+  ModelDiscrepancy missed;
   /// Correlation between materials of each parameter and amplitude (of its normal score), 0-1, and
   /// the probability that two have the same effects because they are alike.
   double alike = 0.5;
@@ -53,10 +53,10 @@ struct Draw {
 };
 
 /// Effects that may act together.
-struct Weighed {
+struct EffectSet {
   std::string name;                ///< "none", an effect, "a + b"
+  std::vector<int> effects;        ///< places in FilmBank::effects()
   std::vector<double> probability; ///< in each of Calibration::materials
-  double effective_samples = 0.0;  ///< of those with these effects in the first material
 };
 
 /// Names for experiments that name no material, and of one that was not measured.
@@ -68,8 +68,8 @@ struct Calibration {
   std::vector<Datum> data;
   std::vector<Crushed> crushed;
   ModelError error;
-  std::vector<Weighed> hypotheses; ///< as of hypotheses_of
-  std::vector<Draw> draws;         ///< of equal weight
+  std::vector<Draw> draws; ///< of equal weight
+  double acceptance = 1.0; ///< of the sampler's moves, the least over its steps
 };
 
 /// Adds the film of an experiment and its data: porosities after, cracked particles and nanopores of
@@ -80,48 +80,43 @@ void add_experiment(const Experiment &experiment, const FilmBank &bank, Calibrat
                     std::vector<std::string> &not_said);
 
 struct CalibrationSettings {
-  int samples = 2048; ///< of each set of effects, from its prior
+  int samples = 1000;
   int draws = 400;
 };
 
 /// Emulated numbers of films (places in Calibration::films) at the bank's pressures, under one draw.
-using Curves = std::map<std::pair<int, FilmNumber>, std::vector<Guess>>;
+using Curves = std::map<std::pair<int, FilmNumber>, std::vector<MeanVariance>>;
 
 /// Logarithm of the likelihood of all data together, but for a constant. `known`: of the draw,
 /// added to where it lacks a film.
 double log_likelihood(const FilmBank &bank, const Calibration &calibration, const Draw &draw,
                       Curves &known);
 /// Each datum as all others predict it under a draw, with the errors of measurement and press.
-std::vector<Guess> each_from_the_others(const FilmBank &bank, const Calibration &calibration,
-                                        const Draw &draw);
+std::vector<MeanVariance> each_from_the_others(const FilmBank &bank, const Calibration &calibration,
+                                               const Draw &draw);
 /// Prior of the model's own error.
 inference::Prior discrepancy_of(const ModelError &error);
 
-/// The effects of each hypothesis, few before many: every set of the bank's. All amplitudes are free;
-/// what they change together: together.h.
-std::vector<std::vector<int>> hypotheses_of(const FilmBank &bank);
+/// The sets of effects that act in draws, the most probable in any material first.
+std::vector<EffectSet> effect_sets_of(const FilmBank &bank, const Calibration &calibration);
 std::string name_of(const FilmBank &bank, const std::vector<int> &effects);
 /// The effects that act in a material.
 std::vector<int> effects_of(const Material &material);
 /// Probability that one of the bank's effects acts in a material, alone or with others.
-double acting(const FilmBank &bank, const Calibration &calibration, int effect,
-              std::size_t material);
+double acting(const Calibration &calibration, int effect, std::size_t material);
 
 /// Systematic resampling by weights: the k-th of `count` is the first whose summed share passes
 /// (k + 1/2) / count.
 std::vector<std::size_t> resampled(const std::vector<double> &weights, int count);
 
-/// Fills hypotheses and draws from films, data and error. Before the data each effect acts as
-/// probably as not. Samples are a Sobol sequence over the priors, weighted by
-/// the likelihood of the data (importance sampling). Of several materials each takes its turn:
-/// samples of those before it, drawn anew by their weights, get one more material, which is drawn
-/// given those it is like, and are weighted by what its films add (sequential Monte Carlo, Del
-/// Moral, Doucet and Jasra 2006). Deterministic.
+/// Fills the draws from films, data and error. Before the data the model is wrong about each effect -
+/// it acts, or it does not, other than in the bank's reference material - with a probability of 10 %.
+/// Deterministic.
 void calibrate(const FilmBank &bank, const CalibrationSettings &settings, Calibration &calibration);
 
 /// What speaks against trusting a calibration: parameters that the data drive to an end of the bank's
-/// range (half of the draws lie in its outer tenth), the model's own error at its upper end, few
-/// effective samples.
+/// range (half of the draws lie in its outer tenth), the model's own error at its upper end, a
+/// sampler that hardly moved.
 std::vector<std::string> warnings_of(const FilmBank &bank, const Calibration &calibration);
 
 /// ", NAME", to stand behind a parameter's name; empty where there is only one material.
@@ -130,7 +125,7 @@ std::string of_material(const Calibration &calibration, std::size_t material);
 /// By what they are, not by their names.
 bool is_same_film(const Film &a, const Film &b);
 
-struct Wanted {
+struct Query {
   Film film;
   FilmNumber number = FilmNumber::PorosityAfter;
   std::vector<double> pressures; ///< [MPa]
@@ -138,13 +133,13 @@ struct Wanted {
 
 /// What the model misses of a film, given the data: mean and variance at each wanted pressure.
 /// `by_bank`: of the bank's emulators, with the error of their change to the full cell; else of runs.
-std::vector<Guess> missed_given_data(const FilmBank &bank, const Calibration &calibration,
-                                     const Draw &draw, const Wanted &wanted, bool by_bank);
+std::vector<MeanVariance> missed_given_data(const FilmBank &bank, const Calibration &calibration,
+                                            const Draw &draw, const Query &query, bool by_bank);
 
 /// Given the data, at each wanted pressure: mean and variance of emulators and model error, not of a
 /// press.
-std::vector<Guess> given_data(const FilmBank &bank, const Calibration &calibration,
-                              const Draw &draw, const Wanted &wanted);
+std::vector<MeanVariance> given_data(const FilmBank &bank, const Calibration &calibration,
+                                     const Draw &draw, const Query &query);
 
 } // namespace calendem
 

@@ -29,11 +29,8 @@ inline constexpr const char *kHeadOfCase = "# The most probable material of a ca
 /// A case.toml of one of the materials: the middle of the draws of the most probable hypothesis.
 std::string case_of(const FilmBank &bank, const Calibration &calibration, std::size_t material);
 
-/// The bank's table beside its file, with the file's name.
-std::string table_file(const std::string &bank_file);
-
 /// The other files that a bank reads: recipes, cases, crushed particles.
-std::vector<std::string> files_beside(const BankSpec &spec);
+std::vector<std::string> files_beside(const bank::Bank &spec);
 
 struct Model {
   FilmBank bank;

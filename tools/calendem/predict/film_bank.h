@@ -5,21 +5,13 @@
 #define CALENDEM_PREDICT_FILM_BANK_H
 
 #include "bank/training.h"
-#include "diagnose/bank/bank_table.h"
-#include "diagnose/inference/gaussian_process.h"
-#include "inference/quantities.h"
 #include "predict/crushing_loads.h"
 #include <array>
 #include <optional>
 
 namespace calendem {
 
-/// Numbers that the base model has emulators of; the next one, nanoporosity, only collapse has.
-constexpr int kByBase = int(FilmNumber::CbdNanoporosity);
-/// Tables of earlier versions lack it.
-bool may_be_missing(FilmNumber number);
-
-/// Key of the porosity before calendering, where a bank's films differ in it.
+/// Key of the porosity before calendering, in which a bank's films differ.
 inline constexpr const char *kPorosityKey = "recipe.coating.porosity_total_percent";
 
 /// A parameter of materials: nanoporosity of their CBD less the recipe's [%].
@@ -38,7 +30,7 @@ struct Film {
   std::string remark;         ///< of its recipe's material; empty: none
 };
 
-struct Acting {
+struct ActiveEffect {
   int effect = 0; ///< place in FilmBank::effects()
   double amplitude = 0.0;
 };
@@ -46,21 +38,23 @@ struct Acting {
 /// Values of FilmBank::material(), and the effects that are on.
 struct Material {
   std::vector<double> parameters; ///< in their units
-  std::vector<Acting> effects;
+  std::vector<ActiveEffect> effects;
 };
 
-struct Guess {
+struct MeanVariance {
   double mean = 0.0, variance = 0.0; ///< variance: of the emulators, not of the sample
 };
 
 class FilmBank {
 public:
-  /// Throws Failure(2) with fewer than four pressures or kFewestRuns points. A point that lacks
-  /// a run, but for the one to the highest pressure, is left out.
-  explicit FilmBank(const BankTable &table);
+  /// Throws Failure(2) where the runs' presses are too few to predict between.
+  FilmBank(const bank::Runs &runs, inference::Emulator emulator);
+  /// The bank of that file and the table beside it.
+  explicit FilmBank(const std::string &file);
 
-  const BankSpec &spec() const { return spec_; }
-  /// Parameters of the bank whose keys are a case's, and kNanoporosity where the bank does not take
+  const bank::Bank &spec() const { return spec_; }
+  const std::vector<double> &pressures() const { return pressures_; } ///< MPa, increasing
+  /// Quantities of the bank whose keys are a case's, and kNanoporosity where the bank does not take
   /// it for known.
   const std::vector<inference::Parameter> &material() const { return material_; }
   /// Place in it of the strength of the bonds; -1: it is none of them.
@@ -69,8 +63,8 @@ public:
   const std::optional<CrushingLoads> &crushing() const { return crushing_; }
   /// Nanoporosity of a film's CBD, if it is made of that material, 0-1.
   double nanoporosity(const Film &film, const Material &material) const;
-  const std::vector<BankParameter> &film() const { return film_; }
-  /// Simulated ones that the bank has runs of.
+  const std::vector<bank::Input> &film() const { return film_; }
+  /// Those that the bank's runs have.
   const std::vector<inference::Parameter> &effects() const { return effects_; }
 
   /// Throws Failure(2) if its recipe is another electrode than the bank's but for the parameters.
@@ -84,43 +78,38 @@ public:
   std::vector<std::string> differences(const Recipe &recipe) const;
   /// Its thickness without pores [um].
   double solid_column(const Film &film) const;
-  /// Its table has the number; broken bonds, tortuosity and nanoporosity may be missing.
-  bool knows(FilmNumber number) const { return emulators_of(number) != nullptr; }
+  /// Its table has the number at every pressure.
+  bool knows(FilmNumber number) const { return known_[std::size_t(number)]; }
   /// In what a film lies beyond the bank, in words.
   std::vector<std::string> beyond(const Film &film) const;
   bool covers(double pressure) const;
 
-  /// At each of the bank's pressures.
-  std::vector<Guess> at_pressures(FilmNumber number, const Film &film,
-                                  const Material &material) const;
+  /// At each of the bank's pressures, of one material or of several.
+  std::vector<MeanVariance> at_pressures(FilmNumber number, const Film &film,
+                                         const Material &material) const;
+  std::vector<std::vector<MeanVariance>>
+  at_pressures(FilmNumber number, const Film &film,
+               const std::vector<const Material *> &materials) const;
   /// Between them by a monotone cubic (Fritsch and Butland 1984) in the pressure's logarithm; beyond
   /// them the last value and a variance that grows.
-  Guess at(const std::vector<Guess> &curve, double pressure) const;
+  MeanVariance at(const std::vector<MeanVariance> &curve, double pressure) const;
   /// Pressures 5 % to either side, within the bank's: for a slope.
   std::pair<double, double> beside(double pressure) const;
-  /// Errors of the change from the bank's cell to the full cell, one value for each run of that:
-  /// sums of products are covariances, between pressures and films too.
-  std::vector<double> full_cell_errors(FilmNumber number, const Film &film, double pressure) const;
   /// How well left-out packings are predicted, of a number at each pressure.
-  std::vector<inference::Quality> quality(FilmNumber number) const;
+  std::vector<inference::Accuracy> accuracy(FilmNumber number) const;
 
 private:
-  using Emulators = std::vector<inference::GaussianProcess>; ///< a pressure each
-  struct FullCell {
-    std::vector<double> change;           ///< at each pressure
-    std::vector<std::vector<double>> off; ///< what each run is off by, at each pressure
-  };
-  BankSpec spec_;
+  bank::Bank spec_;
+  bank::Space space_;
   Recipe recipe_;
+  std::vector<double> pressures_;
+  inference::Emulator emulator_;
   std::vector<inference::Parameter> material_, effects_;
-  std::vector<BankParameter> film_;
-  std::vector<bool> of_film_; ///< of the bank's parameters
-  std::array<Emulators, kFilmNumbers> base_;
-  std::vector<std::array<Emulators, kFilmNumbers>> with_; ///< differences, by effect
-  std::array<FullCell, kFilmNumbers> full_cell_;
+  std::vector<bank::Input> film_;
+  std::array<bool, kFilmNumbers> known_{};
   int strength_ = -1;
   std::optional<CrushingLoads> crushing_;
-  double full_loading_ = 0.0;
+  double larger_loading_ = 0.0;     ///< of the larger cell; 0: there is none
   double floor_nanoporosity_ = 0.0; ///< that collapse leaves, 0-1
 
   /// A film whose CBD has the bank's nanoporosity, as thick as another and with as much of CBD, pores
@@ -131,24 +120,12 @@ private:
     double collapse = 1.0; ///< volume that the nanopores can lose, the other's per its own
   };
 
-  inference::Vector input(const Film &film, const Material &material) const;
   double carbon_and_binder(const Film &film) const;
   Alike alike(const Film &film, double nanoporosity) const;
   void check_nanoporosity() const;
-  void learn(const BankTable &table);
-  void learn_full_cell(const BankTable &table);
-  void forget(FilmNumber number);
-  /// Emulators of the base model; for the nanoporosity, which only collapse changes, those of
-  /// collapse.
-  const Emulators *emulators_of(FilmNumber number) const;
-  double full_cell_share(const Film &film) const;
-  /// What one effect changes at one of the bank's pressures.
-  Guess change(FilmNumber number, std::size_t pressure, const inference::Vector &input,
-               const Acting &acting, const Alike &as) const;
-  /// What several change beyond the sum of these; `alone`: without them, `changed`: by each.
-  Guess beyond_sum(FilmNumber number, std::size_t pressure, const inference::Vector &input,
-                   const Material &material, const Alike &as, double alone,
-                   const std::vector<double> &changed) const;
+  double larger_share(const Film &film) const;
+  void place(const Material &material, const Alike &as, Eigen::Index column,
+             inference::Points &at) const;
 };
 
 /// How porosity may depend on the particles' median size by volume: standard deviation for a factor
@@ -162,10 +139,7 @@ constexpr double kPorosityBySize = 0.07;
 std::array<double, 3> sizes_by_volume(const Recipe &recipe, double largest);
 
 /// The amplitude in the unit of its effect's key.
-double key_value(const FilmBank &bank, const Acting &acting);
-
-/// Value of a run.
-double value_of(FilmNumber number, const SimulatedRun &run);
+double key_value(const FilmBank &bank, const ActiveEffect &acting);
 
 } // namespace calendem
 

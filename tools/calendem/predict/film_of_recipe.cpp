@@ -79,7 +79,7 @@ Film FilmBank::described(const Recipe &recipe) const {
   out.nanoporosity = recipe.nanoporosity;
   out.of_bank = differences(recipe).empty();
   out.remark = not_calibrated(recipe.material);
-  for (const BankParameter &p : film_) {
+  for (const bank::Input &p : film_) {
     double sum = 0.0;
     for (const std::string &key : p.keys) {
       const std::string bare = bare_of(key);
@@ -106,7 +106,7 @@ std::vector<std::string> FilmBank::differences(const Recipe &recipe) const {
   const Recipe &bank = recipe_;
   std::map<std::string, std::string> wanted = bank.settings.all();
   const auto any = [&](const char *key) { wanted[key] = recipe.settings.text(key); };
-  for (const BankParameter &p : film_)
+  for (const bank::Input &p : film_)
     for (const std::string &key : p.keys) {
       const std::string bare = bare_of(key);
       any(bare.c_str());
@@ -167,7 +167,7 @@ double FilmBank::solid_column(const Film &film) const {
 
 void FilmBank::check_nanoporosity() const {
   const auto has = [&](const auto &wanted) {
-    return std::any_of(film_.begin(), film_.end(), [&](const BankParameter &p) {
+    return std::any_of(film_.begin(), film_.end(), [&](const bank::Input &p) {
       return std::any_of(p.keys.begin(), p.keys.end(), wanted);
     });
   };
@@ -217,9 +217,9 @@ std::vector<std::string> FilmBank::beyond(const Film &film) const {
       out.push_back(fmt::format("{0} {2:.4g}{1}; the bank has {3:g} to {4:g}{1}: extrapolated",
                                 in_words(film_[k].name).name, in_words(film_[k].name).unit,
                                 recipe[k], film_[k].low, film_[k].high));
-  if (full_loading_ > 0.0 && film.loading < (1.0 - kSameLoading) * recipe_.loading)
+  if (larger_loading_ > 0.0 && film.loading < (1.0 - kSameLoading) * recipe_.loading)
     out.push_back(fmt::format("loading {:.3g} mg/cm2; the bank has {:g} to {:g}: extrapolated",
-                              film.loading, recipe_.loading, full_loading_));
+                              film.loading, recipe_.loading, larger_loading_));
   if (const double error = kPorosityBySize * std::fabs(film.sizes); error > kSizesSaid)
     out.push_back(fmt::format("half of the particles' volume lies below a diameter that is {:.2f} "
                               "times the bank's: counted as an error of {:.1f} points of porosity",

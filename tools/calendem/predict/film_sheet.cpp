@@ -116,7 +116,7 @@ Json film_json(const FilmBank &bank, const Film &f) {
 
 std::string table_of(const FilmBank &bank, const FilmSheet &sheet) {
   std::string out = "film";
-  for (const BankParameter &p : bank.film())
+  for (const bank::Input &p : bank.film())
     out += "," + p.name;
   out += "," + sheet.at_name;
   for (const std::string &name : sheet.further)

@@ -42,11 +42,11 @@ Moments moments_of(const std::vector<double> &values, const std::vector<double> 
 }
 
 /// Shares of the draws without a datum.
-std::vector<double> weights_without(const std::vector<std::vector<Guess>> &predicted,
+std::vector<double> weights_without(const std::vector<std::vector<MeanVariance>> &predicted,
                                     std::size_t datum, double measured) {
   std::vector<double> logs;
-  for (const std::vector<Guess> &of : predicted) {
-    const Guess &g = of[datum];
+  for (const std::vector<MeanVariance> &of : predicted) {
+    const MeanVariance &g = of[datum];
     logs.push_back(0.5 * std::pow(measured - g.mean, 2) / g.variance + 0.5 * std::log(g.variance));
   }
   const double largest = *std::max_element(logs.begin(), logs.end());
@@ -58,11 +58,11 @@ std::vector<double> weights_without(const std::vector<std::vector<Guess>> &predi
   return logs;
 }
 
-Lesson lesson_of(const std::vector<std::vector<Guess>> &predicted, std::size_t datum,
-                 double measured, const std::vector<Scores> &scores) {
+LeftOutDatum lesson_of(const std::vector<std::vector<MeanVariance>> &predicted, std::size_t datum,
+                       double measured, const std::vector<Scores> &scores) {
   const std::vector<double> without = weights_without(predicted, datum, measured),
                             with(without.size(), 1.0 / double(without.size()));
-  Lesson out;
+  LeftOutDatum out;
   Mixture mixture;
   for (const std::size_t k : resampled(without, int(without.size())))
     mixture.of.push_back(predicted[k][datum]);
@@ -86,11 +86,11 @@ Lesson lesson_of(const std::vector<std::vector<Guess>> &predicted, std::size_t d
 
 } // namespace
 
-std::vector<Lesson> lessons_of(const FilmBank &bank, const Calibration &c) {
-  std::vector<Lesson> out;
+std::vector<LeftOutDatum> left_out_data_of(const FilmBank &bank, const Calibration &c) {
+  std::vector<LeftOutDatum> out;
   if (c.data.size() < 2)
     return out;
-  std::vector<std::vector<Guess>> predicted;
+  std::vector<std::vector<MeanVariance>> predicted;
   for (const Draw &draw : c.draws)
     predicted.push_back(each_from_the_others(bank, c, draw));
   const std::vector<Scores> scores = scores_of(bank, c);

@@ -10,7 +10,7 @@ namespace calendem {
 
 /// A datum, left out: the draws are weighted by 1 / its probability given all others (importance
 /// sampling leave-one-out, Gelfand, Dey and Chang 1992).
-struct Lesson {
+struct LeftOutDatum {
   Band without;      ///< the datum as predicted from the others, with its own errors
   double gain = 0.0; ///< information on the materials [nats]: Kullback-Leibler, with over without
   std::string parameter;  ///< that it moves most
@@ -18,7 +18,7 @@ struct Lesson {
   double effective = 0.0; ///< draws that carry this
 };
 /// For each datum; empty where there is only one.
-std::vector<Lesson> lessons_of(const FilmBank &bank, const Calibration &calibration);
+std::vector<LeftOutDatum> left_out_data_of(const FilmBank &bank, const Calibration &calibration);
 
 /// Two parameters whose scores are correlated.
 struct TradeOff {

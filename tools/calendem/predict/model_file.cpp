@@ -56,7 +56,7 @@ Json draws_of(const FilmBank &bank, const Calibration &c) {
                 {"materials", Json::array()}};
     for (const Material &m : d.materials) {
       Json of = {{"effects", Json::object()}};
-      for (const Acting &a : m.effects)
+      for (const ActiveEffect &a : m.effects)
         of["effects"][bank.effects()[std::size_t(a.effect)].name] = a.amplitude;
       for (std::size_t k = 0; k < bank.material().size(); ++k)
         of[bank.material()[k].name] = m.parameters[k];
@@ -126,10 +126,10 @@ Json parameters_of(const FilmBank &bank, const Calibration &c) {
 
 Json learnt_of(const FilmBank &bank, const Calibration &c) {
   Json out = Json::array();
-  const std::vector<Lesson> lessons = lessons_of(bank, c);
+  const std::vector<LeftOutDatum> lessons = left_out_data_of(bank, c);
   for (std::size_t k = 0; k < lessons.size(); ++k) {
     const Datum &d = c.data[k];
-    const Lesson &l = lessons[k];
+    const LeftOutDatum &l = lessons[k];
     Json row = {{"film", c.films[std::size_t(d.film)].name},
                 {"condition", d.condition},
                 {"number", name_of(d.number)},
@@ -171,23 +171,24 @@ Json trade_offs_json(const FilmBank &bank, const Calibration &c) {
 Json emulators_of(const FilmBank &bank) {
   Json out = Json::array();
   for (int n = 0; n < kFilmNumbers; ++n) { // none of a number that the bank does not have
-    const auto quality = bank.quality(FilmNumber(n));
-    for (std::size_t k = 0; k < quality.size(); ++k)
+    if (!bank.knows(FilmNumber(n)))
+      continue;
+    const std::vector<inference::Accuracy> accuracy = bank.accuracy(FilmNumber(n));
+    for (std::size_t k = 0; k < accuracy.size(); ++k)
       out.push_back({{"number", name_of(FilmNumber(n))},
-                     {"pressure_MPa", bank.spec().pressures[k]},
-                     {"q2", quality[k].q2},
-                     {"error", quality[k].error},
-                     {"own_error", quality[k].own}});
+                     {"pressure_MPa", bank.pressures()[k]},
+                     {"q2", accuracy[k].q2},
+                     {"error", accuracy[k].error},
+                     {"inside_50", accuracy[k].inside_50},
+                     {"inside_90", accuracy[k].inside_90}});
   }
   return out;
 }
 
-Json hypotheses_of(const Calibration &c) {
+Json hypotheses_of(const FilmBank &bank, const Calibration &c) {
   Json out = Json::array();
-  for (const Weighed &w : c.hypotheses)
-    out.push_back({{"name", w.name},
-                   {"probability", w.probability},
-                   {"effective_samples", w.effective_samples}});
+  for (const EffectSet &set : effect_sets_of(bank, c))
+    out.push_back({{"name", set.name}, {"probability", set.probability}});
   return out;
 }
 
@@ -202,10 +203,10 @@ Json effects_json(const FilmBank &bank, const Calibration &c) {
     for (std::size_t m = 0; m < c.materials.size(); ++m) {
       std::vector<double> values;
       for (const Draw &d : c.draws)
-        for (const Acting &a : d.materials[m].effects)
+        for (const ActiveEffect &a : d.materials[m].effects)
           if (a.effect == int(e))
             values.push_back(key_value(bank, a));
-      Json of = {{"material", c.materials[m]}, {"probability", acting(bank, c, int(e), m)}};
+      Json of = {{"material", c.materials[m]}, {"probability", acting(c, int(e), m)}};
       if (!values.empty())
         of.update(spread_of(values));
       row["materials"].push_back(of);
@@ -233,14 +234,8 @@ Json to_json(const std::vector<Confirmed> &rows) {
   return out;
 }
 
-std::string table_file(const std::string &bank_file) {
-  return std::filesystem::path(bank_file).replace_extension("csv").string();
-}
-
-std::vector<std::string> files_beside(const BankSpec &spec) {
+std::vector<std::string> files_beside(const bank::Bank &spec) {
   std::vector<std::string> out = {spec.recipe_file, spec.case_file};
-  if (spec.full_cell.points > 0)
-    out.insert(out.end(), {spec.full_cell.recipe_file, spec.full_cell.case_file});
   if (!spec.crushing_file.empty())
     out.push_back(spec.crushing_file);
   return out;
@@ -255,7 +250,7 @@ Json to_json(const FilmBank &bank, const Calibration &c, const std::vector<LeftO
   return {{"bank",
            {{"file", std::filesystem::absolute(file).string()},
             {"hash", hash_of_file(file)},
-            {"table_hash", hash_of_file(table_file(file))},
+            {"table_hash", hash_of_file(bank::table_of(bank.spec()))},
             {"beside", beside}}},
           {"materials", c.materials},
           {"films", films_of(bank, c)},
@@ -265,7 +260,7 @@ Json to_json(const FilmBank &bank, const Calibration &c, const std::vector<LeftO
             {"low", c.error.low},
             {"high", c.error.high},
             {"cracked", c.error.cracked}}},
-          {"hypotheses", hypotheses_of(c)},
+          {"hypotheses", hypotheses_of(bank, c)},
           {"effects", effects_json(bank, c)},
           {"parameters", parameters_of(bank, c)},
           {"learnt", learnt_of(bank, c)},
@@ -298,14 +293,6 @@ std::string nanoporosity_line(const FilmBank &bank, const std::vector<const Draw
       middle_of(draws, [&](const Draw &d) { return d.materials[material].parameters.back(); });
   return fmt::format("# In the recipe: cbd.nanoporosity_percent {:.1f} {}\n", std::fabs(points),
                      points < 0.0 ? "lower" : "higher");
-}
-
-/// The effect that a parameter of the bank's case is the strength of; null: of none.
-const Effect *switched_on_by(const BankParameter &p) {
-  for (const Effect &e : effects())
-    if ("case." + e.parameter.keys.front() == p.keys.front())
-      return &e;
-  return nullptr;
 }
 
 /// Lines of a case, each key once: the first that is added stays.
@@ -359,11 +346,12 @@ private:
 } // namespace
 
 std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_those) {
-  const auto best = std::max_element(c.hypotheses.begin(), c.hypotheses.end(),
-                                     [&](const Weighed &a, const Weighed &b) {
-                                       return a.probability[of_those] < b.probability[of_those];
-                                     });
-  const std::vector<int> effects = hypotheses_of(bank)[std::size_t(best - c.hypotheses.begin())];
+  std::vector<EffectSet> sets = effect_sets_of(bank, c);
+  const EffectSet best =
+      *std::max_element(sets.begin(), sets.end(), [&](const EffectSet &a, const EffectSet &b) {
+        return a.probability[of_those] < b.probability[of_those];
+      });
+  const std::vector<int> &effects = best.effects;
   std::vector<const Draw *> of;
   for (const Draw &d : c.draws)
     if (effects_of(d.materials[of_those]) == effects)
@@ -371,15 +359,13 @@ std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_t
   const auto middle = [&](const auto &value) { return middle_of(of, value); };
   CaseLines lines(read_case(bank.spec().case_file, bank.recipe()));
   std::size_t material = 0;
-  for (const BankParameter &p : bank.spec().parameters)
-    if (p.keys.front().rfind("case.", 0) == 0) {
+  for (const bank::Input &p : bank.spec().design.inputs)
+    if (!p.is_film() && !p.is_effect()) {
       const double value =
           middle([&](const Draw &d) { return d.materials[of_those].parameters[material]; });
       ++material;
       for (const std::string &key : p.keys)
         lines.add(key.substr(5), value);
-      if (const Effect *effect = switched_on_by(p))
-        lines.keep(effect->settings);
     }
   std::string of_recipe = nanoporosity_line(bank, of, of_those);
   for (std::size_t k = 0; k < effects.size(); ++k) {
@@ -394,11 +380,15 @@ std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_t
     if (!effect.in_recipe)
       lines.keep(effect.settings);
   }
+  for (const inference::Parameter &e : bank.effects()) // of a material that has it on
+    if (const Effect &off = find_effect(e.name); !off.in_recipe)
+      for (const std::string &key : off.parameter.keys)
+        lines.add(key, std::stod(off.parameter.off));
   lines.keep_material();
   std::string out = fmt::format(
       "{}{} ({}, {:.0f} %): the middle of its draws, each\n"
       "# parameter by itself. Put the folder of your electrode here.\nelectrode = \"electrode\"\n",
-      kHeadOfCase, of_material(c, of_those), best->name, 100.0 * best->probability[of_those]);
+      kHeadOfCase, of_material(c, of_those), best.name, 100.0 * best.probability[of_those]);
   return out + of_recipe + lines.text();
 }
 

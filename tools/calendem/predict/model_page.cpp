@@ -131,18 +131,14 @@ json hypotheses_part(const Json &model) {
     const std::vector<double> of = h["probability"];
     rest.resize(of.size());
     if (*std::max_element(of.begin(), of.end()) >= kShown) {
-      rows.push_back({{"name", h["name"]},
-                      {"percents", percents(of)},
-                      {"samples", shown(h["effective_samples"], "{:.0f}")}});
+      rows.push_back({{"name", h["name"]}, {"percents", percents(of)}});
       continue;
     }
     ++others;
     std::transform(of.begin(), of.end(), rest.begin(), rest.begin(), std::plus<>());
   }
   if (others > 0)
-    rows.push_back({{"name", fmt::format("{} others", others)},
-                    {"percents", percents(rest)},
-                    {"samples", ""}});
+    rows.push_back({{"name", fmt::format("{} others", others)}, {"percents", percents(rest)}});
   return rows;
 }
 
@@ -218,7 +214,7 @@ json emulators_part(const Json &model) {
       rows.push_back({{"pressure", shown(e["pressure_MPa"], "{:g}")},
                       {"q2", shown(e["q2"], "{:.2f}")},
                       {"error", fmt::format("{:.2f}", kPercent * e["error"].get<double>())},
-                      {"own", fmt::format("{:.2f}", kPercent * e["own_error"].get<double>())}});
+                      {"inside", fmt::format("{:.0f}", kPercent * e["inside_90"].get<double>())}});
   return rows;
 }
 
@@ -232,8 +228,7 @@ json provenance_of(const Json &model) {
 } // namespace
 
 std::string model_page(const FilmBank &bank, const Calibration &c, const Json &model) {
-  const auto pressures =
-      spread_pressures(bank.spec().pressures.front(), bank.spec().pressures.back(), 25);
+  const auto pressures = spread_pressures(bank.pressures().front(), bank.pressures().back(), 25);
   report::Page page{kModelHtml, model};
   for (std::size_t k = 0; k < c.films.size(); ++k) {
     const PredictedFilm p = predicted(bank, c, c.films[k], pressures, 0.0);

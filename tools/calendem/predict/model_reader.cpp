@@ -78,7 +78,7 @@ Calibration calibration_of(const FilmBank &bank, const Json &json) {
       throw Failure(kBadInput, fmt::format("a film's loading_mg_cm2 is {:g}.", f.loading));
     f.nanoporosity = row.at("nanoporosity");
     f.sizes = row.at("sizes");
-    for (const BankParameter &p : bank.film())
+    for (const bank::Input &p : bank.film())
       f.recipe.push_back(row.at("recipe").at(p.name));
     out.films.push_back(f);
   }
@@ -100,15 +100,6 @@ Calibration calibration_of(const FilmBank &bank, const Json &json) {
   }
   const Json &error = json.at("model_error");
   out.error = {error.at("numerics"), error.at("low"), error.at("high"), error.at("cracked")};
-  for (const Json &row : json.at("hypotheses")) {
-    out.hypotheses.push_back({row.at("name"), row.at("probability").get<std::vector<double>>(),
-                              row.at("effective_samples")});
-    if (out.hypotheses.back().probability.size() != out.materials.size())
-      throw Failure(kBadInput,
-                    fmt::format("hypothesis {} has {} probabilities; it must have {}.",
-                                out.hypotheses.back().name,
-                                out.hypotheses.back().probability.size(), out.materials.size()));
-  }
   for (const Json &row : json.at("draws"))
     out.draws.push_back(draw_of(bank, row, out.materials.size() + 1));
   if (out.draws.empty() || out.data.empty())
@@ -148,10 +139,10 @@ FilmBank bank_of(const std::string &file, const Json &json) {
                                            file, of));
   };
   unchanged(bank, json.at("bank").at("hash"));
-  unchanged(table_file(bank), json.at("bank").at("table_hash"));
+  unchanged(bank::table_of(bank::read_bank(bank)), json.at("bank").at("table_hash"));
   for (const Json &other : json.at("bank").at("beside"))
     unchanged(other.at("file"), other.at("hash"));
-  return FilmBank(read_bank_table(read_bank_spec(bank), table_file(bank)));
+  return FilmBank(bank);
 }
 
 } // namespace

@@ -19,7 +19,7 @@ double four_digits(double value) { return std::stod(fmt::format("{:.4g}", value)
 /// The draws all of whose runs are usable, and these: draws x pressures.
 struct OwnRuns {
   std::vector<Draw> draws;
-  std::vector<std::vector<SimulatedRun>> runs;
+  std::vector<std::vector<bank::PressedFilm>> runs;
 };
 
 OwnRuns usable(const std::vector<Draw> &draws, const std::vector<std::string> &folders) {
@@ -33,16 +33,13 @@ OwnRuns usable(const std::vector<Draw> &draws, const std::vector<std::string> &f
     out.draws.push_back(draws[d]);
     out.runs.emplace_back();
     for (auto folder = first; folder != end; ++folder)
-      out.runs.back().push_back(read_simulated_run(*folder));
+      out.runs.back().push_back(bank::read_run_of({}, *folder).presses.back());
   }
   return out;
 }
 
-/// What every draw varies; its pressures are the bank's.
-struct OwnStudy {
-  BankSpec spec;
-  std::vector<BankPoint> points;
-};
+/// Keys of the case and their values: how a film is pressed.
+using Pressing = std::vector<std::pair<std::string, std::string>>;
 
 } // namespace
 
@@ -69,39 +66,60 @@ void stop_if_other_grains(const FilmBank &bank, const Recipe &recipe) {
                   recipe.file, grains, of_bank, bank.recipe().settings.text("material")));
 }
 
-OwnStudy study_of(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
-                  int material) {
-  stop_if_other_grains(bank, recipe);
-  BankSpec spec = bank.spec();
-  spec.name = recipe.settings.text("name") + ", by runs";
-  spec.recipe_file = recipe.file;
-  spec.tortuosity = true;
-  std::vector<BankParameter> of_material;
-  for (const BankParameter &p : spec.parameters)
-    if (p.keys.front().rfind("case.", 0) == 0)
-      of_material.push_back(p);
-  const std::size_t of_case = of_material.size();
-  const bool varies = spec.nanoporosity_within > 0.0 && !recipe.structure.given();
+/// The draws' materials as points, each on a packing of its own.
+bank::Columns columns_of(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
+                         int material) {
+  bank::Design design;
+  for (const bank::Input &input : bank.spec().design.inputs)
+    if (!input.is_film())
+      design.inputs.push_back(input);
+  const bool varies = bank.spec().nanoporosity_within > 0.0 && !recipe.structure.given();
   if (varies)
     for (const char *key : kNanoporosityKeys)
-      of_material.push_back({key, {key}});
-  spec.parameters = of_material;
-  std::vector<BankPoint> points;
+      design.inputs.push_back({key, {key}});
+  std::vector<bank::Point> points;
   for (const Draw &draw : draws) {
-    BankPoint p;
-    p.packing = int(points.size()) + 1;
     const Material &of = draw.materials[std::size_t(material)];
-    for (std::size_t k = 0; k < of_case; ++k)
-      p.base.push_back(four_digits(of.parameters[k]));
+    bank::Point p;
+    p.packing = int(points.size()) + 1;
+    std::size_t of_case = 0;
+    for (const bank::Input &input : design.inputs)
+      p.values.push_back(input.is_effect() || of_case >= of.parameters.size()
+                             ? NAN
+                             : four_digits(of.parameters[of_case++]));
     if (varies) {
       const double nanoporosity = bank.nanoporosity(bank.described(recipe), of);
-      p.base.insert(p.base.end(), {four_digits(100.0 * nanoporosity), four_digits(nanoporosity)});
+      p.values.end()[-2] = four_digits(100.0 * nanoporosity);
+      p.values.end()[-1] = four_digits(nanoporosity);
     }
-    for (const Acting &a : of.effects)
-      p.also[bank.effects()[std::size_t(a.effect)].name] = four_digits(key_value(bank, a));
+    for (const ActiveEffect &a : of.effects)
+      for (std::size_t d = 0; d < design.inputs.size(); ++d)
+        if (design.inputs[d].name == bank.effects()[std::size_t(a.effect)].name)
+          p.values[d] = four_digits(key_value(bank, a));
     points.push_back(p);
   }
-  return {spec, points};
+  return bank::columns_of(design, points, {});
+}
+
+/// Every draw pressed in each of these ways, by draw.
+Study study_of(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
+               int material, const std::vector<Pressing> &pressings) {
+  stop_if_other_grains(bank, recipe);
+  bank::Bank spec = bank.spec();
+  spec.name = recipe.settings.text("name") + ", by runs";
+  spec.recipe_file = recipe.file;
+  const bank::Columns of_draws = columns_of(bank, draws, recipe, material);
+  bank::Columns all;
+  all.names = of_draws.names;
+  for (const auto &[key, value] : pressings.front())
+    all.names.push_back("case." + key);
+  for (const std::vector<std::string> &row : of_draws.rows)
+    for (const Pressing &pressing : pressings) {
+      all.rows.push_back(row);
+      for (const auto &[key, value] : pressing)
+        all.rows.back().push_back(value);
+    }
+  return bank::study_of(spec, all);
 }
 
 std::string number(double value) { return fmt::format("{:g}", value); }
@@ -110,34 +128,36 @@ std::string number(double value) { return fmt::format("{:g}", value); }
 
 Study own_runs(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
                int material, const std::vector<double> &pressures) {
-  const OwnStudy of = study_of(bank, draws, recipe, material);
   std::vector<Pressing> pressings;
   for (const double pressure : pressures)
-    pressings.push_back(to_pressure(pressure));
-  return pressed_study(of.spec, pressed(of.points, pressings));
+    pressings.push_back({{"platen.max_pressure_MPa", fmt::format("{}", pressure)},
+                         {"platen.presses", "1"},
+                         {"platen.first_pressure_MPa", "0"}});
+  return study_of(bank, draws, recipe, material, pressings);
 }
 
 Study own_runs_at_gaps(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
                        int material, const std::vector<double> &gaps, int passes) {
   const Film film = bank.described(recipe);
   const double before = bank.solid_column(film) / (1.0 - porosity_before(bank, film));
-  const OwnStudy of = study_of(bank, draws, recipe, material);
   std::vector<Pressing> pressings;
   for (const double gap : gaps)
     pressings.push_back(
         {{"platen.control", "roll_gap"},
+         {"platen.presses", "1"},
+         {"platen.first_pressure_MPa", "0"},
          {"platen.roll_gap_um", number(gap)},
          {"roll.passes", number(passes)},
          {"roll.first_gap_um",
           number(passes > 1 ? four_digits(before - (before - gap) / passes) : 0.0)}});
-  return pressed_study(of.spec, pressed(of.points, pressings));
+  return study_of(bank, draws, recipe, material, pressings);
 }
 
-void add_press_error(Guesses &draws, const std::vector<double> &pressures, double pressure_sd) {
+void add_press_error(Predictions &draws, const std::vector<double> &pressures, double pressure_sd) {
   const std::size_t last = pressures.size() - 1;
   const auto mean_at = [&](std::size_t k) {
     double sum = 0.0, n = 0.0;
-    for (const std::vector<Guess> &d : draws)
+    for (const std::vector<MeanVariance> &d : draws)
       if (std::isfinite(d[k].mean)) {
         sum += d[k].mean;
         n += 1.0;
@@ -148,7 +168,7 @@ void add_press_error(Guesses &draws, const std::vector<double> &pressures, doubl
     const std::size_t low = k > 0 ? k - 1 : 0, high = std::min(k + 1, last);
     const double slope =
         (mean_at(high) - mean_at(low)) / std::log(pressures[high] / pressures[low]);
-    for (std::vector<Guess> &d : draws)
+    for (std::vector<MeanVariance> &d : draws)
       d[k].variance += std::pow(slope * pressure_sd, 2);
   }
 }
@@ -156,7 +176,7 @@ void add_press_error(Guesses &draws, const std::vector<double> &pressures, doubl
 namespace {
 
 /// Some run has the number at every pressure or gap. One may lack it, as the rows of a release.
-bool known(const Guesses &draws) {
+bool known(const Predictions &draws) {
   for (std::size_t k = 0; !draws.empty() && k < draws.front().size(); ++k)
     if (std::none_of(draws.begin(), draws.end(),
                      [k](const auto &row) { return std::isfinite(row[k].mean); }))
@@ -183,15 +203,15 @@ ByRuns by_runs(const FilmBank &bank, const Calibration &c, const Recipe &recipe,
   const OwnRuns own = made(own_runs(bank, draws, recipe, material, pressures), draws, options);
   Film film = bank.described(recipe);
   film.material = material;
-  std::map<FilmNumber, Guesses> all;
+  std::map<FilmNumber, Predictions> all;
   for (int n = 0; n < kFilmNumbers; ++n) {
     const auto number = FilmNumber(n);
     all[number] = {};
     for (std::size_t d = 0; d < own.draws.size(); ++d) {
-      std::vector<Guess> row =
+      std::vector<MeanVariance> row =
           missed_given_data(bank, c, own.draws[d], {film, number, pressures}, false);
       for (std::size_t k = 0; k < pressures.size(); ++k)
-        row[k].mean += value_of(number, own.runs[d][k]);
+        row[k].mean += bank::value_of(number, own.runs[d][k]);
       all[number].push_back(row);
     }
     if (!known(all[number]))
@@ -228,17 +248,17 @@ double emulated_load(const FilmBank &bank, const Draw &draw, const Film &film, d
 }
 
 /// Emulated means with the model error of runs.
-Guesses emulated_and_missed(const FilmBank &bank, const Calibration &c,
-                            const std::vector<Draw> &draws, const Wanted &wanted) {
-  Guesses out;
-  if (!bank.knows(wanted.number))
+Predictions emulated_and_missed(const FilmBank &bank, const Calibration &c,
+                                const std::vector<Draw> &draws, const Query &query) {
+  Predictions out;
+  if (!bank.knows(query.number))
     return out;
   for (const Draw &draw : draws) {
-    const std::vector<Guess> curve =
-        bank.at_pressures(wanted.number, wanted.film, draw.of(wanted.film));
-    out.push_back(missed_given_data(bank, c, draw, wanted, false));
-    for (std::size_t k = 0; k < wanted.pressures.size(); ++k)
-      out.back()[k].mean += bank.at(curve, wanted.pressures[k]).mean;
+    const std::vector<MeanVariance> curve =
+        bank.at_pressures(query.number, query.film, draw.of(query.film));
+    out.push_back(missed_given_data(bank, c, draw, query, false));
+    for (std::size_t k = 0; k < query.pressures.size(); ++k)
+      out.back()[k].mean += bank.at(curve, query.pressures[k]).mean;
   }
   return out;
 }
@@ -247,27 +267,27 @@ Guesses emulated_and_missed(const FilmBank &bank, const Calibration &c,
 
 GapDraws from_runs_at_gaps(const FilmBank &bank, const Calibration &c, GapDraws at,
                            const std::vector<Draw> &draws,
-                           const std::vector<std::vector<SimulatedRun>> &runs) {
+                           const std::vector<std::vector<bank::PressedFilm>> &runs) {
   const Film &film = at.film;
   std::vector<std::vector<double>> porosities;
   for (std::size_t d = 0; d < draws.size(); ++d) {
     porosities.emplace_back();
-    for (const SimulatedRun &run : runs[d])
-      porosities.back().push_back(emulated_load(bank, draws[d], film, run.max_pressure));
+    for (const bank::PressedFilm &run : runs[d])
+      porosities.back().push_back(emulated_load(bank, draws[d], film, run.pressure));
   }
   const std::vector<double> pressures = pressures_of_curves(bank);
   const FilmCurves curves = curves_at(pressures, [&](FilmNumber number) {
     return emulated_and_missed(bank, c, draws, {film, number, pressures});
   });
   add_met(curves, porosities, at);
-  const auto add_run = [&](FilmNumber number, Guesses &to, std::size_t d, std::size_t k) {
-    const SimulatedRun &run = runs[d][k];
+  const auto add_run = [&](FilmNumber number, Predictions &to, std::size_t d, std::size_t k) {
+    const bank::PressedFilm &run = runs[d][k];
     const double of_run =
         number == FilmNumber::Springback // from the gap: the porosity left follows
             ? at.solid / (at.gaps[k] * (1.0 - run.porosity_after)) - 1.0
-            : value_of(number, run);
+            : bank::value_of(number, run);
     if (!to.empty())
-      to[d][k].mean += of_run - emulated(bank, draws[d], film, number, run.max_pressure);
+      to[d][k].mean += of_run - emulated(bank, draws[d], film, number, run.pressure);
   };
   for (std::size_t d = 0; d < draws.size(); ++d)
     for (std::size_t k = 0; k < at.gaps.size(); ++k) {
@@ -279,15 +299,15 @@ GapDraws from_runs_at_gaps(const FilmBank &bank, const Calibration &c, GapDraws 
   const double share = 1.0 / double(draws.size());
   for (std::size_t k = 0; k < at.gaps.size(); ++k) { // no emulator says what these take
     double below = 0.0, above = 0.0;
-    for (const std::vector<SimulatedRun> &of : runs) {
-      below += of[k].max_pressure < at.lowest ? share : 0.0;
-      above += of[k].max_pressure > at.highest ? share : 0.0;
+    for (const std::vector<bank::PressedFilm> &of : runs) {
+      below += of[k].pressure < at.lowest ? share : 0.0;
+      above += of[k].pressure > at.highest ? share : 0.0;
     }
     at.below[k] = std::max(at.below[k], below);
     at.above[k] = std::max(at.above[k], above);
   }
   at.runs = int(draws.size());
-  for (Guesses *of : {&at.broken, &at.inverse_tortuosity})
+  for (Predictions *of : {&at.broken, &at.inverse_tortuosity})
     if (!known(*of))
       of->clear();
   return at;

@@ -27,12 +27,12 @@ Study own_runs_at_gaps(const FilmBank &bank, const std::vector<Draw> &draws, con
 /// A film by runs of its own.
 struct ByRuns {
   PredictedFilm predicted;
-  GuessesOf of; ///< at its pressures
+  PredictionsOf of; ///< at its pressures
 };
 
 /// Adds what an error of the press's pressure adds (`pressure_sd` of its logarithm): the slope is
 /// that of the mean of all draws between the neighbours of each of two pressures or more, ascending.
-void add_press_error(Guesses &draws, const std::vector<double> &pressures, double pressure_sd);
+void add_press_error(Predictions &draws, const std::vector<double> &pressures, double pressure_sd);
 
 /// Makes the runs in `options.folder`; the same call goes on where it was. To what a run gives, the
 /// model error is added as the calibration left it, and that of the press; packings and parameters
@@ -46,7 +46,7 @@ ByRuns by_runs(const FilmBank &bank, const Calibration &calibration, const Recip
 /// emulators tell what that changes in the run's springback, cracks and tortuosity.
 GapDraws from_runs_at_gaps(const FilmBank &bank, const Calibration &calibration, GapDraws at,
                            const std::vector<Draw> &draws,
-                           const std::vector<std::vector<SimulatedRun>> &runs);
+                           const std::vector<std::vector<bank::PressedFilm>> &runs);
 
 /// Makes these runs under a roll. Throws as by_runs, and Failure(2) as under_gaps.
 GapDraws runs_at_gaps(const FilmBank &bank, const Calibration &calibration, const Recipe &recipe,

@@ -1,197 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/case.h"
+#include "base/random.h"
 #include "predict/calibration.h"
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
-#include <optional>
 
 namespace calendem {
 
-using inference::Matrix;
 using inference::Vector;
-namespace {
-
-/// Samples of one hypothesis, from its prior, with their first material.
-std::vector<Draw> prior_draws(const FilmBank &bank, const ModelError &error,
-                              const std::vector<int> &effects, int count, std::uint64_t seed) {
-  const auto d = int(bank.material().size());
-  const Matrix scores = inference::sobol_normals(d + 2 + int(effects.size()), count, seed);
-  const inference::Prior discrepancy = discrepancy_of(error),
-                         shared = {inference::Prior::uniform, 0.0, 1.0};
-  std::vector<Draw> out{std::size_t(count)};
-  for (int k = 0; k < count; ++k) {
-    Draw &draw = out[std::size_t(k)];
-    Material &material = draw.materials.emplace_back();
-    for (int j = 0; j < d; ++j)
-      material.parameters.push_back(bank.material()[std::size_t(j)].prior.value(scores(j, k)));
-    draw.missed.sd = discrepancy.value(scores(d, k));
-    draw.missed.shared = shared.value(scores(d + 1, k));
-    for (int j = 0; j < int(effects.size()); ++j) {
-      const int effect = effects[std::size_t(j)];
-      material.effects.push_back(
-          {effect, bank.effects()[std::size_t(effect)].prior.value(scores(d + 2 + j, k))});
-    }
-  }
-  return out;
-}
-
-/// A sample on its way to one more material. Materials that follow what all have in common have the
-/// same effects, the others effects of their own: each follows with a probability whose square is
-/// Draw::alike, so that this is how often two of them do.
-struct Sample {
-  Draw draw;
-  int follows = -1; ///< place of a material that does; -1: none
-  Curves known;     ///< of the films of its materials
-};
-
-/// The hypothesis at a place (0-1) of all, each as wide as the others.
-const std::vector<int> &effects_at(const std::vector<std::vector<int>> &all, double place) {
-  return all[std::min(all.size() - 1, std::size_t(place * double(all.size())))];
-}
-
-/// A score of a new material, given those that others have of the same parameter.
-double score_given(const std::vector<double> &others, double alike, double own) {
-  const auto n = double(others.size());
-  const double pull = n > 0.0 ? alike / (1.0 + (n - 1.0) * alike) : 0.0;
-  return pull * std::accumulate(others.begin(), others.end(), 0.0) +
-         std::sqrt(1.0 - n * alike * pull) * own;
-}
-
-/// Gives each of the samples one more material; with the second, how alike materials are. Scores are
-/// normal with that correlation between any two materials that have the parameter.
-void add_material(const FilmBank &bank, std::uint64_t seed, std::vector<Sample> &samples) {
-  const inference::Prior alike = {inference::Prior::uniform, 0.0, 1.0};
-  const auto hypotheses = hypotheses_of(bank);
-  const std::size_t d = bank.material().size(), effects = bank.effects().size(),
-                    before = samples.front().draw.materials.size();
-  const Matrix scores =
-      inference::sobol_normals(int(d + effects) + 4, int(samples.size()), seed + 1000 * before);
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    Sample &sample = samples[k];
-    Draw &draw = sample.draw;
-    const auto own = [&](std::size_t place) {
-      return scores(Eigen::Index(place), Eigen::Index(k));
-    };
-    if (before == 1) {
-      draw.alike = alike.value(own(d + effects));
-      sample.follows = alike.value(own(d + effects + 1)) < std::sqrt(draw.alike) ? 0 : -1;
-    }
-    const auto next = [&](const inference::Prior &prior, std::size_t place, const auto &value) {
-      std::vector<double> others;
-      for (const Material &m : draw.materials)
-        if (const std::optional<double> v = value(m))
-          others.push_back(prior.score(*v));
-      return prior.value(score_given(others, draw.alike, own(place)));
-    };
-    Material more;
-    for (std::size_t j = 0; j < d; ++j)
-      more.parameters.push_back(next(bank.material()[j].prior, j, [j](const Material &m) {
-        return std::optional<double>(m.parameters[j]);
-      }));
-    const bool follows = alike.value(own(d + effects + 2)) < std::sqrt(draw.alike);
-    const std::vector<int> acting = follows && sample.follows >= 0
-                                        ? effects_of(draw.materials[std::size_t(sample.follows)])
-                                        : effects_at(hypotheses, alike.value(own(d + effects + 3)));
-    for (const int effect : acting)
-      more.effects.push_back(
-          {effect, next(bank.effects()[std::size_t(effect)].prior, d + std::size_t(effect),
-                        [effect](const Material &m) -> std::optional<double> {
-                          for (const Acting &a : m.effects)
-                            if (a.effect == effect)
-                              return a.amplitude;
-                          return std::nullopt;
-                        })});
-    if (follows && sample.follows < 0)
-      sample.follows = int(before);
-    draw.materials.push_back(more);
-  }
-}
-
-/// The data of the first materials.
-Calibration of_first(const Calibration &c, std::size_t materials) {
-  Calibration out = c;
-  out.data.clear();
-  for (const Datum &d : c.data)
-    if (std::size_t(c.films[std::size_t(d.film)].material) < materials)
-      out.data.push_back(d);
-  out.crushed.erase(std::remove_if(out.crushed.begin(), out.crushed.end(),
-                                   [&](const Crushed &k) { return k.material >= int(materials); }),
-                    out.crushed.end());
-  return out;
-}
-
-/// Samples with the logarithms of their weights.
-struct Weights {
-  std::vector<double> of; ///< relative to the largest
-  double largest = 0.0, sum = 0.0, effective = 0.0;
-  explicit Weights(const std::vector<double> &logs)
-      : largest(*std::max_element(logs.begin(), logs.end())) {
-    double squares = 0.0;
-    for (const double l : logs) {
-      of.push_back(std::exp(l - largest));
-      sum += of.back();
-      squares += of.back() * of.back();
-    }
-    effective = sum * sum / squares;
-  }
-};
-
-/// Samples of one hypothesis, weighted by the likelihood.
-struct Sampled {
-  std::vector<Sample> samples;
-  std::vector<double> logs;
-  double effective = 0.0; ///< the least of all turns
-};
-
-Sampled sampled(const FilmBank &bank, const CalibrationSettings &settings, const Calibration &c,
-                const std::vector<int> &effects, std::uint64_t seed) {
-  Sampled out;
-  for (Draw &draw : prior_draws(bank, c.error, effects, settings.samples, seed))
-    out.samples.push_back({std::move(draw), -1, {}});
-  const auto likelihoods = [&](std::size_t materials) {
-    const Calibration seen = of_first(c, materials);
-    std::vector<double> logs;
-    for (Sample &s : out.samples)
-      logs.push_back(log_likelihood(bank, seen, s.draw, s.known));
-    return logs;
-  };
-  std::vector<double> before = likelihoods(1);
-  out.logs = before;
-  out.effective = Weights(out.logs).effective;
-  for (std::size_t next = 2; next <= c.materials.size(); ++next) {
-    const Weights weights(out.logs);
-    const double evidence = weights.largest + std::log(weights.sum / settings.samples);
-    std::vector<Sample> again;
-    std::vector<double> of_again; // what the first materials' data say of them
-    for (const std::size_t k : resampled(weights.of, settings.samples)) {
-      again.push_back(out.samples[k]);
-      of_again.push_back(before[k]);
-    }
-    out.samples = again;
-    add_material(bank, seed, out.samples);
-    before = likelihoods(next);
-    for (std::size_t k = 0; k < before.size(); ++k)
-      out.logs[k] = evidence + before[k] - of_again[k];
-    out.effective = std::min(out.effective, Weights(out.logs).effective);
-  }
-  return out;
-}
-
-} // namespace
-
-std::vector<std::vector<int>> hypotheses_of(const FilmBank &bank) {
-  const auto effects = int(bank.effects().size());
-  std::vector<std::vector<int>> out;
-  for (unsigned set = 0; set < 1U << effects; ++set) {
-    out.emplace_back();
-    for (int k = 0; k < effects; ++k)
-      if (set >> k & 1U)
-        out.back().push_back(k);
-  }
-  std::stable_sort(out.begin(), out.end(),
-                   [](const auto &a, const auto &b) { return a.size() < b.size(); });
-  return out;
-}
 
 std::string name_of(const FilmBank &bank, const std::vector<int> &effects) {
   std::string out;
@@ -202,18 +20,37 @@ std::string name_of(const FilmBank &bank, const std::vector<int> &effects) {
 
 std::vector<int> effects_of(const Material &material) {
   std::vector<int> out;
-  for (const Acting &a : material.effects)
+  for (const ActiveEffect &a : material.effects)
     out.push_back(a.effect);
   return out;
 }
 
-double acting(const FilmBank &bank, const Calibration &c, int effect, std::size_t material) {
-  const auto of = hypotheses_of(bank);
+std::vector<EffectSet> effect_sets_of(const FilmBank &bank, const Calibration &c) {
+  std::map<std::vector<int>, std::vector<double>> found;
+  for (const Draw &draw : c.draws)
+    for (std::size_t m = 0; m < c.materials.size(); ++m) {
+      auto &probability = found[effects_of(draw.materials[m])];
+      probability.resize(c.materials.size());
+      probability[m] += 1.0 / double(c.draws.size());
+    }
+  std::vector<EffectSet> out;
+  for (const auto &[effects, probability] : found)
+    out.push_back({name_of(bank, effects), effects, probability});
+  const auto most = [](const EffectSet &set) {
+    return *std::max_element(set.probability.begin(), set.probability.end());
+  };
+  std::stable_sort(out.begin(), out.end(),
+                   [&](const EffectSet &a, const EffectSet &b) { return most(a) > most(b); });
+  return out;
+}
+
+double acting(const Calibration &c, int effect, std::size_t material) {
   double sum = 0.0;
-  for (std::size_t h = 0; h < of.size() && h < c.hypotheses.size(); ++h)
-    if (std::find(of[h].begin(), of[h].end(), effect) != of[h].end())
-      sum += c.hypotheses[h].probability[material];
-  return sum;
+  for (const Draw &draw : c.draws) {
+    const std::vector<int> on = effects_of(draw.materials[material]);
+    sum += double(std::count(on.begin(), on.end(), effect));
+  }
+  return sum / double(c.draws.size());
 }
 
 std::vector<std::size_t> resampled(const std::vector<double> &weights, int count) {
@@ -228,33 +65,261 @@ std::vector<std::size_t> resampled(const std::vector<double> &weights, int count
   return out;
 }
 
-void calibrate(const FilmBank &bank, const CalibrationSettings &settings, Calibration &c) {
-  std::vector<Sample> all;
-  std::vector<double> logs;
-  const auto of = hypotheses_of(bank);
-  c.hypotheses.clear();
-  for (std::size_t h = 0; h < of.size(); ++h) {
-    const Sampled samples = sampled(bank, settings, c, of[h], std::uint64_t(h) + 1);
-    c.hypotheses.push_back(
-        {name_of(bank, of[h]), std::vector<double>(c.materials.size(), 0.0), samples.effective});
-    for (const Sample &sample : samples.samples)
-      all.push_back({sample.draw, sample.follows, {}});
-    for (const double l : samples.logs)
-      logs.push_back(l);
+namespace {
+
+constexpr double kWrong = 0.1; // probability that the model is wrong about one effect
+constexpr double kLeastEffective =
+    0.5;                         // share of effective samples after a step of the temperature
+constexpr int kSweeps = 4;       // of moves after each step
+constexpr double kWanted = 0.25; // share of the moves of scores that are taken
+constexpr int kMostSteps = 60;
+
+/// One of the sampler's draws. All scores are standard normal and all flags independent before the
+/// data: a material's scores are sqrt(alike) common + sqrt(1 - alike) own, so that those of two
+/// materials have the correlation `alike`. Where its score of following lies below sqrt(alike), it
+/// has the common effects, otherwise its own.
+struct Particle {
+  Vector scores;
+  std::vector<char> flags;
+  Draw draw;
+  Curves known;
+  double log_likelihood = 0.0;
+};
+
+double share_of(double score) { return 0.5 * std::erfc(-score / std::sqrt(2.0)); }
+
+/// Where what stands among scores and flags; materials are those with data and one more.
+class Layout {
+public:
+  Layout(const FilmBank &bank, const Calibration &c)
+      : bank_(bank), c_(c), parameters_(int(bank.material().size())),
+        effects_(int(bank.effects().size())), materials_(int(c.materials.size()) + 1) {}
+
+  int of_one() const { return parameters_ + effects_; }
+  int effects() const { return effects_; }
+  int materials() const { return materials_; }
+  int scores() const { return of_one() * (materials_ + 1) + materials_ + 3; }
+  int flags() const { return effects_ * (materials_ + 1); }
+  /// Scores of a set of parameters and amplitudes: common to all (-1), or a material's own.
+  int begin_of(int material) const { return of_one() * (material + 1); }
+  int follow_of(int material) const { return of_one() * (materials_ + 1) + material; }
+  int hyper() const { return of_one() * (materials_ + 1) + materials_; }
+
+  Draw draw_of(const Particle &p) const {
+    Draw draw;
+    draw.missed.sd = discrepancy_of(c_.error).value(p.scores[hyper()]);
+    draw.missed.shared = share_of(p.scores[hyper() + 1]);
+    draw.alike = materials_ > 2 ? share_of(p.scores[hyper() + 2]) : 0.5;
+    for (int m = 0; m < materials_; ++m)
+      draw.materials.push_back(material_of(p, m, draw.alike));
+    return draw;
   }
-  const Weights weights(logs);
-  for (std::size_t k = 0; k < all.size(); ++k)
-    for (std::size_t m = 0; m < c.materials.size(); ++m) {
-      const auto at = std::find(of.begin(), of.end(), effects_of(all[k].draw.materials[m]));
-      c.hypotheses[std::size_t(at - of.begin())].probability[m] += weights.of[k] / weights.sum;
+
+private:
+  const FilmBank &bank_;
+  const Calibration &c_;
+  int parameters_, effects_, materials_;
+
+  Material material_of(const Particle &p, int m, double alike) const {
+    const Vector scores = std::sqrt(alike) * p.scores.segment(begin_of(-1), of_one()) +
+                          std::sqrt(1.0 - alike) * p.scores.segment(begin_of(m), of_one());
+    const bool follows = share_of(p.scores[follow_of(m)]) < std::sqrt(alike);
+    Material out;
+    for (int k = 0; k < parameters_; ++k)
+      out.parameters.push_back(bank_.material()[std::size_t(k)].prior.value(scores[k]));
+    for (int e = 0; e < effects_; ++e)
+      if (p.flags[std::size_t(effects_ * (follows ? 0 : m + 1) + e)])
+        out.effects.push_back(
+            {e, bank_.effects()[std::size_t(e)].prior.value(scores[parameters_ + e])});
+    return out;
+  }
+};
+
+/// Sequential Monte Carlo from the prior to the posterior through powers of the likelihood (Del
+/// Moral, Doucet and Jasra 2006), with moves of scores that keep the prior (Cotter, Roberts, Stuart
+/// and White 2013) and of flags.
+class Sampler {
+public:
+  Sampler(const FilmBank &bank, const Calibration &c, int count)
+      : bank_(bank), c_(c), layout_(bank, c), random_(1, 0x706f7374) {
+    const Settings base = read_case(bank.spec().case_file, bank.recipe());
+    for (const inference::Parameter &e : bank.effects()) {
+      const EffectParameter &p = find_effect(e.name).parameter;
+      const bool acts =
+          !find_effect(e.name).in_recipe && base.number(p.keys.front()) != std::stod(p.off);
+      on_.push_back(acts ? 1.0 - kWrong : kWrong);
     }
-  std::vector<Sample> kept;
-  for (const std::size_t k : resampled(weights.of, settings.draws))
-    kept.push_back(all[k]);
-  add_material(bank, 1, kept); // the one that was not measured
+    for (int m = -1; m < layout_.materials(); ++m)
+      blocks_.push_back({layout_.begin_of(m), layout_.of_one()});
+    blocks_.push_back({layout_.follow_of(0), layout_.materials() + 3});
+    steps_.assign(blocks_.size(), 0.5);
+    particles_.resize(std::size_t(count));
+    for (Particle &p : particles_) {
+      p.scores =
+          Vector::NullaryExpr(layout_.scores(), [&](Eigen::Index) { return random_.normal(); });
+      for (int f = 0; f < layout_.flags(); ++f)
+        p.flags.push_back(random_.uniform() < on_[std::size_t(f % layout_.effects())]);
+    }
+    evaluate(particles_);
+  }
+
+  /// The least share of moves that were taken in a step of the temperature.
+  double run() {
+    double temperature = 0.0, least = 1.0;
+    for (int step = 0; step < kMostSteps && temperature < 1.0; ++step) {
+      const double next = next_temperature(temperature);
+      resample(next - temperature);
+      temperature = next;
+      double taken = 0.0;
+      for (int sweep = 0; sweep < kSweeps; ++sweep)
+        taken += move(temperature) / kSweeps;
+      least = std::min(least, taken);
+    }
+    return least;
+  }
+
+  const std::vector<Particle> &particles() const { return particles_; }
+
+private:
+  struct Block {
+    int begin, size;
+  };
+  const FilmBank &bank_;
+  const Calibration &c_;
+  Layout layout_;
+  Random random_;
+  std::vector<double> on_; ///< prior probability of each effect
+  std::vector<Block> blocks_;
+  std::vector<double> steps_; ///< of the moves of each block's scores, 0-1
+  std::vector<Particle> particles_;
+
+  /// Draws, emulated films and likelihoods.
+  void evaluate(std::vector<Particle> &all) const {
+    for (Particle &p : all) {
+      p.draw = layout_.draw_of(p);
+      p.known.clear();
+    }
+    std::map<std::pair<int, FilmNumber>, bool> needed;
+    for (const Datum &d : c_.data)
+      needed[{d.film, d.number}] = true;
+    for (const auto &[what, yes] : needed) {
+      const Film &film = c_.films[std::size_t(what.first)];
+      std::vector<const Material *> materials;
+      for (const Particle &p : all)
+        materials.push_back(&p.draw.of(film));
+      const auto curves = bank_.at_pressures(what.second, film, materials);
+      for (std::size_t k = 0; k < all.size(); ++k)
+        all[k].known[what] = curves[k];
+    }
+    for (Particle &p : all)
+      p.log_likelihood = log_likelihood(bank_, c_, p.draw, p.known);
+  }
+
+  double effective_after(double step) const {
+    std::vector<double> logs;
+    for (const Particle &p : particles_)
+      logs.push_back(step * p.log_likelihood);
+    const double largest = *std::max_element(logs.begin(), logs.end());
+    double sum = 0.0, squares = 0.0;
+    for (const double l : logs) {
+      const double w = std::exp(l - largest);
+      sum += w;
+      squares += w * w;
+    }
+    return sum * sum / squares / double(logs.size());
+  }
+
+  double next_temperature(double temperature) const {
+    double low = 0.0, high = 1.0 - temperature;
+    if (effective_after(high) >= kLeastEffective)
+      return 1.0;
+    for (int k = 0; k < 40; ++k) {
+      const double middle = 0.5 * (low + high);
+      (effective_after(middle) >= kLeastEffective ? low : high) = middle;
+    }
+    return temperature + high;
+  }
+
+  void resample(double step) {
+    double largest = -INFINITY;
+    for (const Particle &p : particles_)
+      largest = std::max(largest, step * p.log_likelihood);
+    std::vector<double> weights;
+    for (const Particle &p : particles_)
+      weights.push_back(std::exp(step * p.log_likelihood - largest));
+    std::vector<Particle> next;
+    for (const std::size_t k : resampled(weights, int(particles_.size())))
+      next.push_back(particles_[k]);
+    particles_ = std::move(next);
+  }
+
+  /// Takes proposals by the ratio of likelihoods; their prior is heeded where they are made.
+  double take(std::vector<Particle> proposed, double temperature) {
+    evaluate(proposed);
+    double taken = 0.0;
+    for (std::size_t k = 0; k < proposed.size(); ++k)
+      if (std::log(random_.uniform()) <
+          temperature * (proposed[k].log_likelihood - particles_[k].log_likelihood)) {
+        particles_[k] = std::move(proposed[k]);
+        taken += 1.0 / double(particles_.size());
+      }
+    return taken;
+  }
+
+  double move(double temperature) {
+    double sum = 0.0;
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      std::vector<Particle> proposed = particles_;
+      const double step = steps_[b], keep = std::sqrt(1.0 - step * step);
+      for (Particle &p : proposed)
+        for (int k = blocks_[b].begin; k < blocks_[b].begin + blocks_[b].size; ++k)
+          p.scores[k] = keep * p.scores[k] + step * random_.normal();
+      const double taken = take(std::move(proposed), temperature);
+      steps_[b] = std::clamp(steps_[b] * std::exp(taken - kWanted), 0.02, 0.98);
+      sum += taken;
+    }
+    take(with_one_flag_drawn_anew(), temperature);
+    take(with_two_flags_swapped(), temperature);
+    return sum / double(blocks_.size());
+  }
+
+  std::vector<Particle> with_one_flag_drawn_anew() {
+    std::vector<Particle> out = particles_;
+    for (Particle &p : out) {
+      const auto f = std::size_t(random_.uniform() * layout_.flags());
+      const std::size_t effect = f % std::size_t(layout_.effects());
+      p.flags[f] = random_.uniform() < on_[effect];
+      const int set = int(f) / layout_.effects();
+      p.scores[layout_.begin_of(set - 1) + layout_.of_one() - layout_.effects() + int(effect)] =
+          random_.normal();
+    }
+    return out;
+  }
+
+  /// Two effects of equal prior probability: as probable before the data.
+  std::vector<Particle> with_two_flags_swapped() {
+    std::vector<Particle> out = particles_;
+    for (Particle &p : out) {
+      const int set = int(random_.uniform() * (layout_.materials() + 1)),
+                a = int(random_.uniform() * layout_.effects()),
+                b = int(random_.uniform() * layout_.effects());
+      if (on_[std::size_t(a)] == on_[std::size_t(b)])
+        std::swap(p.flags[std::size_t(set * layout_.effects() + a)],
+                  p.flags[std::size_t(set * layout_.effects() + b)]);
+    }
+    return out;
+  }
+};
+
+} // namespace
+
+void calibrate(const FilmBank &bank, const CalibrationSettings &settings, Calibration &c) {
+  Sampler sampler(bank, c, settings.samples);
+  c.acceptance = sampler.run();
   c.draws.clear();
-  for (Sample &s : kept)
-    c.draws.push_back(std::move(s.draw));
+  for (const std::size_t k :
+       resampled(std::vector<double>(sampler.particles().size(), 1.0), settings.draws))
+    c.draws.push_back(sampler.particles()[k].draw);
 }
 
 } // namespace calendem

@@ -12,17 +12,17 @@ namespace calendem {
 
 namespace {
 
-double share_below(const Guess &g, double value) {
+double share_below(const MeanVariance &g, double value) {
   if (!(g.variance > 0.0))
     return g.mean < value ? 1.0 : 0.0;
   return 0.5 * std::erfc((g.mean - value) / std::sqrt(2.0 * g.variance));
 }
 
-std::vector<Band> bands_of(const Guesses &draws, double low, double high) {
+std::vector<Band> bands_of(const Predictions &draws, double low, double high) {
   std::vector<Band> out;
   for (std::size_t k = 0; k < draws.front().size(); ++k) {
     Mixture m; // a run may lack a number, as the rows of a release
-    for (const std::vector<Guess> &d : draws)
+    for (const std::vector<MeanVariance> &d : draws)
       if (std::isfinite(d[k].mean))
         m.of.push_back(d[k]);
     out.push_back(band_of(m, low, high));
@@ -32,22 +32,22 @@ std::vector<Band> bands_of(const Guesses &draws, double low, double high) {
 
 } // namespace
 
-Guesses under_draws(const FilmBank &bank, const Calibration &c, const Wanted &wanted,
-                    double pressure_sd) {
-  if (!bank.knows(wanted.number))
+Predictions under_draws(const FilmBank &bank, const Calibration &c, const Query &query,
+                        double pressure_sd) {
+  if (!bank.knows(query.number))
     return {};
-  Wanted around = wanted;
+  Query around = query;
   around.pressures.clear();
-  for (const double p : wanted.pressures) {
+  for (const double p : query.pressures) {
     const auto [below, above] = bank.beside(p);
     around.pressures.insert(around.pressures.end(), {below, p, above});
   }
-  Guesses out;
+  Predictions out;
   for (const Draw &draw : c.draws) {
-    const std::vector<Guess> all = given_data(bank, c, draw, around);
+    const std::vector<MeanVariance> all = given_data(bank, c, draw, around);
     out.emplace_back();
     for (std::size_t k = 0; k < all.size(); k += 3) {
-      Guess g = all[k + 1];
+      MeanVariance g = all[k + 1];
       const double slope =
           (all[k + 2].mean - all[k].mean) / std::log(around.pressures[k + 2] / around.pressures[k]);
       g.variance += std::pow(slope * pressure_sd, 2);
@@ -57,8 +57,8 @@ Guesses under_draws(const FilmBank &bank, const Calibration &c, const Wanted &wa
   return out;
 }
 
-Guesses under_load_of(const Guesses &after, const Guesses &springback) {
-  Guesses out = after;
+Predictions under_load_of(const Predictions &after, const Predictions &springback) {
+  Predictions out = after;
   for (std::size_t d = 0; d < after.size(); ++d)
     for (std::size_t k = 0; k < after[d].size(); ++k) {
       const double solid = 1.0 - after[d][k].mean, s = 1.0 + springback[d][k].mean;
@@ -70,14 +70,14 @@ Guesses under_load_of(const Guesses &after, const Guesses &springback) {
 
 double Mixture::probability_below(double value) const {
   double sum = 0.0;
-  for (const Guess &g : of)
+  for (const MeanVariance &g : of)
     sum += share_below(g, value);
   return sum / double(of.size());
 }
 
 double Mixture::quantile(double share) const {
   double low = INFINITY, high = -INFINITY;
-  for (const Guess &g : of) {
+  for (const MeanVariance &g : of) {
     low = std::min(low, g.mean - 8.0 * std::sqrt(g.variance) - 1e-9);
     high = std::max(high, g.mean + 8.0 * std::sqrt(g.variance) + 1e-9);
   }
@@ -97,8 +97,8 @@ Band tortuosity_of(const Band &b) {
 }
 
 PredictedFilm predicted_from(const Film &film, const std::vector<double> &pressures,
-                             const GuessesOf &of) {
-  const Guesses after = of(FilmNumber::PorosityAfter), springback = of(FilmNumber::Springback);
+                             const PredictionsOf &of) {
+  const Predictions after = of(FilmNumber::PorosityAfter), springback = of(FilmNumber::Springback);
   PredictedFilm out;
   out.film = film;
   out.pressures = pressures;
@@ -111,12 +111,12 @@ PredictedFilm predicted_from(const Film &film, const std::vector<double> &pressu
     for (double Band::*part :
          {&Band::median, &Band::low50, &Band::high50, &Band::low90, &Band::high90})
       b.*part = std::exp(b.*part);
-  if (const Guesses broken = of(FilmNumber::Broken); !broken.empty())
+  if (const Predictions broken = of(FilmNumber::Broken); !broken.empty())
     out.broken = bands_of(broken, 0.0, 1.0);
-  if (const Guesses inverse = of(FilmNumber::InverseTortuosity); !inverse.empty())
+  if (const Predictions inverse = of(FilmNumber::InverseTortuosity); !inverse.empty())
     for (const Band &b : bands_of(inverse, 1.0 / kMostTortuosity, 1.0))
       out.tortuosity.push_back(tortuosity_of(b));
-  if (const Guesses pores = of(FilmNumber::CbdNanoporosity); !pores.empty())
+  if (const Predictions pores = of(FilmNumber::CbdNanoporosity); !pores.empty())
     out.cbd_nanoporosity = bands_of(pores, 0.0, 1.0);
   return out;
 }
@@ -132,15 +132,15 @@ PredictedFilm predicted(const FilmBank &bank, const Calibration &c, const Film &
 
 Band band_of_reading(const FilmBank &bank, const Calibration &c, const Film &film, const Datum &d) {
   auto draws = under_draws(bank, c, {film, d.number, {d.pressure}}, d.pressure_sd);
-  for (std::vector<Guess> &of : draws)
+  for (std::vector<MeanVariance> &of : draws)
     of.front().variance += d.sd * d.sd;
   return bands_of(draws, 0.0, 1.0).front();
 }
 
-std::vector<Chance> chances_from(const std::vector<double> &settings, const GuessesOf &of,
+std::vector<Chance> chances_from(const std::vector<double> &settings, const PredictionsOf &of,
                                  const Target &target) {
-  const Guesses after = of(FilmNumber::PorosityAfter), cracked = of(FilmNumber::Cracked),
-                inverse = of(FilmNumber::InverseTortuosity);
+  const Predictions after = of(FilmNumber::PorosityAfter), cracked = of(FilmNumber::Cracked),
+                    inverse = of(FilmNumber::InverseTortuosity);
   const bool any_tortuosity = target.tortuosity_below >= kMostTortuosity;
   if (!any_tortuosity && inverse.size() != after.size())
     throw Failure(kBadInput,

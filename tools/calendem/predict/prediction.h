@@ -13,7 +13,7 @@ namespace calendem {
 
 /// A mean over draws, each a normal.
 struct Mixture {
-  std::vector<Guess> of;
+  std::vector<MeanVariance> of;
   double probability_below(double value) const;
   double quantile(double share) const;
 };
@@ -44,17 +44,17 @@ struct PredictedFilm {
 Band tortuosity_of(const Band &inverse);
 
 /// By draws, then pressures; none of a number that is not known.
-using Guesses = std::vector<std::vector<Guess>>;
+using Predictions = std::vector<std::vector<MeanVariance>>;
 /// Normals of a number under each draw.
-using GuessesOf = std::function<Guesses(FilmNumber)>;
+using PredictionsOf = std::function<Predictions(FilmNumber)>;
 PredictedFilm predicted_from(const Film &film, const std::vector<double> &pressures,
-                             const GuessesOf &of);
+                             const PredictionsOf &of);
 /// By the bank's emulators, with what an error of the press's pressure adds (`pressure_sd` of its
 /// logarithm).
-Guesses under_draws(const FilmBank &bank, const Calibration &calibration, const Wanted &wanted,
-                    double pressure_sd);
+Predictions under_draws(const FilmBank &bank, const Calibration &calibration, const Query &query,
+                        double pressure_sd);
 /// Porosity under load from that after release and the springback, which scatter independently.
-Guesses under_load_of(const Guesses &after, const Guesses &springback);
+Predictions under_load_of(const Predictions &after, const Predictions &springback);
 
 /// `pressure_sd`: of the press that will be used, of its logarithm.
 PredictedFilm predicted(const FilmBank &bank, const Calibration &calibration, const Film &film,
@@ -83,7 +83,7 @@ struct Chance {
 constexpr double kAssured = 0.8;
 
 /// Chance of each pressure, or gap, to meet the target.
-std::vector<Chance> chances_from(const std::vector<double> &settings, const GuessesOf &of,
+std::vector<Chance> chances_from(const std::vector<double> &settings, const PredictionsOf &of,
                                  const Target &target);
 std::vector<Chance> chances(const FilmBank &bank, const Calibration &calibration, const Film &film,
                             const std::vector<double> &pressures, double pressure_sd,
