@@ -115,8 +115,7 @@ public:
     Vector out = derivatives(&Observable::per_porosity, outputs);
     for (std::size_t k = 0; k < readings_.size(); ++k)
       if (!readings_[k].observable.per_porosity)
-        out[Index(k)] =
-            kSharePerPorosity * (readings_[k].observable.unit == "%" ? 100.0 : 1.0);
+        out[Index(k)] = kCrackedPerPorosity;
     return out;
   }
 

@@ -48,8 +48,9 @@ Observable observable_of(FilmNumber number, double measured, double sd);
 /// Errors of model and emulator change over a factor e of pressure.
 double alike_at(double pressure, double other);
 
-/// What the discrepancy of one porosity is in other numbers; see docs/model/prediction.md.
-inline constexpr double kSharePerPorosity = 5.0; ///< cracked particles, nanoporosity
+/// The model's discrepancy in the share of cracked particles, in units of that in porosities: of 1 to
+/// 4 points, 5 to 20 %. An estimate.
+inline constexpr double kCrackedPerPorosity = 5.0;
 
 /// Systematic errors of the bank and ranges of what the model is off by, as porosities 0-1.
 struct ModelError {

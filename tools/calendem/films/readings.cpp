@@ -128,6 +128,7 @@ Observable observable_of(FilmNumber number, double measured, double sd) {
   case FilmNumber::CbdNanoporosity:
     o.name = "nanoporosity";
     o.simulated = [](const SimulatedRun &r) { return r.cbd_nanoporosity; };
+    o.per_porosity = [](const SimulatedRun &) { return 1.0; };
     return o;
   default:
     throw Failure(kBadInput, "no reading of a film is this number");

@@ -111,8 +111,9 @@ double error_covariance(const ModelError &e, const Draw &draw, const Spot &a, co
     return e.numerics * e.numerics + missed.sd * missed.sd * alike +
            kPorosityBySize * kPorosityBySize * a.sizes * b.sizes;
   case FilmNumber::Cracked:
+    return std::pow(kCrackedPerPorosity * missed.sd, 2) * alike;
   case FilmNumber::CbdNanoporosity:
-    return std::pow(kSharePerPorosity * missed.sd, 2) * alike;
+    return std::pow(missed.sd, 2) * alike;
   default:
     return 0.0;
   }
