@@ -7,7 +7,6 @@ source "$(dirname "${BASH_SOURCE[0]}")/calibrated.sh"
 # A film of another kind is predicted by runs of its own, which are there the second time.
 cat >other.toml <<'END'
 name = "other"
-material = "xu2023"
 [coating]
 loading_mg_cm2 = 4
 porosity_total_percent = 50
@@ -19,8 +18,8 @@ y_um = 6
 END
 refuses "or predict it by runs of its own (--runs)" predict model/model.json other.toml
 refuses "one by one" predict model/model.json other.toml --runs 4
-sed '/^material/d' other.toml >grains.toml
-refuses 'particles.grains is "voronoi"' predict model/model.json grains.toml --pressure 10,60 --runs 4
+{ echo 'material = "xu2023"'; cat other.toml; } >lattice.toml
+refuses 'particles.grains is "lattice"' predict model/model.json lattice.toml --pressure 10,60 --runs 4
 refuses "without --vary" predict model/model.json other.toml --runs 4 --pressure 10,30 --vary porosity_before_percent=40
 refuses "two or more to --pressure" predict model/model.json other.toml --runs 4 --pressure 30 --press-percent 5
 by_runs() { calendem predict model/model.json other.toml --pressure 10,60 --runs 4 --jobs 2 -o own; }

@@ -26,6 +26,19 @@ TEST(CrushingLoads, FindThePowerLawTheyAreMadeOf) {
   EXPECT_FALSE(loads.covers(4.5) || loads.covers(21.0));
 }
 
+// The load may grow faster than the strength: here as its power 1.8. Of one strength nobody knows.
+TEST(CrushingLoads, FindThePowerOfTheStrength) {
+  const auto load = [](double d, double s) { return 0.01 * d * 500.0 * std::pow(s / 500.0, 1.8); };
+  std::string rows;
+  for (const double d : {5.0, 10.0})
+    for (const double s : {300.0, 500.0, 900.0})
+      rows += fmt::format("{},{},{}\n", d, s, load(d, s));
+  const CrushingLoads loads(table(rows));
+  EXPECT_NEAR(loads.power(), 1.8, 1e-6);
+  EXPECT_NEAR(std::exp(loads.log_load(8.0, 700.0)), load(8.0, 700.0), 1e-4);
+  EXPECT_EQ(CrushingLoads(table("5,500,25\n5,500,24\n10,500,50\n20,500,100\n")).power(), 1.0);
+}
+
 // At the middle of the diameters' logarithms the line is the mean: its variance is that of the residuals over n. At
 // the ends the slope adds the same again: two diameters, each with half of the particles.
 TEST(CrushingLoads, FewParticlesLeaveTheLineOpen) {

@@ -12,6 +12,7 @@ namespace calendem {
 namespace {
 
 constexpr std::size_t kFewestParticles = 4;
+constexpr double kOtherStrength = 1.2; // factor between strengths that tell the power
 constexpr double kBeside = 0.02; // beyond the diameters, as a fraction of them
 
 Eigen::Vector2d of(double diameter) { return {1.0, std::log(diameter)}; }
@@ -50,16 +51,32 @@ CrushingLoads::CrushingLoads(const std::string &file) {
     throw Failure(kBadInput, fmt::format("{}: rows: {}, different diameters: {}; at least {} "
                                          "particles of two diameters are needed.",
                                          file, d.size(), diameters_.size(), kFewestParticles));
-  const auto n = Eigen::Index(d.size());
-  Eigen::MatrixX2d at(n, 2);
+  fit(d, s, load);
+}
+
+void CrushingLoads::fit(const std::vector<double> &d, const std::vector<double> &s,
+                        const std::vector<double> &load) {
+  std::vector<double> strengths = s;
+  std::sort(strengths.begin(), strengths.end());
+  strength_ = strengths[strengths.size() / 2];
+  const bool varies = strengths.back() > kOtherStrength * strengths.front();
+  const auto n = Eigen::Index(d.size()), columns = Eigen::Index(varies ? 3 : 2);
+  Eigen::MatrixXd at(n, columns);
   Eigen::VectorXd y(n);
   for (Eigen::Index k = 0; k < n; ++k) {
-    at.row(k) = of(d[std::size_t(k)]);
-    y[k] = std::log(load[std::size_t(k)] / s[std::size_t(k)]);
+    const double log_strength = std::log(s[std::size_t(k)] / strength_);
+    at.row(k).head(2) = of(d[std::size_t(k)]);
+    if (varies)
+      at(k, 2) = log_strength;
+    y[k] = std::log(load[std::size_t(k)]) - (varies ? 0.0 : log_strength);
   }
-  const Eigen::Matrix2d inverse = (at.transpose() * at).inverse();
-  line_ = inverse * (at.transpose() * y);
-  line_covariance_ = inverse * ((y - at * line_).squaredNorm() / double(n - 2));
+  const Eigen::MatrixXd inverse = (at.transpose() * at).inverse();
+  const Eigen::VectorXd found = inverse * (at.transpose() * y);
+  line_ = found.head(2);
+  if (varies)
+    power_ = found[2];
+  line_covariance_ =
+      inverse.topLeftCorner(2, 2) * ((y - at * found).squaredNorm() / double(n - columns));
 }
 
 bool CrushingLoads::covers(double diameter) const {
@@ -68,7 +85,7 @@ bool CrushingLoads::covers(double diameter) const {
 }
 
 double CrushingLoads::log_load(double diameter, double strength) const {
-  return std::log(strength) + line_.dot(of(diameter));
+  return power_ * std::log(strength / strength_) + line_.dot(of(diameter));
 }
 
 double CrushingLoads::covariance(double diameter, double other) const {
