@@ -88,10 +88,3 @@ int run(int argc, char **argv) {
 
 /// A message that cannot be written, as on a full disk, is no reason for another exit status. It may
 /// quote what a file holds.
-void say(const std::string &message) { std::fputs(calendem::printable(message).c_str(), stderr); }
-
-} // namespace
-
-int main(int argc, char **argv) {
-  return calendem::exit_status_of([&] { return run(argc, argv); });
-}
