@@ -46,6 +46,7 @@ inline double made_modulus(const std::vector<double> &p) { return 0.01 * p[0]; }
 
 /// Places of the effects among the bank's.
 constexpr int kYields = 0, kCollapses = 1;
+constexpr double kMadeSolid = 12.0; ///< thickness without pores [um]
 /// What a film of the larger cell's loading is denser by.
 constexpr double kLargerIsDenser = 0.03;
 
@@ -63,9 +64,9 @@ inline bank::PressedFilm made_press(const bank::Point &point, double pressure) {
   r.broken = 0.3 * r.cracked;
   r.inverse_tortuosity = made_inverse(r.porosity_after);
   r.cbd_nanoporosity = std::isnan(collapse) ? 0.5 : made_nanoporosity(collapse, pressure);
-  r.thickness_at_max = 12.0 / (1.0 - r.porosity_at_max);
+  r.thickness_at_max = kMadeSolid / (1.0 - r.porosity_at_max);
   for (const double share : bank::kReleasedTo) // linear: a modulus of made_modulus
-    r.release.push_back(10.0 -
+    r.release.push_back(kMadeSolid / (1.0 - 0.01 * p[3]) - r.thickness_at_max -
                         (1.0 - share) * pressure * 1e-3 / made_modulus(p) * r.thickness_at_max);
   return r;
 }
@@ -80,7 +81,9 @@ inline bank::Runs made_coatings() {
     run.porosity_before = 0.01 * point.values[3];
     for (const double pressure : bank::pressures_of(runs.bank))
       run.presses.push_back(made_press(point, pressure));
-    run.loading.assign(bank::curve_pressures().size(), NAN);
+    run.thickness_before = kMadeSolid / (1.0 - run.porosity_before);
+    for (const double pressure : bank::curve_pressures())
+      run.loading.push_back(run.thickness_before - made_press(point, pressure).thickness_at_max);
     runs.runs.push_back(run);
   }
   return runs;

@@ -13,16 +13,29 @@ fail() { echo "FAILED: $*" >&2; exit 1; }
 rm -rf "$work"
 mkdir -p "$work"
 cd "$work"
-cp "$cases/coatings/electrode.toml" "$cases/coatings/case.toml" .
+cp "$cases/films/electrode.toml" .
+cat >case.toml <<'END'
+# As the bank's runs, to one pressure.
+electrode = "of the bank"
+[platen]
+max_pressure_MPa = 150
+touch_speed_m_s = 8
+speed_m_s = 8
+release_speed_m_s = 8
+[effects.cbd_plasticity]
+beyond_cohesion = 1
+[output]
+vtk_every_us = 1000
+restart_every_us = 1000
+END
 within=1.5 # points of porosity, one and a half standard deviations of one packing of so small a cell
 
-# number E_cbd,yield_cbd,inset,strength,friction,collapse porosity_A carbon_A porosity_B carbon_B porosity_C carbon_C
+# number E_cbd,yield_cbd,strength,friction,collapse porosity_A carbon_A porosity_B carbon_B porosity_C carbon_C
 # target; an effect's key within the bank's range, or what switches it off
-awk -v n="$asks" 'function key(low, high, off) { return rand() < 0.5 ? low * (high / low) ^ rand() : off }
-  BEGIN { srand(20)
+awk -v n="$asks" 'BEGIN { srand(20)
   for (k = 1; k <= n; ++k) {
-    material = sprintf("%.4g,%.4g,%.4g,%.4g,%.4g,%.4g", 1.6 * 2.5 ^ rand(), 0.12 * 2.5 ^ rand(), 0.1 * rand(),
-      350 * (2000 / 350) ^ rand(), rand() < 0.5 ? 0.05 + 0.55 * rand() : 0.001, key(5, 300, 0))
+    material = sprintf("%.4g,%.4g,%.4g,%.4g,%.4g", 1.6 * 2.5 ^ rand(), 0.12 * 4.1 ^ rand(), 400 * (1500 / 400) ^ rand(),
+      rand() < 0.8 ? 0.05 + 0.55 * rand() : 0.001, rand() < 0.2 ? 5 * 60 ^ rand() : 0)
     printf "%d %s %.4g %.4g %.4g %.4g %.4g %.4g %.4g\n", k, material, 42 + 9 * rand(), 1.5 + 2 * rand(), 42 + 9 * rand(),
       1.5 + 2 * rand(), 42 + 9 * rand(), 1.5 + 2 * rand(), 0.66 + 0.16 * rand() } }' >asks.txt # the target is a share of the porosity before
 
@@ -30,13 +43,13 @@ study() { # NAME ROWS CONTROL KEY: a study of rows "material porosity carbon KEY
   {
     printf '[study]\nname = "%s"\nrecipe = "electrode.toml"\ncase = "case.toml"\nkeep = "tables"\n' "$1"
     printf '[[vary]]\nkeys = ["case.material.cbd.youngs_modulus_GPa", "case.effects.cbd_plasticity.yield_pressure_GPa", '
-    printf '"case.bond.surface_inset_um", "case.bond.tensile_strength_MPa", "case.bond.shear_strength_MPa", '
+    printf '"case.bond.tensile_strength_MPa", "case.bond.shear_strength_MPa", '
     printf '"case.material.am.friction", "case.material.cbd.friction", "case.effects.cbd_collapse.yield_pressure_MPa", '
     printf '"recipe.coating.porosity_total_percent", '
     printf '"recipe.composition.carbon_weight_percent", "recipe.composition.binder_weight_percent", '
     printf '"case.platen.%s", "recipe.seed", "case.platen.control"]\nvalues = [\n' "$4"
     awk -v control="$3" '{ split($1, m, ",")
-      print "[" m[1] ", " m[2] ", " m[3] ", " m[4] ", " m[4] ", " m[5] ", " m[5] ", " m[6] ", " $2 ", " $3 ", " $3 ", " $4 ", " $5 ", \"" control "\"]," }' "$2"
+      print "[" m[1] ", " m[2] ", " m[3] ", " m[3] ", " m[4] ", " m[4] ", " m[5] ", " $2 ", " $3 ", " $3 ", " $4 ", " $5 ", \"" control "\"]," }' "$2"
     echo ']'
   } >"$1.toml"
   local status=0
@@ -82,7 +95,7 @@ while read -r k _ pa ca pb cb pc cc target; do
     if grep -q '^\[\[condition' "ask$k/${f}_measured.toml"; then known+=("ask$k/${f}_measured.toml"); fi
   done
   "$bin/calendem" calibrate "${known[@]}" -o "ask$k/model" \
-    --bank "$cases/coatings/bank.toml" >"ask$k/log" || fail "calibrate, ask $k"
+    --bank "$cases/films/bank.toml" >"ask$k/log" || fail "calibrate, ask $k"
   wanted=$(awk -v a="$pc" -v b="$target" 'BEGIN { print a * b }')
   "$bin/calendem" design "ask$k/model/model.json" "ask$k/c.toml" -o "ask$k/design" --within $within --porosity "$wanted" \
     >>"ask$k/log" || fail "design, ask $k"

@@ -10,7 +10,7 @@ cd "$work"
 films=("$cases/paper/experiment_with_nanopores.toml" "$cases/real/artistic_96/experiment.toml")
 calendem() { "$bin/calendem" "$@"; }
 
-calendem calibrate "${films[@]}" -o model --bank "$cases/coatings/bank.toml" | tee calibrate.log
+calendem calibrate "${films[@]}" -o model --bank "$cases/films/bank.toml" | tee calibrate.log
 
 cat >film.toml <<'END'
 name = "film"

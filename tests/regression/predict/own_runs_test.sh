@@ -86,7 +86,7 @@ control = "pressure"
 max_pressure_MPa = { value = 25, sd_relative = 0.05 }
 porosity_after_percent = { value = 38, sd = 0.5 }
 END
-calendem calibrate pressed.toml -o small --samples 512 --confirm 4 --jobs 2 --bank "$cases/coatings/bank.toml" | tee small.log
+calendem calibrate pressed.toml -o small --samples 512 --confirm 4 --jobs 2 --bank "$cases/films/bank.toml" | tee small.log
 grep -q "pressed .* 25 MPa  measured 38.0, 4 runs .* emulators .*: off by .* ±" small.log || fail "the film was not run again"
 grep -q '"emulated":' small/model.json || fail "model.json does not hold what was run"
 grep -q "Run again" small/model.html || fail "the page does not show what was run"

@@ -12,7 +12,7 @@ work=$(cd "$2" && pwd)
 cd "$core"
 # The readers, and of the library electrode all that two of them are linked with.
 sources=(base/*.cpp electrode/*.cpp electrode/*/*.cpp simulate/study_file.cpp diagnose/bank/bank_{spec,study,table}.cpp
-  diagnose/compare/simulated_run.cpp inference/{numerics,quantities}.cpp ../../tests/validation/sealed/{hidden_changes,round_file}.cpp)
+  compare/simulated_run.cpp inference/{numerics,quantities}.cpp ../../tests/validation/sealed/{hidden_changes,round_file}.cpp)
 image_sources=(electrode/structure/{data_rows,image_header,label_image,numpy_image,png_image,tiff_image,vti_header}.cpp
   base/{image_series,messages,provenance}.cpp)
 for source in "${sources[@]}" "${image_sources[@]}"; do # said by every run of the tests, not only by --all

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "diagnose/compare/gap.h"
-#include "diagnose/compare/observables.h"
+#include "compare/gap.h"
+#include "compare/observables.h"
 #include "pressed.h"
 #include "support/page.h"
 #include "support/test_folder.h"

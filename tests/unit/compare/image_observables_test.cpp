@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/messages.h"
-#include "diagnose/compare/observables.h"
+#include "compare/observables.h"
 #include <cmath>
 #include <filesystem>
 #include <gtest/gtest.h>

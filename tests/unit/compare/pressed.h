@@ -3,7 +3,7 @@
 #ifndef CALENDEM_TESTS_UNIT_COMPARE_PRESSED_H
 #define CALENDEM_TESTS_UNIT_COMPARE_PRESSED_H
 
-#include "diagnose/compare/gap.h"
+#include "compare/gap.h"
 #include <string>
 
 namespace calendem {

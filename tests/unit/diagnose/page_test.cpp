@@ -2,7 +2,7 @@
 // The whole way on a table from formulas: an effect is named, and the page says so.
 #include "base/messages.h"
 #include "base/provenance.h"
-#include "diagnose/compare/gap.h"
+#include "compare/gap.h"
 #include "diagnose/diagnose.h"
 #include "diagnose/page.h"
 #include "support/made_bank.h"

@@ -12,7 +12,7 @@ const std::vector<double> kMaterial = {190.0, 2.4, 480.0};
 
 Calibration exact_calibration() {
   Calibration c;
-  c.error = {0.0, 0.001, 0.002, 0.1};
+  c.error = {0.0, 0.001, 0.002};
   c.draws = {{{{kMaterial, {}}}, {0.001, 0.5}}};
   return c;
 }

@@ -132,10 +132,7 @@ TEST(Crushed, FewParticlesInTheBankSayLess) {
   c.films = {made_film("a", 48.0, 2.0)};
   c.crushed = {{0, 10.0, load, 0.1 * load}};
   const auto at = [&](double strength) {
-    Draw d;
-    d.materials = {{{190.0, 2.4, strength}, {}}};
-    Curves known;
-    return log_likelihood(bank, c, d, known);
+    return log_likelihood_of_crushed(bank, c, 0, {{190.0, 2.4, strength}, {}});
   };
   const double off = std::log(800.0 / 500.0);
   EXPECT_NEAR(at(500.0) - at(800.0),

@@ -43,7 +43,7 @@ struct OnDisk {
 
   OnDisk() {
     Random random(1, 2);
-    calibration.error = {0.01, 0.001, 0.02, 0.1};
+    calibration.error = {0.01, 0.001, 0.02};
     measure({}, made_film("a", 48.0, 2.0), {80.0, 150.0}, 0.002, random, calibration);
     measure({}, made_film("b", 43.0, 2.5), {50.0}, 0.002, random, calibration);
     CalibrationSettings settings;

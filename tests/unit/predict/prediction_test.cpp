@@ -11,7 +11,7 @@ using namespace calendem_test;
 
 Calibration exact() {
   Calibration c;
-  c.error = {0.0, 0.001, 0.002, 0.1};
+  c.error = {0.0, 0.001, 0.002};
   c.draws = {{{{{190.0, 2.4, 480.0}, {}}}, {0.001, 0.5}}};
   return c;
 }

@@ -2,7 +2,7 @@
 // Folders of runs become a folder that reads as a run; what is no sample is refused.
 #include "base/messages.h"
 #include "base/provenance.h"
-#include "diagnose/compare/gap.h"
+#include "compare/gap.h"
 #include "simulate/sample.h"
 #include "support/test_folder.h"
 #include <fmt/format.h>

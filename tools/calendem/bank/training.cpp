@@ -13,6 +13,7 @@ namespace calendem::bank {
 namespace {
 
 constexpr double kSamePressure = 0.05; // of a press that met its target
+constexpr std::size_t kEvery = 4; // of curve_pressures()
 constexpr std::size_t kFewestPresses = 3, kFewestRuns = 8;
 
 inference::Prior prior_of(Spread spread, double low, double high) {
@@ -30,6 +31,16 @@ double log_modulus(const PressedFilm &film) {
 }
 
 } // namespace
+
+const std::vector<double> &loading_pressures() {
+  static const std::vector<double> pressures = [] {
+    std::vector<double> out;
+    for (std::size_t k = 0; k < curve_pressures().size(); k += kEvery)
+      out.push_back(curve_pressures()[k]);
+    return out;
+  }();
+  return pressures;
+}
 
 double value_of(FilmNumber number, const PressedFilm &film) {
   switch (number) {
@@ -91,6 +102,27 @@ std::vector<double> pressures_of(const Bank &bank) {
   return out;
 }
 
+namespace {
+
+/// Loading and releases of a run, as outputs of column r.
+void add_curves(const Run &run, const std::vector<double> &pressures, Eigen::Index r,
+                inference::Matrix &values) {
+  for (std::size_t k = 0; k < loading_pressures().size(); ++k)
+    values(loading_output(k, pressures.size()), r) =
+        run.loading[kEvery * k] / run.thickness_before;
+  for (std::size_t p = 0; p < run.presses.size() && p < pressures.size(); ++p) {
+    const PressedFilm &film = run.presses[p];
+    if (std::fabs(film.pressure / pressures[p] - 1.0) > kSamePressure)
+      continue;
+    const double largest = run.thickness_before - film.thickness_at_max;
+    for (std::size_t j = 0; j < kReleases.size(); ++j)
+      values(release_output(p, j, pressures.size()), r) =
+          (largest - film.release[kReleases[j]]) / film.thickness_at_max;
+  }
+}
+
+} // namespace
+
 inference::TrainingRuns training_of(const Runs &runs) {
   const Space space(runs.bank);
   const std::vector<double> pressures = pressures_of(runs.bank);
@@ -101,13 +133,15 @@ inference::TrainingRuns training_of(const Runs &runs) {
   if (used.size() < kFewestRuns)
     throw Failure(kBadInput, fmt::format("{}: the table has {} runs; at least {} are needed.",
                                          runs.bank.file, used.size(), kFewestRuns));
-  const auto n = Eigen::Index(used.size()), outputs = Eigen::Index(kFilmNumbers * pressures.size());
+  const auto n = Eigen::Index(used.size()), outputs = Eigen::Index(count_of_outputs(pressures.size()));
   inference::TrainingRuns out;
   out.at.inputs.resize(Eigen::Index(space.priors.size()), n);
   out.at.amplitudes = inference::Matrix::Zero(Eigen::Index(space.amplitudes.size()) + 1, n);
   out.values = inference::Matrix::Constant(outputs, n, NAN);
   for (Eigen::Index o = 0; o < outputs; ++o)
-    out.group.push_back(int(o / Eigen::Index(pressures.size())));
+    out.group.push_back(o >= release_output(0, 0, pressures.size())
+                            ? kFilmNumbers + 1
+                            : std::min(int(o) / int(pressures.size()), kFilmNumbers));
   for (Eigen::Index r = 0; r < n; ++r) {
     const Run &run = *used[std::size_t(r)];
     const Point &point = run.point;
@@ -125,6 +159,7 @@ inference::TrainingRuns training_of(const Runs &runs) {
         for (int number = 0; number < kFilmNumbers; ++number)
           out.values(output_of(FilmNumber(number), p, pressures.size()), r) =
               value_of(FilmNumber(number), run.presses[p]);
+    add_curves(run, pressures, r, out.values);
   }
   return out;
 }

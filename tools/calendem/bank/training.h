@@ -53,6 +53,21 @@ inline int output_of(FilmNumber number, std::size_t k, std::size_t pressures) {
   return int(number) * int(pressures) + int(k);
 }
 
+/// Pressures at which the compression under load is an output [MPa].
+const std::vector<double> &loading_pressures();
+/// Compression at the k-th of them: displacement over the thickness before.
+inline int loading_output(std::size_t k, std::size_t pressures) {
+  return kFilmNumbers * int(pressures) + int(k);
+}
+/// Places in kReleasedTo of the releases that are outputs.
+inline constexpr std::array<std::size_t, 5> kReleases = {1, 3, 5, 7, 9};
+/// What is recovered from the k-th of `pressures` to the j-th of these, over the thickness at the
+/// maximum.
+inline int release_output(std::size_t k, std::size_t j, std::size_t pressures) {
+  return loading_output(loading_pressures().size(), pressures) + int(k * kReleases.size() + j);
+}
+inline int count_of_outputs(std::size_t pressures) { return release_output(pressures, 0, pressures); }
+
 inference::TrainingRuns training_of(const Runs &runs);
 
 /// The emulator with the hyperparameters that a file beside the table keeps; where there is none, or

@@ -112,10 +112,7 @@ Experiment experiment_of_its_material(const std::string &file) {
 void run_calibrate(const CalibrateOptions &o) {
   const FilmBank bank(o.bank);
   Calibration c;
-  double numerics = 0.0;
-  for (const bank::Numerics &n : bank.spec().numerics)
-    numerics += n.porosity_points * n.porosity_points;
-  c.error.numerics = std::sqrt(numerics) / kPercent;
+  c.error = model_error_of(bank);
   std::vector<std::string> not_said;
   std::vector<Recipe> recipes;
   for (const std::string &file : o.experiments) {

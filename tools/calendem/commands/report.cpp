@@ -5,7 +5,7 @@
 #include "base/output_folder.h"
 #include "base/provenance.h"
 #include "commands/commands.h"
-#include "diagnose/compare/gap.h"
+#include "compare/gap.h"
 #include "measure/structure.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>

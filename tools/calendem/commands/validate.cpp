@@ -7,7 +7,7 @@
 #include "base/toml_reader.h"
 #include "commands/commands.h"
 #include "diagnose/bank/bank_table.h"
-#include "diagnose/compare/observables.h"
+#include "compare/observables.h"
 #include "electrode/pack/from_structure.h"
 #include "electrode/pack/measured_bodies.h"
 #include "electrode/slurry/dry.h"

@@ -5,7 +5,7 @@
 #define CALENDEM_DIAGNOSE_BANK_POINTS_H
 
 #include "diagnose/bank/bank_table.h"
-#include "diagnose/compare/observables.h"
+#include "compare/observables.h"
 #include "diagnose/inference/problem.h"
 #include "inference/numerics.h"
 #include <cmath>

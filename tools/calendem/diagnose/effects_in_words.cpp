@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/effects_in_words.h"
 #include "base/shown.h"
-#include "diagnose/compare/gap.h"
+#include "compare/gap.h"
 #include "diagnose/diagnose.h"
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #ifndef CALENDEM_DIAGNOSE_MEASURED_RUNS_H
 #define CALENDEM_DIAGNOSE_MEASURED_RUNS_H
 
-#include "diagnose/compare/gap.h"
+#include "compare/gap.h"
 #include <cstdint>
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/page.h"
-#include "diagnose/compare/gap.h"
+#include "compare/gap.h"
 #include "report/page.h"
 #include <algorithm>
 #include <cmath>

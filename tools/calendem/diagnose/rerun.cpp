@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The chosen models run again, and how far they are from what was held out.
 #include "diagnose/rerun.h"
-#include "diagnose/compare/observables.h"
+#include "compare/observables.h"
 #include "diagnose/inference/evidence.h"
 #include "diagnose/sample_film.h"
 #include <algorithm>

@@ -4,7 +4,7 @@
 #ifndef CALENDEM_DIAGNOSE_RERUN_H
 #define CALENDEM_DIAGNOSE_RERUN_H
 
-#include "diagnose/compare/gap.h"
+#include "compare/gap.h"
 #include "diagnose/diagnose.h"
 #include "inference/quantities.h"
 #include "simulate/study.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "diagnose/compare/gap.h"
+#include "compare/gap.h"
 #include "diagnose/page.h"
 #include "report/page.h"
 #include <algorithm>

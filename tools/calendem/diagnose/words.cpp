@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/gap_file.h"
-#include "diagnose/compare/gap.h"
+#include "compare/gap.h"
 #include "diagnose/diagnose.h"
 #include "diagnose/effects_in_words.h"
 #include <algorithm>

@@ -2,6 +2,7 @@
 #include "inference/emulator.h"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace calendem::inference {
@@ -253,6 +254,11 @@ std::vector<Accuracy> accuracy_of(const LeftOut &left_out, const Matrix &values)
     for (Eigen::Index r = 0; r < values.cols(); ++r)
       if (std::isfinite(left_out.predicted(o, r)))
         known.push_back(r);
+    if (known.empty()) {
+      constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+      all.push_back({kNone, kNone, kNone, kNone, kNone, kNone});
+      continue;
+    }
     const Eigen::ArrayXd value = values.row(o)(known), predicted = left_out.predicted.row(o)(known),
                          deviation = left_out.deviation.row(o)(known);
     const Eigen::ArrayXd z = ((predicted - value) / deviation).abs();

@@ -90,7 +90,7 @@ private:
                  LeftOut &out) const;
 };
 
-/// For each output.
+/// For each output; NaN where no run has it.
 std::vector<Accuracy> accuracy_of(const LeftOut &left_out, const Matrix &values);
 
 /// Minus the logarithm of likelihood times prior of scaled values (runs x outputs), averaged over

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "predict/calibration.h"
 #include "base/messages.h"
-#include "diagnose/compare/observables.h"
+#include "compare/observables.h"
 #include "predict/crushed.h"
 #include <algorithm>
 #include <cmath>
@@ -42,16 +42,7 @@ void add_experiment(const Experiment &experiment, const FilmBank &bank, Calibrat
     to.materials.clear();
   to.films.push_back(bank.film_of(experiment.recipe));
   to.films.back().name = experiment.name;
-  const std::string material = experiment.material.empty() ? kUnnamed : experiment.material;
-  if (material == kOther)
-    throw Failure(kBadInput,
-                  fmt::format("{}: material is '{}', which stands for one that was not measured. "
-                              "Give it another name.",
-                              experiment.name, kOther));
-  const auto known = std::find(to.materials.begin(), to.materials.end(), material);
-  to.films.back().material = int(known - to.materials.begin());
-  if (known == to.materials.end())
-    to.materials.push_back(material);
+  to.films.back().material = place_of_material(experiment, to.materials);
   add_crushed(experiment, bank, to.films.back().material, to, not_said);
   for (const std::string &why : bank.beyond(to.films.back()))
     not_said.push_back(fmt::format("{}: {}.", experiment.name, why));
@@ -103,13 +94,8 @@ namespace {
 struct Spot {
   int film, material;
   FilmNumber number;
-  double log_pressure, sizes;
+  double pressure, sizes;
 };
-
-/// Errors of model and emulator change over a factor e of pressure.
-double near(double log_pressure, double other) {
-  return std::exp(-0.5 * std::pow(log_pressure - other, 2));
-}
 
 /// A part of what the model misses is common to all films of one material, and less of it to others;
 /// it changes over a factor e of pressure. One shift of the bank's numerics is common to all
@@ -119,26 +105,23 @@ double error_covariance(const ModelError &e, const Draw &draw, const Spot &a, co
     return 0.0;
   const ModelDiscrepancy &missed = draw.missed;
   const double between = missed.shared * (a.material == b.material ? 1.0 : draw.alike);
-  const double alike = near(a.log_pressure, b.log_pressure) * (a.film == b.film ? 1.0 : between);
+  const double alike = alike_at(a.pressure, b.pressure) * (a.film == b.film ? 1.0 : between);
   switch (a.number) {
   case FilmNumber::PorosityAfter:
     return e.numerics * e.numerics + missed.sd * missed.sd * alike +
            kPorosityBySize * kPorosityBySize * a.sizes * b.sizes;
   case FilmNumber::Cracked:
-    return e.cracked * e.cracked * alike;
-  case FilmNumber::Springback:
-  case FilmNumber::LogModulus:
-  case FilmNumber::Broken:
-  case FilmNumber::InverseTortuosity:
+    return std::pow(kCrackedPerPorosity * missed.sd, 2) * alike;
   case FilmNumber::CbdNanoporosity:
+    return std::pow(missed.sd, 2) * alike;
+  default:
     return 0.0;
   }
-  return 0.0;
 }
 
 Spot spot_of(const Calibration &c, const Datum &d) {
   const Film &film = c.films[std::size_t(d.film)];
-  return {d.film, film.material, d.number, std::log(d.pressure), film.sizes};
+  return {d.film, film.material, d.number, d.pressure, film.sizes};
 }
 
 /// Emulated values of the data, and what is uncertain about them but for the measurement.
@@ -146,8 +129,8 @@ struct Predicted {
   Vector mean, variance, by_pressure; ///< by_pressure: for one sd of the press's pressure
 };
 
-Predicted predicted_data(const FilmBank &bank, const Calibration &c, const Draw &draw,
-                         Curves &curves) {
+Predicted predicted_data(const FilmBank &bank, const Calibration &c, const Draw &draw) {
+  std::map<std::pair<int, FilmNumber>, std::vector<MeanVariance>> curves;
   const auto n = Eigen::Index(c.data.size());
   Predicted out = {Vector(n), Vector(n), Vector(n)};
   for (Eigen::Index k = 0; k < n; ++k) {
@@ -167,11 +150,6 @@ Predicted predicted_data(const FilmBank &bank, const Calibration &c, const Draw 
   return out;
 }
 
-Predicted predicted_data(const FilmBank &bank, const Calibration &c, const Draw &draw) {
-  Curves curves;
-  return predicted_data(bank, c, draw, curves);
-}
-
 /// Covariance of measured - predicted.
 Matrix covariance_of(const Calibration &c, const Predicted &p, const Draw &draw) {
   const auto n = Eigen::Index(c.data.size());
@@ -184,7 +162,7 @@ Matrix covariance_of(const Calibration &c, const Predicted &p, const Draw &draw)
         out(i, j) += p.by_pressure[i] * p.by_pressure[j];
       if (a.number == b.number && a.film == b.film)
         out(i, j) += std::sqrt(p.variance[i] * p.variance[j]) *
-                     near(std::log(a.pressure), std::log(b.pressure));
+                     alike_at(a.pressure, b.pressure);
       if (i == j)
         out(i, j) += a.sd * a.sd;
     }
@@ -200,17 +178,6 @@ Vector measured_of(const Calibration &c) {
 
 } // namespace
 
-double log_likelihood(const FilmBank &bank, const Calibration &c, const Draw &draw, Curves &known) {
-  const double of_crushed = log_likelihood_of_crushed(bank, c, draw);
-  if (c.data.empty())
-    return of_crushed;
-  const Predicted p = predicted_data(bank, c, draw, known);
-  const Cholesky chol(covariance_of(c, p, draw));
-  const Vector off = chol.matrixL().solve(measured_of(c) - p.mean);
-  return of_crushed - 0.5 * off.squaredNorm() -
-         Matrix(chol.matrixL()).diagonal().array().log().sum();
-}
-
 std::vector<MeanVariance> each_from_the_others(const FilmBank &bank, const Calibration &c,
                                                const Draw &draw) {
   const Predicted p = predicted_data(bank, c, draw);
@@ -221,10 +188,6 @@ std::vector<MeanVariance> each_from_the_others(const FilmBank &bank, const Calib
   for (Eigen::Index k = 0; k < n; ++k)
     out.push_back({measured[k] - pull[k] / precision(k, k), 1.0 / precision(k, k)});
   return out;
-}
-
-inference::Prior discrepancy_of(const ModelError &error) {
-  return {inference::Prior::log_uniform, error.low, error.high};
 }
 
 namespace {
@@ -300,7 +263,7 @@ std::vector<MeanVariance> missed_given_data(const FilmBank &bank, const Calibrat
   std::vector<MeanVariance> out;
   for (const double pressure : query.pressures) {
     // runs have the film's own particles
-    const Spot here = {film, query.film.material, query.number, std::log(pressure),
+    const Spot here = {film, query.film.material, query.number, pressure,
                        by_bank ? query.film.sizes : 0.0};
     Vector with(n);
     for (Eigen::Index k = 0; k < n; ++k) {

@@ -6,7 +6,7 @@
 #define CALENDEM_PREDICT_CALIBRATION_H
 
 #include "base/experiment.h"
-#include "predict/film_bank.h"
+#include "films/film_problem.h"
 #include <map>
 #include <utility>
 #include <vector>
@@ -27,13 +27,6 @@ struct Datum {
 struct Crushed {
   int material = 0;                            ///< place in Calibration::materials
   double diameter = 0.0, load = 0.0, sd = 0.0; ///< [um], [mN]
-};
-
-/// How wrong the model may be. Standard deviations of porosity 0-1 unless said.
-struct ModelError {
-  double numerics = 0.0;           ///< the bank's: one shift of all porosities
-  double low = 0.003, high = 0.04; ///< of the discrepancy, log-uniform
-  double cracked = 0.1;            ///< of the share of cracked particles
 };
 
 /// The model's own error.
@@ -59,9 +52,6 @@ struct EffectSet {
   std::vector<double> probability; ///< in each of Calibration::materials
 };
 
-/// Names for experiments that name no material, and of one that was not measured.
-inline constexpr const char *kUnnamed = "unnamed", *kOther = "other";
-
 struct Calibration {
   std::vector<std::string> materials = {""}; ///< names
   std::vector<Film> films;
@@ -69,7 +59,7 @@ struct Calibration {
   std::vector<Crushed> crushed;
   ModelError error;
   std::vector<Draw> draws; ///< of equal weight
-  double acceptance = 1.0; ///< of the sampler's moves, the least over its steps
+  double acceptance = 1.0; ///< of the sampler's moves of parameters, the least over its steps
 };
 
 /// Adds the film of an experiment and its data: porosities after, cracked particles and nanopores of
@@ -80,23 +70,13 @@ void add_experiment(const Experiment &experiment, const FilmBank &bank, Calibrat
                     std::vector<std::string> &not_said);
 
 struct CalibrationSettings {
-  int samples = 1000;
-  int draws = 400;
+  int samples = 512; ///< of the sampler
+  int draws = 400;   ///< that are kept
 };
 
-/// Emulated numbers of films (places in Calibration::films) at the bank's pressures, under one draw.
-using Curves = std::map<std::pair<int, FilmNumber>, std::vector<MeanVariance>>;
-
-/// Logarithm of the likelihood of all data together, but for a constant. `known`: of the draw,
-/// added to where it lacks a film.
-double log_likelihood(const FilmBank &bank, const Calibration &calibration, const Draw &draw,
-                      Curves &known);
 /// Each datum as all others predict it under a draw, with the errors of measurement and press.
 std::vector<MeanVariance> each_from_the_others(const FilmBank &bank, const Calibration &calibration,
                                                const Draw &draw);
-/// Prior of the model's own error.
-inference::Prior discrepancy_of(const ModelError &error);
-
 /// The sets of effects that act in draws, the most probable in any material first.
 std::vector<EffectSet> effect_sets_of(const FilmBank &bank, const Calibration &calibration);
 std::string name_of(const FilmBank &bank, const std::vector<int> &effects);
@@ -104,10 +84,6 @@ std::string name_of(const FilmBank &bank, const std::vector<int> &effects);
 std::vector<int> effects_of(const Material &material);
 /// Probability that one of the bank's effects acts in a material, alone or with others.
 double acting(const Calibration &calibration, int effect, std::size_t material);
-
-/// Systematic resampling by weights: the k-th of `count` is the first whose summed share passes
-/// (k + 1/2) / count.
-std::vector<std::size_t> resampled(const std::vector<double> &weights, int count);
 
 /// Fills the draws from films, data and error. Before the data the model is wrong about each effect -
 /// it acts, or it does not, other than in the bank's reference material - with a probability of 10 %.

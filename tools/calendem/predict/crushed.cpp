@@ -96,11 +96,19 @@ std::vector<Crushing> rows_of(const FilmBank &bank, const Calibration &c) {
 
 } // namespace
 
-double log_likelihood_of_crushed(const FilmBank &bank, const Calibration &c, const Draw &draw) {
-  if (c.crushed.empty())
+double log_likelihood_of_crushed(const FilmBank &bank, const Calibration &c, int material,
+                                 const Material &as) {
+  std::vector<Crushed> read;
+  for (const Crushed &k : c.crushed)
+    if (k.material == material)
+      read.push_back(k);
+  if (read.empty())
     return 0.0;
-  const Vector off = off_line(bank, c.crushed, draw);
-  return -0.5 * off.dot(Cholesky(covariance_of(*bank.crushing(), c.crushed)).solve(off));
+  Vector off{Eigen::Index(read.size())};
+  for (std::size_t k = 0; k < read.size(); ++k)
+    off[Eigen::Index(k)] = std::log(read[k].load) -
+                           bank.crushing()->log_load(read[k].diameter, strength_of(bank, as));
+  return -0.5 * off.dot(Cholesky(covariance_of(*bank.crushing(), read)).solve(off));
 }
 
 std::vector<std::string> contradicting_loads(const FilmBank &bank, const Calibration &c) {

@@ -16,9 +16,10 @@ constexpr double kCrushingModel = 0.3;
 void add_crushed(const Experiment &experiment, const FilmBank &bank, int material, Calibration &to,
                  std::vector<std::string> &not_said);
 
-/// Logarithm of the likelihood of the loads that were measured, given the draw, but for a constant.
+/// Logarithm of the likelihood of the loads that were measured of one material (its place in
+/// Calibration::materials), but for a constant.
 double log_likelihood_of_crushed(const FilmBank &bank, const Calibration &calibration,
-                                 const Draw &draw);
+                                 int material, const Material &as);
 
 /// Loads that lie beyond two standard deviations of what the strength that was found means, in words.
 std::vector<std::string> contradicting_loads(const FilmBank &bank, const Calibration &calibration);

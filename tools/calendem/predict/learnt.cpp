@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "predict/learnt.h"
+#include "inference/ensemble.h"
 #include <algorithm>
 #include <cmath>
 
@@ -64,7 +65,8 @@ LeftOutDatum lesson_of(const std::vector<std::vector<MeanVariance>> &predicted, 
                             with(without.size(), 1.0 / double(without.size()));
   LeftOutDatum out;
   Mixture mixture;
-  for (const std::size_t k : resampled(without, int(without.size())))
+  for (const std::size_t k : inference::resampled(
+           inference::Vector::Map(without.data(), Eigen::Index(without.size())), int(without.size())))
     mixture.of.push_back(predicted[k][datum]);
   out.without = band_of(mixture, 0.0, 1.0);
   double squares = 0.0;

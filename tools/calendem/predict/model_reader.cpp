@@ -99,7 +99,7 @@ Calibration calibration_of(const FilmBank &bank, const Json &json) {
     out.data.push_back(d);
   }
   const Json &error = json.at("model_error");
-  out.error = {error.at("numerics"), error.at("low"), error.at("high"), error.at("cracked")};
+  out.error = {error.at("numerics"), error.at("low"), error.at("high")};
   for (const Json &row : json.at("draws"))
     out.draws.push_back(draw_of(bank, row, out.materials.size() + 1));
   if (out.draws.empty() || out.data.empty())

@@ -75,8 +75,11 @@ bank::Columns columns_of(const FilmBank &bank, const std::vector<Draw> &draws, c
       design.inputs.push_back(input);
   const bool varies = bank.spec().nanoporosity_within > 0.0 && !recipe.structure.given();
   if (varies)
-    for (const char *key : kNanoporosityKeys)
-      design.inputs.push_back({key, {key}});
+    for (const char *key : kNanoporosityKeys) {
+      design.inputs.emplace_back();
+      design.inputs.back().name = key;
+      design.inputs.back().keys = {key};
+    }
   std::vector<bank::Point> points;
   for (const Draw &draw : draws) {
     const Material &of = draw.materials[std::size_t(material)];

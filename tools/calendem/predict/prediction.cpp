@@ -271,13 +271,6 @@ std::vector<Pressed> pressed_of(const FilmBank &bank, const Calibration &c, int 
 
 } // namespace
 
-double porosity_before(const FilmBank &bank, const Film &film) {
-  for (std::size_t k = 0; k < bank.film().size(); ++k)
-    if (bank.film()[k].keys.front() == kPorosityKey)
-      return 0.01 * film.recipe[k];
-  return read_recipe(bank.spec().recipe_file).porosity_total;
-}
-
 std::vector<RuleOfThumb> rules_of_thumb(const std::vector<Pressed> &data) {
   std::vector<RuleOfThumb> out = {{"Heckel", {300.0, 0.3}, heckel}, {"Meyer", {0.2, 50.0}, meyer}};
   for (RuleOfThumb &rule : out)

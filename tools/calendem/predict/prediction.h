@@ -108,9 +108,6 @@ struct Pressed {
   double before = 0.0, pressure = 0.0, after = 0.0;
 };
 
-/// Porosity of a film, 0-1; the bank's own where it is no parameter.
-double porosity_before(const FilmBank &bank, const Film &film);
-
 /// Both with their constants from least squares.
 /// Heckel (Trans. Metall. Soc. AIME 221 (1961) 671): ln(before / after) = pressure / K + A.
 /// Meyer et al. (J. Mater. Process. Technol. 249 (2017) 172), who have line load and density in

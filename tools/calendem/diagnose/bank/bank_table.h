@@ -4,7 +4,7 @@
 #define CALENDEM_DIAGNOSE_BANK_BANK_TABLE_H
 
 #include "diagnose/bank/bank_spec.h"
-#include "diagnose/compare/gap.h"
+#include "compare/gap.h"
 #include "simulate/study_file.h"
 
 namespace calendem {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/provenance.h"
 #include "base/run_folder.h"
-#include "diagnose/compare/gap.h"
+#include "compare/gap.h"
 #include <cmath>
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Where simulation and press disagree: the residual of every observable that both have, beside
 // everything that makes it uncertain, and its page. Nothing is fitted here.
-#ifndef CALENDEM_DIAGNOSE_COMPARE_GAP_H
-#define CALENDEM_DIAGNOSE_COMPARE_GAP_H
+#ifndef CALENDEM_COMPARE_GAP_H
+#define CALENDEM_COMPARE_GAP_H
 
 #include "base/experiment.h"
 #include "base/gap_file.h"

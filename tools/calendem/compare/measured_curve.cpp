@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "diagnose/compare/measured_curve.h"
+#include "compare/measured_curve.h"
 #include "base/csv_table.h"
-#include "diagnose/compare/gap.h"
+#include "compare/gap.h"
 #include <algorithm>
 #include <cmath>
 #include <fstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "diagnose/compare/observables.h"
+#include "compare/observables.h"
 #include "measure/structure.h"
 #include <algorithm>
 #include <array>

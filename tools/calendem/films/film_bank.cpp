@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "predict/film_bank.h"
+#include "films/film_bank.h"
 #include "base/case.h"
 #include "base/messages.h"
 
-#include <math.h> // pchip.hpp of Boost 1.74 needs the global isnan
-
 #include <algorithm>
-#include <boost/math/interpolators/pchip.hpp>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -59,6 +56,9 @@ FilmBank::FilmBank(const bank::Runs &runs, inference::Emulator emulator)
     floor_nanoporosity_ = read_case(spec_.case_file, recipe_).number(kFloor);
     material_.push_back({kNanoporosity, {inference::Prior::uniform, -within, within}});
   }
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    if (effects_[e].name == kCollapse)
+      collapse_ = int(e);
   const auto larger = spec_.design.larger.recipe.find(kLoading);
   if (larger != spec_.design.larger.recipe.end())
     larger_loading_ = std::stod(larger->second);
@@ -73,6 +73,13 @@ FilmBank::FilmBank(const bank::Runs &runs, inference::Emulator emulator)
               .isFinite()
               .any();
   }
+}
+
+double porosity_before(const FilmBank &bank, const Film &film) {
+  for (std::size_t k = 0; k < bank.film().size(); ++k)
+    if (bank.film()[k].keys.front() == kPorosityKey)
+      return 0.01 * film.recipe[k];
+  return bank.recipe().porosity_total;
 }
 
 double key_value(const FilmBank &bank, const ActiveEffect &acting) {
@@ -113,9 +120,9 @@ void FilmBank::place(const Material &material, const Alike &as, Eigen::Index col
   at.amplitudes(at.amplitudes.rows() - 1, column) = larger_share(as.film);
 }
 
-std::vector<std::vector<MeanVariance>>
-FilmBank::at_pressures(FilmNumber number, const Film &film,
-                       const std::vector<const Material *> &materials) const {
+inference::Expectation FilmBank::emulated(const Film &film,
+                                          const std::vector<const Material *> &materials,
+                                          const std::vector<int> &outputs) const {
   const auto n = Eigen::Index(materials.size());
   inference::Points at = {inference::Matrix(Eigen::Index(space_.priors.size()), n),
                           inference::Matrix::Zero(Eigen::Index(space_.amplitudes.size()) + 1, n)};
@@ -125,29 +132,52 @@ FilmBank::at_pressures(FilmNumber number, const Film &film,
     as.push_back(alike(film, nanoporosity(film, material)));
     place(material, as.back(), m, at);
   }
+  inference::Expectation of = emulator_.predict(at, outputs);
+  std::vector<Eigen::Index> collapsing; // of other nanopores than the bank's
+  for (Eigen::Index m = 0; m < n && collapse_ >= 0; ++m)
+    if (as[std::size_t(m)].collapse != 1.0 && at.amplitudes(collapse_, m) != 0.0)
+      collapsing.push_back(m);
+  if (!collapsing.empty()) {
+    inference::Points open = {at.inputs(Eigen::all, collapsing),
+                              at.amplitudes(Eigen::all, collapsing)};
+    open.amplitudes.row(collapse_).setZero();
+    const inference::Matrix without = emulator_.predict(open, outputs, false).mean;
+    for (std::size_t k = 0; k < collapsing.size(); ++k) {
+      const Eigen::Index m = collapsing[k], from = Eigen::Index(k);
+      of.mean.col(m) = without.col(from) + as[std::size_t(m)].collapse *
+                                               (of.mean.col(m) - without.col(from));
+    }
+  }
+  const auto first = [&](FilmNumber number) {
+    return bank::output_of(number, 0, pressures_.size());
+  };
+  const int after = first(FilmNumber::PorosityAfter), pores = first(FilmNumber::CbdNanoporosity),
+            count = int(pressures_.size());
+  for (Eigen::Index m = 0; m < n; ++m)
+    for (Eigen::Index k = 0; k < of.mean.rows(); ++k) {
+      const int output = outputs[std::size_t(k)];
+      const double solids = as[std::size_t(m)].solids;
+      if (output >= after && output < after + count) {
+        of.mean(k, m) = 1.0 - solids * (1.0 - of.mean(k, m));
+        of.variance(k, m) *= solids * solids;
+      } else if (output >= pores && output < pores + count) {
+        of.mean(k, m) += nanoporosity(film, *materials[std::size_t(m)]) - recipe_.nanoporosity;
+      }
+    }
+  return of;
+}
+
+std::vector<std::vector<MeanVariance>>
+FilmBank::at_pressures(FilmNumber number, const Film &film,
+                       const std::vector<const Material *> &materials) const {
   std::vector<int> outputs;
   for (std::size_t p = 0; p < pressures_.size(); ++p)
     outputs.push_back(bank::output_of(number, p, pressures_.size()));
-  const inference::Expectation of = emulator_.predict(at, outputs);
-  inference::Matrix open = of.mean; // where nanopores stay open
-  for (std::size_t e = 0; e < effects_.size(); ++e)
-    if (effects_[e].name == kCollapse && spec_.nanoporosity_within > 0.0) {
-      at.amplitudes.row(Eigen::Index(e)).setZero();
-      open = emulator_.predict(at, outputs, false).mean;
-    }
+  const inference::Expectation of = emulated(film, materials, outputs);
   std::vector<std::vector<MeanVariance>> out(materials.size());
-  for (Eigen::Index m = 0; m < n; ++m) {
-    const Alike &film_as = as[std::size_t(m)];
-    for (Eigen::Index p = 0; p < of.mean.rows(); ++p) {
-      MeanVariance g = {open(p, m) + film_as.collapse * (of.mean(p, m) - open(p, m)),
-                        of.variance(p, m)};
-      if (number == FilmNumber::PorosityAfter)
-        g = {1.0 - film_as.solids * (1.0 - g.mean), film_as.solids * film_as.solids * g.variance};
-      if (number == FilmNumber::CbdNanoporosity)
-        g.mean += nanoporosity(film, *materials[std::size_t(m)]) - recipe_.nanoporosity;
-      out[std::size_t(m)].push_back(g);
-    }
-  }
+  for (std::size_t m = 0; m < out.size(); ++m)
+    for (Eigen::Index p = 0; p < of.mean.rows(); ++p)
+      out[m].push_back({of.mean(p, Eigen::Index(m)), of.variance(p, Eigen::Index(m))});
   return out;
 }
 
@@ -156,22 +186,40 @@ std::vector<MeanVariance> FilmBank::at_pressures(FilmNumber number, const Film &
   return at_pressures(number, film, std::vector<const Material *>{&material}).front();
 }
 
-MeanVariance FilmBank::at(const std::vector<MeanVariance> &curve, double pressure) const {
-  std::vector<double> x, mean, variance;
-  for (std::size_t k = 0; k < curve.size(); ++k) {
-    x.push_back(std::log(pressures_[k]));
-    mean.push_back(curve[k].mean);
-    variance.push_back(curve[k].variance);
+inference::Vector cubic_weights(const std::vector<double> &x, double at) {
+  inference::Vector out = inference::Vector::Zero(Eigen::Index(x.size()));
+  const double place = std::clamp(at, x.front(), x.back());
+  std::size_t right = 1;
+  while (right + 1 < x.size() && x[right] < place)
+    ++right;
+  const std::size_t first = right < 2 ? 0 : right - 2, last = std::min(right + 1, x.size() - 1);
+  for (std::size_t k = first; k <= last; ++k) { // Lagrange's polynomials
+    double weight = 1.0;
+    for (std::size_t j = first; j <= last; ++j)
+      if (j != k)
+        weight *= (place - x[j]) / (x[k] - x[j]);
+    out[Eigen::Index(k)] = weight;
   }
+  return out;
+}
+
+MeanVariance FilmBank::at(const std::vector<MeanVariance> &curve, double pressure) const {
+  std::vector<double> x;
+  for (const double p : pressures_)
+    x.push_back(std::log(p));
   const double at = std::clamp(std::log(pressure), x.front(), x.back());
   const double beyond = kBeyond * (std::log(pressure) - at);
+  const inference::Vector weights = cubic_weights(x, at);
+  MeanVariance out{0.0, beyond * beyond};
   std::size_t right = 1;
   while (right + 1 < x.size() && x[right] < at)
     ++right;
   const double share = (at - x[right - 1]) / (x[right] - x[right - 1]);
-  const double between = variance[right - 1] + share * (variance[right] - variance[right - 1]);
-  using boost::math::interpolators::pchip;
-  return {pchip<std::vector<double>>(std::move(x), std::move(mean))(at), between + beyond * beyond};
+  out.variance +=
+      curve[right - 1].variance + share * (curve[right].variance - curve[right - 1].variance);
+  for (std::size_t k = 0; k < curve.size(); ++k)
+    out.mean += weights[Eigen::Index(k)] * curve[k].mean;
+  return out;
 }
 
 std::vector<inference::Accuracy> FilmBank::accuracy(FilmNumber number) const {

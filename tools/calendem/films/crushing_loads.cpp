@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "predict/crushing_loads.h"
+#include "films/crushing_loads.h"
 #include "base/csv_table.h"
 #include "base/messages.h"
 #include "base/provenance.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "diagnose/compare/gap.h"
-#include "diagnose/compare/observables.h"
+#include "compare/gap.h"
+#include "compare/observables.h"
 #include "report/page.h"
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a bank's runs say of any film of its material: emulators of what a film is like after it was
 // pressed, at each of the bank's pressures and between them.
-#ifndef CALENDEM_PREDICT_FILM_BANK_H
-#define CALENDEM_PREDICT_FILM_BANK_H
+#ifndef CALENDEM_FILMS_FILM_BANK_H
+#define CALENDEM_FILMS_FILM_BANK_H
 
 #include "bank/training.h"
-#include "predict/crushing_loads.h"
+#include "films/crushing_loads.h"
 #include <array>
 #include <optional>
 
@@ -84,14 +84,19 @@ public:
   std::vector<std::string> beyond(const Film &film) const;
   bool covers(double pressure) const;
 
+  /// Outputs of the emulator (bank/training.h), of one film under several materials: outputs x
+  /// materials.
+  inference::Expectation emulated(const Film &film, const std::vector<const Material *> &materials,
+                                  const std::vector<int> &outputs) const;
+
   /// At each of the bank's pressures, of one material or of several.
   std::vector<MeanVariance> at_pressures(FilmNumber number, const Film &film,
                                          const Material &material) const;
   std::vector<std::vector<MeanVariance>>
   at_pressures(FilmNumber number, const Film &film,
                const std::vector<const Material *> &materials) const;
-  /// Between them by a monotone cubic (Fritsch and Butland 1984) in the pressure's logarithm; beyond
-  /// them the last value and a variance that grows.
+  /// Between them by the cubic through the four nearest, in the pressure's logarithm; beyond them
+  /// the last value and a variance that grows.
   MeanVariance at(const std::vector<MeanVariance> &curve, double pressure) const;
   /// Pressures 5 % to either side, within the bank's: for a slope.
   std::pair<double, double> beside(double pressure) const;
@@ -107,7 +112,7 @@ private:
   std::vector<inference::Parameter> material_, effects_;
   std::vector<bank::Input> film_;
   std::array<bool, kFilmNumbers> known_{};
-  int strength_ = -1;
+  int strength_ = -1, collapse_ = -1; ///< places among material_ and effects_; -1: none
   std::optional<CrushingLoads> crushing_;
   double larger_loading_ = 0.0;     ///< of the larger cell; 0: there is none
   double floor_nanoporosity_ = 0.0; ///< that collapse leaves, 0-1
@@ -137,6 +142,13 @@ constexpr double kPorosityBySize = 0.07;
 /// Diameters [um] below which 10, 50 and 90 % of the bodies' volume lie, of bodies up to `largest`:
 /// a lognormal by number, cut off at both ends (Hatch and Choate 1929 for its volumes).
 std::array<double, 3> sizes_by_volume(const Recipe &recipe, double largest);
+
+/// Porosity of a film, 0-1; the bank's own where it is no parameter.
+double porosity_before(const FilmBank &bank, const Film &film);
+
+/// Weights of values at increasing places `x` that give the one at `at`: the cubic through the four
+/// nearest, at the ends through three; beyond them the last value.
+inference::Vector cubic_weights(const std::vector<double> &x, double at);
 
 /// The amplitude in the unit of its effect's key.
 double key_value(const FilmBank &bank, const ActiveEffect &acting);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A press's curve without the rows that jump away from their neighbours.
-#ifndef CALENDEM_DIAGNOSE_COMPARE_MEASURED_CURVE_H
-#define CALENDEM_DIAGNOSE_COMPARE_MEASURED_CURVE_H
+#ifndef CALENDEM_COMPARE_MEASURED_CURVE_H
+#define CALENDEM_COMPARE_MEASURED_CURVE_H
 
 #include <string>
 #include <vector>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The observables of an experiment file and what a run gives for each. A new one is one function.
-#ifndef CALENDEM_DIAGNOSE_COMPARE_OBSERVABLES_H
-#define CALENDEM_DIAGNOSE_COMPARE_OBSERVABLES_H
+#ifndef CALENDEM_COMPARE_OBSERVABLES_H
+#define CALENDEM_COMPARE_OBSERVABLES_H
 
-#include "diagnose/compare/gap.h"
+#include "compare/gap.h"
 #include "measure/phases.h"
 #include <functional>
 

@@ -3,7 +3,7 @@
 #include "base/material_notes.h"
 #include "base/messages.h"
 #include "base/shown.h"
-#include "predict/film_bank.h"
+#include "films/film_bank.h"
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // At which load single particles of the simulation break, for any strength of their bonds: the load is proportional to
 // it (docs/validation/particle_strength.md).
-#ifndef CALENDEM_PREDICT_CRUSHING_LOADS_H
-#define CALENDEM_PREDICT_CRUSHING_LOADS_H
+#ifndef CALENDEM_FILMS_CRUSHING_LOADS_H
+#define CALENDEM_FILMS_CRUSHING_LOADS_H
 
 #include <Eigen/Dense>
 #include <string>
