@@ -2,7 +2,6 @@
 // The command line. Exit status: 0 done, 1 usage, 2 bad input, 3 the simulation failed, 4 a check
 // did not hold.
 #include "base/messages.h"
-#include "base/plain_text.h"
 #include "base/provenance.h"
 #include "base/registry.h"
 #include "commands/commands.h"
@@ -85,10 +84,6 @@ int run(int argc, char **argv) {
   }
   return calendem::kDone;
 }
-
-/// A message that cannot be written, as on a full disk, is no reason for another exit status. It may
-/// quote what a file holds.
-void say(const std::string &message) { std::fputs(calendem::printable(message).c_str(), stderr); }
 
 } // namespace
 

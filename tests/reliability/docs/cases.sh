@@ -87,7 +87,7 @@ columns_have_a_meaning() { # of every table that the run of the tutorial left
 }
 # shellcheck disable=SC2016 # Markdown
 readme_is_short() {
-  awk 'END { if (NR > 150) print NR " lines" }' README.md | report "README.md may have 150 lines"
+  awk 'END { if (NR > 120) print NR " lines" }' README.md | report "README.md may have 120 lines"
   { grep -v '^```' docs/figures/demo_output.md | grep -vxFf README.md || true; } | report "what the demo prints differs in README.md"
 }
 case ${1:-} in

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# packaging_test.sh installed|deb|recipes BUILD: one case. Exit status 0 passed, 1 failed, 77 skipped.
+# packaging_test.sh installed|copied_clone|deb|recipes BUILD: one case. Exit status 0 passed, 1 failed, 77 skipped.
 set -euo pipefail
 case=$1 build=$2
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
@@ -32,6 +32,12 @@ case $case in
     cmake --install "$build" --prefix "$work/prefix" >"$work/install.log" || { cat "$work/install.log"; exit 1; }
     mv "$work/prefix" "$work/moved" # an installation may be moved
     runs_from "$work/moved" ;;
+  copied_clone) # a built clone that is moved or copied uses its own scripts, not those of the first
+    mkdir -p "$work/clone/build"
+    cp -r "$build/share" "$work/clone/build"
+    cp -r "$top/input_scripts" "$work/clone"
+    install -D "$build/bin/calendem" "$work/clone/build/bin/calendem"
+    "$work/clone/build/bin/calendem" --help | grep -F "$work/clone/input_scripts/cases" || fail "a copy uses the scripts of $top" ;;
   deb)
     [ "${CALENDEM_HEAVY:-0}" = 1 ] || { echo "skipped: packaging.deb runs with tools/test --all"; exit 77; }
     for tool in dpkg-deb dpkg-shlibdeps file; do has $tool || { echo "skipped: no $tool"; exit 77; }; done

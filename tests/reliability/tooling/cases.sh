@@ -130,6 +130,13 @@ get_liggghts_spares_foreign_folder() {
   expect 2 "was not made by get-liggghts" "$top/tools/get-liggghts" --source "$work/given" -o "$work/mine"
   [ "$(cat "$work/mine/thesis.txt")" = thesis ] || fail "a file of the user is gone"
 }
+build_refuses_a_path() { # before it installs, fetches or compiles anything
+  mkdir -p "$work/my clone/tools"
+  cp "$top/tools/build" "$work/my clone/tools"
+  expect 2 "cannot take a path with a blank" "$work/my clone/tools/build" --no-install-dependencies
+  mv "$work/my clone" "$work/übung-1.0_a+b"
+  expect 127 "get-liggghts" "$work/übung-1.0_a+b/tools/build" --no-install-dependencies
+}
 scripts_explain_themselves() {
   local script
   for script in "$top"/tools/* "$top/patches/apply"; do
