@@ -38,11 +38,21 @@ StructureSource read_structure_source(const Settings &settings, const std::strin
 
 const std::vector<Key> &recipe_keys();
 
+/// Labels of an image of phases.
+struct PhaseLabels {
+  std::int32_t pore = 0;
+  std::int32_t am = 0;  ///< that of the pores: the labels are particles, not phases
+  std::int32_t cbd = 0; ///< that of the pores: there is none
+  bool given() const { return am != pore; }
+};
+
 /// Where the outer shapes of bodies come from; both paths empty: generated.
 struct ShapeSource {
   std::string image, library; ///< absolute
   double voxel_um = 0.0;      ///< 0: from the image
   std::int32_t background = 0;
+  PhaseLabels phases;
+  double neck = 0.9;          ///< see separate_particles()
   bool measured_sizes = true; ///< else the recipe's lognormal law
   bool given() const { return !image.empty() || !library.empty(); }
 };

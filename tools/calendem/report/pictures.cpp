@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/pictures.h"
 #include "base/provenance.h"
+#include "electrode/structure/slices.h"
 #include "physics/pi.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <sstream>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPNGWriter.h>
-#include <vtkUnsignedCharArray.h>
 
 namespace calendem::report {
 
@@ -136,19 +133,8 @@ std::vector<std::uint8_t> Raster::pixels() const {
 }
 
 std::string png_base64(const std::vector<std::uint8_t> &pixels, int width, int height) {
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(width, height, 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  auto *data = static_cast<unsigned char *>(image->GetScalarPointer());
-  const std::size_t row = static_cast<std::size_t>(width) * 3;
-  for (int y = 0; y < height; ++y) // VTK's rows begin at the bottom
-    std::copy_n(pixels.data() + y * row, row, data + (height - 1 - y) * row);
-  vtkNew<vtkPNGWriter> writer;
-  writer->WriteToMemoryOn();
-  writer->SetInputData(image);
-  writer->Write();
-  return base64(writer->GetResult()->GetPointer(0),
-                static_cast<std::size_t>(writer->GetResult()->GetNumberOfTuples()));
+  const std::string bytes = png_bytes(pixels, width, height);
+  return base64(reinterpret_cast<const unsigned char *>(bytes.data()), bytes.size());
 }
 
 namespace {
