@@ -3,11 +3,13 @@
 // contacts enclose.
 //   F = 4/3 E sqrt(R) d^(3/2) + B
 //   B = 3 pi/4 z K R_s^2 x^2 (x - x_b)  for x > x_b, otherwise 0
-//   x = R d/R_s^2,  x_b = 4 (1 - psi)/z
-// d: overlap [um]; x: area of the contact (Hertz': pi R d) over the section of the smaller sphere;
+//   x = R d/R_s^2                       area of the contact over the section of the smaller sphere
+//   x_b = 4 (1 - psi)/z                 where the bulk begins to answer
+// d: overlap [um]; the contact's area is Hertz', pi R d;
 // E, R: effective modulus [kPa], radius [um]; R_s: radius of the smaller sphere [um]; K > 0: bulk
 // modulus [kPa]; psi: share of the sphere's surface that is free when the bulk begins to answer,
 // 0 < psi < 1; z = 12 contacts enclose a sphere. F in nN, > 0 repulsive.
+//
 // Below x_b exactly Hertz (x_b = 1/6 with psi = 0.5); at x_b the slope rises by
 // 3 pi/4 z K R x_b^2. B is the pressure K z A d_b/V of a sphere of volume V whose z areas
 // A = pi R_s^2 x move in by d_b = R_s (x - x_b), times A.

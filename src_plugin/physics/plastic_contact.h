@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Elastic-plastic normal contact with a limiting contact pressure p_y, and linear hardening h.
-//   loading, d = d* <= d_y:  F = 4/3 E sqrt(R) d^(3/2)                                  (Hertz)
-//   loading, d = d* > d_y:   F = F_y + pi R u (p_y + h u/R),  F_y = 2/3 pi p_y R d_y
-//   below d*:                F = F* x^(3/2),  x = 1 - (d* - d)/e*,  0 for x < 0
-//   d_y = R (pi p_y/(2 E))^2,  u = d - d_y,  a* = sqrt(R d*),  e* = 3 F*/(4 E a*)
-// d: overlap, d*: the largest one so far [um]; a*: contact radius there; E, R: effective modulus
+//   loading, d = d* <= d_y:  F = 4/3 E sqrt(R) d^(3/2)         (Hertz)
+//   loading, d = d* > d_y:   F = F_y + pi R u (p_y + h u/R)
+//   below d*:                F = F* x^(3/2), 0 for x < 0
+// with
+//   d_y = R (pi p_y/(2 E))^2      overlap at yield
+//   F_y = 2/3 pi p_y R d_y        force there
+//   u   = d - d_y                 overlap beyond it
+//   a*  = sqrt(R d*)              contact radius at the largest overlap
+//   e*  = 3 F*/(4 E a*)           overlap that comes back
+//   x   = 1 - (d* - d)/e*
+// d: overlap, d*: the largest one so far [um]; F*: the force there; E, R: effective modulus
 // [kPa] and radius [um]; p_y > 0, h >= 0 [kPa]; F in nN, > 0 repulsive.
 // The last is Hertz with the larger radius R_p = a*^2/e* from the residual overlap d_p = d* - e*
 // on. p_y -> infinity is Hertz; h = 0 is perfectly plastic. The area pi R u that has yielded
@@ -12,12 +18,13 @@
 // unloading is 2 E a*, that of Hertz at the same overlap: unloading is stiffer than plastic
 // loading, and since overlaps grow larger, stiffer than Hertz at the same force.
 //
-// Range: a flat 0.3 of the radius deep. As far, pi R u p_y with p_y the hardness and flattening is
+// Range: a flat 0.3 of the radius deep. So far pi R u p_y, with p_y the hardness and flattening, is
 // within -30 (at 0.1), -3 (0.2) and +15 % (0.3) of the force between two flats as fitted to finite
 // elements (ductile_contact.h): it leaves out that the area is 2 pi R u, and that the pressure falls
 // with depth, which cancel. A sphere with contacts all round is stiffer: its plastic zones meet,
 // which h can stand for; h <= E/(2 pi), for which loading stays below Hertz up to d = R (F' is
 // straight, Hertz' concave, and at R it is pi (p_y R + 2 h (R - d_y)) <= 2 E R).
+//
 // Energy: elastic_energy is given back, plastic_work (of d* alone) is not.
 //
 // Cohesion. Below SJKR's 2 CED such a contact cannot carry its own cohesion: F ~ pi p_y R d,
@@ -28,8 +35,10 @@
 // both sides and flattened by u on each it is a disc of thickness 2 (R - u) in the end, whose area
 // V/(2 (R - u)) grows without bound. With the flattening f, 0 to 1, the area that has yielded is
 // pi R g u:
-//   g = 1/(1 - (f u/R_y)^(3/2)),  R_y = R - d_y
-//   F = F_y + pi R g u (p_y + h u/R),  a*^2 = R (d_y + g u)
+//   R_y  = R - d_y
+//   g    = 1/(1 - (f u/R_y)^(3/2))
+//   F    = F_y + pi R g u (p_y + h u/R)
+//   a*^2 = R (d_y + g u)
 // For f = 1 the exponent 3/2 is the one with which it tends to that of the disc; f = 0 leaves the
 // area as it was. From the depth on at which loading would be stiffer than 2 E a* nothing yields
 // any more: d* stays, and x grows beyond 1.

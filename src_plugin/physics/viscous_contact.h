@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Viscoelastic normal contact: a Hertz spring beside one Maxwell branch (Prony series of one term).
-//   F = (1 - g) H(d) + g H(e),  H(x) = 4/3 E sqrt(R) |x|^(1/2) x,  e = d - w
+//   F = (1 - g) H(d) + g H(e)
+//   H(x) = 4/3 E sqrt(R) |x|^(1/2) x
+//   e = d - w
 //   dw/dt = 2 e/(3 tau)
 // d: overlap [um], e, w: its parts in the branch's spring and dashpot [um]; g: relaxed fraction;
 // tau: relaxation time [us]; E, R: effective modulus [kPa], radius [um]; F in nN, > 0 repulsive.
@@ -8,7 +10,8 @@
 // is exact over a step at constant speed. Fast contacts are Hertz, slow ones (1 - g) Hertz. On the
 // way out the branch pulls (e < 0) and comes back later: the springback is delayed. It pulls no
 // more than the other spring pushes,
-//   e >= -c d,  c = ((1 - g)/g)^(2/3),
+//   e >= -c d
+//   c = ((1 - g)/g)^(2/3),
 // where the contact is open and its surfaces come back freely; F is never negative. w is the
 // contact's memory; w >= 0, so e <= d.
 // Range: 0 < g < 1, tau > 0. Stiffness: at most Hertz' at the largest overlap so far.

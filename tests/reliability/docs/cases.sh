@@ -76,7 +76,7 @@ styles_have_pages() { # each style that the plugin registers has a page with its
 # shellcheck disable=SC2016 # Markdown
 columns_have_a_meaning() { # of every table that the run of the tutorial left
   local file column my
-  my=$(dirname "$work")/pages/own_recipe/tree/my
+  my=$(dirname "$work")/pages/own_recipe/tree/my/recipe
   [ -f "$my/run/curve.csv" ] || { echo "FAILED: docs.own_recipe left no $my/run/curve.csv"; exit 1; }
   for file in "$my"/{run,electrode}/{curve,breaks,bodies,cracks,thresholds,packing}.csv; do
     [ ! -f "$file" ] || head -n 1 "$file" | tr ',' '\n' | sed -E 's/^(wall|inside_bodies|am_am|am_cbd|cbd_cbd)_/..._/' |

@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
 
 namespace calendem {
 
@@ -35,8 +37,6 @@ std::string unit_hint(const Key &key, double value) {
                              value / factor, unit);
   return "";
 }
-
-std::string last_part(const std::string &name) { return name.substr(name.rfind('.') + 1); }
 
 } // namespace
 
@@ -83,6 +83,8 @@ std::optional<std::string> wrong_cell(const Key &key, const std::string &cell) {
   return wrong_number(key, value);
 }
 
+std::string last_part(const std::string &name) { return name.substr(name.rfind('.') + 1); }
+
 int edit_distance(const std::string &a, const std::string &b) {
   std::vector<int> row(b.size() + 1);
   for (size_t j = 0; j < row.size(); ++j)
@@ -106,15 +108,51 @@ std::string closest(const std::string &word, const std::vector<std::string> &wor
                            });
 }
 
+namespace {
+
+constexpr int kMostTypingErrors = 2;
+
+std::set<std::string> words_of(const std::string &name) {
+  std::set<std::string> words{""};
+  std::string word;
+  for (char c : name + '.')
+    if (c == '.' || c == '_')
+      words.insert(std::exchange(word, ""));
+    else
+      word += c;
+  return words;
+}
+
+/// Letters of the words that both names have.
+size_t in_common(const std::string &a, const std::string &b) {
+  const std::set<std::string> words = words_of(a);
+  size_t letters = 0;
+  for (const std::string &word : words_of(b))
+    letters += words.count(word) != 0U ? word.size() : 0;
+  return letters;
+}
+
+} // namespace
+
 std::string likely_meant(const std::string &name, const std::vector<Key> &keys) {
   const std::string last = last_part(name);
-  std::vector<std::string> same, all;
+  std::vector<std::string> same, all, like;
+  size_t most = 0;
   for (const Key &key : keys) {
     if (last_part(key.name) == last || key.variable == last)
       same.push_back(key.name);
     all.push_back(key.name);
+    most = std::max(most, in_common(name, key.name));
   }
-  return closest(name, same.empty() ? all : same);
+  if (!same.empty())
+    return closest(name, same);
+  const std::string spelt = closest(name, all);
+  if (edit_distance(name, spelt) <= kMostTypingErrors)
+    return spelt;
+  for (const std::string &other : all)
+    if (in_common(name, other) == most)
+      like.push_back(other);
+  return closest(name, like);
 }
 
 const Effect &find_effect(const std::string &name) {

@@ -24,9 +24,11 @@ bool wants_text(const Key &key);
 /// The word of `words` that is the fewest typing errors away from `word`; `words` is not empty.
 std::string closest(const std::string &word, const std::vector<std::string> &words);
 int edit_distance(const std::string &a, const std::string &b);
+/// What stands behind the last dot of a key's name.
+std::string last_part(const std::string &name);
 
 /// The key that a user who wrote `name` most likely meant: the same last part in another table, the
-/// input scripts' name of it, else the closest spelling.
+/// input scripts' name of it, a typing error or two, else the one with most words in common.
 std::string likely_meant(const std::string &name, const std::vector<Key> &keys);
 
 /// Throws Failure(2) with the names there are.

@@ -7,8 +7,8 @@ namespace calendem {
 
 void TableReader::unknown(const std::string &name, int line,
                           const std::vector<std::string> &known) {
-  mistakes_.add(line,
-                fmt::format("unknown key '{}'. Did you mean '{}'?", name, closest(name, known)));
+  mistakes_.add(line, fmt::format("unknown key '{}'. Did you mean '{}'?", name,
+                                  closest(last_part(name), known)));
 }
 
 void TableReader::report_unknown(const toml::table &table, const std::vector<std::string> &known,

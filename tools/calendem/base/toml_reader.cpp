@@ -65,6 +65,12 @@ TomlFile parse_toml(const std::string &file, Mistakes &mistakes) {
     try {
       return {toml::parse(text, file), errors == 0};
     } catch (const toml::parse_error &e) {
+      if (text.find('=') == std::string::npos) {
+        mistakes.add(0, fmt::format("this is no TOML file: no line is KEY = VALUE. It begins with "
+                                    "'{}'.",
+                                    text.substr(0, std::min<size_t>(text.find('\n'), 60))));
+        return {};
+      }
       const int line = static_cast<int>(e.source().begin.line);
       const auto [begin, end] = place_of(text, line);
       const std::string content = text.substr(begin, std::min<size_t>(end - begin, 60));
@@ -207,12 +213,20 @@ public:
       else if (node.is_table())
         enter(name, *node.as_table());
       else
-        mistakes_.add(line_of(node), fmt::format("unknown key '{}'. Did you mean '{}'?", name,
-                                                 likely_meant(name, keys_)));
+        mistakes_.add(line_of(node), unknown_key(name));
     }
   }
 
 private:
+  std::string unknown_key(const std::string &name) const {
+    return name.rfind("coating.thickness", 0) == 0
+               ? fmt::format("unknown key '{}': the thickness follows from "
+                             "coating.loading_mg_cm2 and coating.porosity_total_percent.",
+                             name)
+               : fmt::format("unknown key '{}'. Did you mean '{}'?", name,
+                             likely_meant(name, keys_));
+  }
+
   const std::vector<Key> &keys_;
   std::vector<std::string> tables_;
   Settings &out_;
