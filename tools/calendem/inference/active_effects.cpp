@@ -9,10 +9,6 @@ namespace {
 
 using Eigen::Index;
 
-// An effect belongs to a group if the data exclude that it acts beside the group's others: the
-// correlation of both is below this.
-constexpr double kExclusive = -0.2;
-
 /// Draws x switches: 1 where an effect acts.
 Matrix indicators(const std::vector<Switch> &switches, const Posterior &posterior, int material) {
   Matrix out(Index(posterior.draws.size()), Index(switches.size()));
@@ -33,11 +29,6 @@ Vector weights_of_draws(const Posterior &posterior) {
 double odds(double probability, double least) {
   const double p = std::clamp(probability, least, 1.0 - least);
   return p / (1.0 - p);
-}
-
-double correlation_of(const Vector &a, const Vector &b, const Vector &weights) {
-  const double pa = weights.dot(a), pb = weights.dot(b), spread = pa * (1.0 - pa) * pb * (1.0 - pb);
-  return spread > 0.0 ? (weights.dot(a.cwiseProduct(b)) - pa * pb) / std::sqrt(spread) : 0.0;
 }
 
 } // namespace
