@@ -317,7 +317,7 @@ Recipe read_recipe(const std::string &file) {
   Mistakes mistakes(file);
   Settings s = read_toml(file, FileKind::Recipe, recipe_keys(), mistakes);
   if (s.line(kAmWeight) == 0)
-    s.leave(kAmWeight, {kCarbonWeight, kBinderWeight});
+    s.set_as_remainder(kAmWeight, {kCarbonWeight, kBinderWeight});
   const ReferenceMaterial material = take_material(s, file, recipe_keys(), mistakes);
   take_sizes_by_volume(s, recipe_keys(), mistakes);
   Recipe r = recipe_of(s);

@@ -142,7 +142,7 @@ BankCheckOptions check_options(const BankOptions &o, const BankSpec &spec) {
 /// Chosen for what they tell about an experiment: nothing is run.
 void choose_points_of(const BankOptions &o, const BankSpec &spec) {
   const std::string file = o.study.folder + "/chosen.csv", table = table_there(o, spec);
-  must_be_ours(file, "effect,base_point,value");
+  require_own_file(file, "effect,base_point,value");
   std::error_code none;
   if (!spec.chosen_file.empty() && std::filesystem::equivalent(file, spec.chosen_file, none))
     throw Failure(kBadInput, fmt::format("{} is a file of the bank itself. Choose another folder: "

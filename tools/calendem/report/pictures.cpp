@@ -334,7 +334,9 @@ std::array<double, 2> period_of(const Run &run, double time_us) {
   return {0.0, 0.0};
 }
 
-Wholes::Wholes(const ParticleFrame &frame, const std::array<double, 2> &period) : period_(period) {
+PeriodicUnwrapper::PeriodicUnwrapper(const ParticleFrame &frame,
+                                     const std::array<double, 2> &period)
+    : period_(period) {
   if (!(period[0] > 0.0 && period[1] > 0.0))
     return;
   std::map<int, std::array<double, 4>> sums; // cosines and sines of x and y as angles
@@ -349,7 +351,7 @@ Wholes::Wholes(const ParticleFrame &frame, const std::array<double, 2> &period) 
       centre_[body][k] = period_[k] / kTurn * std::atan2(s[2 + k], s[k]);
 }
 
-Point Wholes::place(Point p, int body) const {
+Point PeriodicUnwrapper::place(Point p, int body) const {
   const auto found = centre_.find(body);
   if (body <= 0 || found == centre_.end())
     return p;
