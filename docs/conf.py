@@ -12,7 +12,7 @@ copyright = "the authors of Calendem, GPL-2.0-or-later"
 version = release = re.search(r"project\(Calendem VERSION (\S+)", (top / "CMakeLists.txt").read_text()).group(1)
 
 extensions = ["myst_parser", "sphinx.ext.mathjax"]
-exclude_patterns = ["figures"]
+exclude_patterns = ["figures", "paper"]
 myst_enable_extensions = ["deflist", "dollarmath"]
 myst_heading_anchors = 3
 

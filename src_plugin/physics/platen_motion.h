@@ -9,7 +9,7 @@
 // that and
 //   v = max((P_max - P)/3, 0.002 P_max) / (dP/dz * averaging window),
 // a first-order approach over three windows that ends with 0.2 % of the target per window. P is the
-// pressure now, ahead of its average; the platen waits while P is there and the average is not.
+// pressure now, ahead of its average. While P has reached it and the average has not, it waits.
 // Signs: z is up, closing speed is positive downwards. Source: this project (docs/model/press.md).
 // Deviations: none. Verified by tests/unit/physics/platen_motion_test.cpp and
 // tests/verification/platen.

@@ -159,7 +159,8 @@ nlohmann::json made_contacts() {
                               {"contacts_beyond_0.3_R", 0.125},
                               {"force_beyond_0.1_R", 0.714},
                               {"force_beyond_0.2_R", 0.429},
-                              {"force_beyond_0.3_R", 0.2}};
+                              {"force_beyond_0.3_R", 0.2},
+                              {"force_beyond_law", 0.15}};
   return {{"all", all}, {"am_cbd", all}};
 }
 

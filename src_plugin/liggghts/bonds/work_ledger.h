@@ -36,7 +36,7 @@ public:
   /// The one of the run, NULL if none is kept.
   static WorkLedger *find(class LAMMPS *lmp);
 
-  // per pair; what is added to ghosts is their owner's business
+  // per pair; the owner of a ghost adds its part itself
   void add_damping(int i, const ForceAndTorque &a) { loads_[i].damping = loads_[i].damping + a; }
   void add_damping(int i, const calendem::Vec3 &force) {
     loads_[i].damping.force = loads_[i].damping.force + force;

@@ -146,7 +146,7 @@ void BpmPairLoop::compute_force(PairGran *pair) {
 }
 
 // Returns how many of the bonds that this rank decides do not act, as they are stretched beyond the
-// range of histories. Of a bridge the contact stands elsewhere.
+// range of histories. The contact of a bridge has its own row.
 int BpmPairLoop::compute_tile(PairTable::Bonds &list, int n, const BondSettings &b) {
   BondTile &tile = list.tile(n);
   gather_spheres(tile);

@@ -21,7 +21,7 @@
 //   that are still to come, 15 speed of the surface along x. At stage 4, 5 and 13 stay those at
 //   which contact was lost.
 // bridges yes: the wall holds CBD by the binder bridges of fix bond/bpm, which stands before it.
-// A position is what the machine shows, which is `compliance` [um/kPa] times the pressure further.
+// The machine shows a position that is `compliance` [um/kPa] times the pressure further down.
 // Load is positive when the wall presses the film. State restarts under the same fix ID.
 #ifdef FIX_CLASS
 

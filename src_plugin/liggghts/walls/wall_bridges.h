@@ -26,7 +26,7 @@ public:
   void init(int wall);
   /// Before the forces of a set-up: is it the one in which fix bond/bpm makes its bonds?
   void note_creation();
-  /// Makes the bridges; to be called after the set-up, until which the host empties storages.
+  /// Makes the bridges. Call it after the set-up: the host clears property/atom before that.
   /// `type`: of the wall.
   void create(int type);
   /// Adds the bridges' forces; with `update` they follow the step's motion and may break.

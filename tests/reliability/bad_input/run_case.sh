@@ -65,6 +65,10 @@ ended() { # the exit status of the run in the background, what it said
   ! pgrep -af "^[^ ]*/(liggghts|calendem) .*$work/" || fail "that goes on, nobody waits for it"
   return $status
 }
+ended_within_5_s() { # as ended, but what it had begun may take that long
+  for _ in $(seq 50); do [ -z "$(ranks_of_run)" ] || sleep 0.1; done
+  ended
+}
 stopped_run() { # in run/: a run that was stopped after two restart files
   begin --ranks 1
   until_file run/running.previous
@@ -75,6 +79,7 @@ is_kept() { # RUN: what a run that was stopped had computed
   [ -s "${1:-run}/curve.csv" ] || fail "no curve.csv"
   holds "${1:-run}/summary.json" '"finished": false'
   holds "${1:-run}/summary.json" '"stopped_because"'
+  ! compgen -G "${1:-run}/restart_forced_*" || fail "files that nothing uses are left"
 }
 
 # ---- the table

@@ -90,6 +90,11 @@ readme_is_short() {
   awk 'END { if (NR > 120) print NR " lines" }' README.md | report "README.md may have 120 lines"
   { grep -v '^```' docs/figures/demo_output.md | grep -vxFf README.md || true; } | report "what the demo prints differs in README.md"
 }
+validation_pages_are_short() { # one question a page
+  for page in docs/validation/*.md; do
+    awk -v page="$page" 'END { if (NR > 120) print page ": " NR " lines" }' "$page"
+  done | report "a page of the validation may have 120 lines; what was tried belongs into docs/validation/history.md"
+}
 case ${1:-} in
   "" | *[!a-z_]*) echo "usage: cases.sh CASE BIN WORK" >&2; exit 1 ;;
   *) "$1" ;;

@@ -13,7 +13,7 @@ cd "$core"
 # The readers, and of the library electrode all that two of them are linked with.
 sources=(base/*.cpp electrode/*.cpp electrode/*/*.cpp simulate/study_file.cpp bank/{bank_file,design,runs}.cpp
   inference/{numerics,quantities}.cpp)
-image_sources=(electrode/structure/{data_rows,image_header,label_image,numpy_image,png_image,tiff_image,vti_header}.cpp
+image_sources=(electrode/structure/{data_rows,image_header,label_image,numpy_image,png_image,tiff_image,tiff_output,vti_header}.cpp
   base/{image_series,messages,provenance}.cpp)
 for source in "${sources[@]}" "${image_sources[@]}"; do # said by every run of the tests, not only by --all
   [ -f "$source" ] || { echo "FAILED: $core/$source, which is to be built here, is not there" >&2; exit 1; }
@@ -27,8 +27,10 @@ options=(-std=c++17 -g -O1 -DNDEBUG "-fsanitize=fuzzer,address,undefined" -fno-s
 
 vtk=$(find /usr/include -maxdepth 1 -name 'vtk-9*' | head -n 1) # the Debian package; its suffix is that of the libraries
 [ -n "$vtk" ] || { echo "skipped: no headers of VTK in /usr/include"; exit 77; }
-options+=(-isystem "$vtk")
-libraries=(-lfmt -lcrypto -lz -ltiff -lpng -lminizip)
+itk=$(find /usr/include -maxdepth 1 -name 'ITK-5*' | head -n 1)
+[ -n "$itk" ] || { echo "skipped: no headers of ITK in /usr/include"; exit 77; }
+options+=(-isystem "$vtk" -isystem "$itk")
+libraries=("-lITKCommon${itk##*/ITK}" "-litkvnl${itk##*/ITK}" "-litkvnl_algo${itk##*/ITK}" "-litksys${itk##*/ITK}" -lfmt -lcrypto -lz -ltiff -lpng -lminizip)
 for name in IOImage IOXML ImagingMorphological ImagingGeneral FiltersCore CommonExecutionModel CommonDataModel CommonMath CommonMisc \
   CommonCore sys; do
   libraries+=("-lvtk$name${vtk##*/vtk}")

@@ -69,6 +69,8 @@ void structure(const std::string &text) {
   source.body_map = text[0] & 16 ? file() : "";
   source.am_types = {1, 2};
   source.cbd_types = {3};
+  source.densities_of_file = !(text[0] & 32);
+  source.side_x = source.side_y = 12.0;
   const calendem::ExistingStructure g = calendem::read_structure(source);
   for (const auto *phase : {&g.am, &g.cbd})
     for (const calendem::ExistingSphere &p : *phase)

@@ -128,7 +128,7 @@ class GivenFilm : public testing::Test {
 protected:
   void SetUp() override {
     in = input(kTable);
-    start = make_start(in, test_folder().string());
+    start = make_bodies_to_pack(in, test_folder().string());
   }
   double mass(int type) const {
     double sum = 0.0;
@@ -137,7 +137,7 @@ protected:
     return sum;
   }
   PackInput in;
-  Start start;
+  BodiesToPack start;
 };
 
 TEST_F(GivenFilm, EachSphereBecomesOneBodyAndEachPhaseKeepsItsMass) {
@@ -197,7 +197,7 @@ TEST_F(GivenFilm, TheOrderOfTheRowsDoesNotMatter) {
   const Recipe recipe = recipe_with(kTable);
   std::ofstream(recipe.structure.file) << text.substr(0, rows) << backwards;
   const PackInput other = read_input(recipe);
-  const Start again = make_start(other, test_folder().string());
+  const BodiesToPack again = make_bodies_to_pack(other, test_folder().string());
   EXPECT_EQ(data_file(other.recipe, again.placed.loose.particles, 1.0),
             data_file(in.recipe, start.placed.loose.particles, 1.0));
 }
@@ -251,7 +251,7 @@ TEST(GivenSlurry, IsNotCompressedBeforeItFalls) {
   const Recipe recipe = recipe_with(kTable + "[coating]\nporosity_total_percent = 60\n");
   std::ofstream(recipe.structure.file) << text;
   const PackInput in = read_input(recipe);
-  const Start start = make_start(in, test_folder().string());
+  const BodiesToPack start = make_bodies_to_pack(in, test_folder().string());
   EXPECT_EQ(start.placed.stretch, 1.0);
 }
 
@@ -286,7 +286,7 @@ TEST(GivenClusters, AreKeptAcrossAPeriodicFace) {
 
 TEST(GivenClusters, AreNotTurned) {
   const PackInput in = input(kClusters);
-  const Start start = make_start(in, test_folder().string());
+  const BodiesToPack start = make_bodies_to_pack(in, test_folder().string());
   const auto &p = start.placed.loose.particles;
   ASSERT_EQ(p.size(), 38u);
   const BodiesOfStructure made = bodies_of_clusters(in.recipe, in.structure);

@@ -117,6 +117,32 @@ TEST_F(WriteReport, ComparesWithThePaper) {
   EXPECT_TRUE(rows[9]["cells"][1]["value"].is_null()); // b never sees 146 MPa
 }
 
+// Requirement: the first screen says how the run stands beside the measurement, and which limits of
+// the model's validity it exceeds; what a label stands for is told where one points at it.
+TEST_F(WriteReport, BeginsWithAVerdict) {
+  make_run(path("run"), small_);
+  write_report({path("run")}, path("r.html"));
+  const auto json = twin("r.json"), run = json["runs"][0];
+  const double z = json["comparison"]["rows"][2]["cells"][0]["z"];
+  EXPECT_EQ(run["verdict"][0]["kind"], std::fabs(z) <= 2 ? "good" : "bad");
+  const std::string verdict = run["verdict"][0]["text"], expected = std::fabs(z) <= 2 ? "agrees"
+                                                                    : z > 0           ? "too porous"
+                                                                                      : "too dense";
+  EXPECT_EQ(verdict.rfind("Table 1 of the paper, 150 MPa: " + expected, 0), 0u) << verdict;
+  std::size_t exceeded = 0;
+  for (const auto &figure : run["headline"]) {
+    EXPECT_NE(figure["means"], "") << figure["label"];
+    exceeded += figure["exceeded"].get<bool>() ? 1 : 0;
+    if (figure["remark"] == "above 5 MPa; limit 5 %")
+      EXPECT_EQ(figure["exceeded"], figure["value"].get<double>() > 5);
+  }
+  EXPECT_EQ(run["verdict"].size(), 1 + exceeded);
+  EXPECT_GT(exceeded, 0u); // 15 % of the force is beyond the range of its law
+  const std::string page = contents(path("r.html"));
+  EXPECT_LT(page.find("class=\"verdict\""), page.find("<table"));
+  EXPECT_NE(page.find("<div class=\"exceeded\">"), std::string::npos);
+}
+
 // Requirement: the page reports how far contacts are beyond the range of their law; twin and page
 // agree, and what a run does not know is a dash.
 TEST_F(WriteReport, ShowsTheRangeOfTheContactLaw) {

@@ -97,7 +97,7 @@ TEST(LineLoad, GapIsFound) {
   const auto hertz = [&](double gap) { return 3.0 * std::pow(std::max(touch - gap, 0.0), 2); };
   const auto stiff = [&](double gap) { return 5.0 * std::expm1(0.6 * std::max(touch - gap, 0.0)); };
   const auto runs = [&](const auto &film, double gap) {
-    std::vector<Rehearsal> done;
+    std::vector<TrialPassage> done;
     while (std::fabs(film(gap) / asked - 1.0) > 0.02 && done.size() < 100) {
       done.push_back({gap, film(gap), std::max(touch, gap)});
       gap = next_gap(done, asked, lowest);
@@ -107,7 +107,7 @@ TEST(LineLoad, GapIsFound) {
   };
   for (const double gap : {31.0, 45.0, 50.0, 53.0, 57.5, 59.0}) {
     EXPECT_LE(runs(hertz, gap), gap < touch ? 2u : 4u) << "from " << gap;
-    EXPECT_LE(runs(stiff, gap), kMostRehearsals) << "from " << gap;
+    EXPECT_LE(runs(stiff, gap), kMostTrials) << "from " << gap;
     std::printf("from %g um: %zu and %zu runs\n", gap, runs(hertz, gap), runs(stiff, gap));
   }
 }
@@ -115,7 +115,7 @@ TEST(LineLoad, GapIsFound) {
 // Requirement: runs count as their mean where a narrower gap carried less. The loads are those of a
 // film of 6 x 6 um; 40 is looked for.
 TEST(LineLoad, ARunThatCarriedMoreByChanceIsNoBound) {
-  std::vector<Rehearsal> done = {{13.35, 41.0, 15.6}, {13.4, 36.0, 15.6}, {13.3, 37.0, 15.6}};
+  std::vector<TrialPassage> done = {{13.35, 41.0, 15.6}, {13.4, 36.0, 15.6}, {13.3, 37.0, 15.6}};
   // 13.35 and 13.3 um carry sqrt(41 * 37) = 38.95 at 13.325; nothing carries 40
   const double depth = (15.6 - 13.325) * std::sqrt(40.0 / std::sqrt(41.0 * 37.0));
   EXPECT_NEAR(next_gap(done, 40.0, 9.3), 15.6 - depth, 1e-12);
@@ -135,9 +135,9 @@ TEST(LineLoad, IsFoundAmongRunsThatScatter) {
   int missed = 0;
   for (int seed = 0; seed < 400; ++seed) {
     Random random(std::uint64_t(seed), 7);
-    std::vector<Rehearsal> done;
+    std::vector<TrialPassage> done;
     double gap = 14.0, load = 0.0;
-    while (std::fabs(load / asked - 1.0) > 0.02 && done.size() < kMostRehearsals) {
+    while (std::fabs(load / asked - 1.0) > 0.02 && done.size() < kMostTrials) {
       load = 5.0 * std::expm1(0.9 * (touch - gap)) * std::exp(0.04 * random.normal());
       done.push_back({gap, load, touch});
       gap = next_gap(done, asked, 9.3);

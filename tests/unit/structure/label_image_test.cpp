@@ -60,9 +60,9 @@ void cut(const fs::path &file, double share) {
   fs::resize_file(file, std::uintmax_t(share * double(fs::file_size(file))));
 }
 
-TEST(LabelImage, VtkAndMetaImageFilesKeepLabelsAndVoxelSize) {
+TEST(LabelImage, WrittenFilesKeepLabelsAndVoxelSize) {
   const fs::path folder = test_folder();
-  for (const char *name : {"a.vti", "a.mhd", "a.mha"}) {
+  for (const char *name : {"a.vti", "a.mhd", "a.mha", "a.tif"}) {
     const std::string file = (folder / name).string();
     write_label_image(sample(), file);
     const LabelImage image = read_label_image(file);
@@ -70,6 +70,29 @@ TEST(LabelImage, VtkAndMetaImageFilesKeepLabelsAndVoxelSize) {
     EXPECT_NEAR((image.voxel - sample().voxel).norm(), 0.0, 1e-6) << name;
     EXPECT_EQ(read_label_image(file, 0.041).voxel, Eigen::Vector3d::Constant(0.041)) << name;
   }
+}
+
+// Fiji opens unsigned numbers best, and 8 bits need least room.
+TEST(LabelImage, TiffFilesHaveTheSmallestTypeThatHoldsTheirLabels) {
+  const std::string file = (test_folder() / "a.tif").string();
+  const auto bits_of = [&](std::int32_t first, std::int32_t last) {
+    LabelImage image = empty_image(12, 5, 4, 0.3);
+    image.label.front() = first;
+    image.label.back() = last;
+    write_label_image(image, file);
+    EXPECT_EQ(read_label_image(file).label, image.label);
+    std::uint16_t bits = 0, format = 0;
+    TIFF *tiff = TIFFOpen(file.c_str(), "r");
+    TIFFGetField(tiff, TIFFTAG_BITSPERSAMPLE, &bits);
+    TIFFGetField(tiff, TIFFTAG_SAMPLEFORMAT, &format);
+    TIFFClose(tiff);
+    return std::string(format == SAMPLEFORMAT_INT ? "int" : "uint") + std::to_string(bits);
+  };
+  EXPECT_EQ(bits_of(0, 255), "uint8");
+  EXPECT_EQ(bits_of(0, 256), "uint16");
+  EXPECT_EQ(bits_of(0, 65536), "int32");
+  EXPECT_EQ(bits_of(-1, 32767), "int16");
+  EXPECT_EQ(bits_of(-1, 32768), "int32");
 }
 
 TEST(LabelImage, NrrdFilesOfTeemAreRead) {

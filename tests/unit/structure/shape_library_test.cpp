@@ -92,7 +92,7 @@ TEST(ShapeLibrary, AnImageOfPhasesIsNamedAsSuch) {
   LabelImage image = empty_image(20, 20, 20, 0.25);
   add_sphere(image, {2, 10, 10}, 6, 1);
   expect_parts(refusal([&] { make_library(image, 0, "image"); }),
-               {"these look like phases", "a number for each particle"});
+               {"these look like phases", "shapes.phases = { pore = 0, am = 1, cbd = 2 }"});
 }
 
 TEST(MeasuredShape, DepthIsTheDistanceToTheSurface) {

@@ -34,6 +34,15 @@ TEST(Groups, PackingsOfASettingAreOneGroupAndRunsThatFailedAreNone) {
   EXPECT_EQ(table().finished(), 4u);
 }
 
+TEST(Groups, AnEffectThatDoesNotActIsOff) {
+  const std::string column = "case.effects.nmc_plasticity.yield_pressure_GPa";
+  StudyGroup group;
+  group.settings[column] = "0";
+  EXPECT_EQ(StudyTable::label(group), "yield pressure off");
+  group.settings[column] = "3";
+  EXPECT_EQ(StudyTable::label(group), "yield pressure = 3 GPa");
+}
+
 TEST(Groups, SpreadIsOfTheValuesThatThereAre) {
   const StudyGroup low = table().groups()[0], high = table().groups()[1];
   const MeanAndSd s = table().mean_and_sd(low, "porosity_after_relaxation");

@@ -5,6 +5,7 @@
 #include "base/provenance.h"
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstring>
@@ -14,7 +15,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <mutex>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -76,26 +77,43 @@ std::vector<char *> pointers_to(const std::vector<std::string> &words) {
   return out;
 }
 
+/// What the child does between fork and exec, with calls alone that are safe there; returns if it
+/// cannot become the program. The kernel ends it when the thread that started it is gone: this
+/// program, killed, cannot pass that on.
+void become(const ChildProgram &child, char *const *argv, char *const *envp, pid_t parent) {
+  setpgid(0, 0); // its own
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != parent)
+    _exit(kUsage);
+  const int in = open("/dev/null", O_RDONLY),
+            out = open(child.output.c_str(),
+                       O_WRONLY | O_CREAT | (child.append ? O_APPEND : O_TRUNC), 0644);
+  if (in >= 0 && out >= 0 && dup2(in, 0) == 0 && dup2(out, 1) == 1 && dup2(out, 2) == 2 &&
+      (child.folder.empty() || chdir(child.folder.c_str()) == 0))
+    execvpe(argv[0], argv, envp);
+}
+
 } // namespace
 
 pid_t start_child(const ChildProgram &child) {
   const std::vector<std::string> environment = environment_of(child);
   const std::vector<char *> argv = pointers_to(child.words), envp = pointers_to(environment);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, 1, child.output.c_str(),
-                                   O_WRONLY | O_CREAT | (child.append ? O_APPEND : O_TRUNC), 0644);
-  posix_spawn_file_actions_adddup2(&actions, 1, 2);
-  if (!child.folder.empty())
-    posix_spawn_file_actions_addchdir_np(&actions, child.folder.c_str());
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP); // 0: its own
-  pid_t pid = 0;
-  const int error = posix_spawnp(&pid, argv[0], &actions, &attributes, argv.data(), envp.data());
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
+  int report[2]; // closed by exec; else it brings the error
+  const pid_t parent = getpid();
+  int error = pipe2(report, O_CLOEXEC) == 0 ? 0 : errno;
+  const pid_t pid = error == 0 ? fork() : -1;
+  if (pid == 0) {
+    become(child, argv.data(), envp.data(), parent);
+    error = errno;
+    _exit(write(report[1], &error, sizeof error) == sizeof error ? kUsage : kBadInput);
+  }
+  if (error == 0) {
+    error = pid < 0 ? errno : 0;
+    close(report[1]);
+    if (pid > 0 && read(report[0], &error, sizeof error) > 0)
+      waitpid(pid, nullptr, 0);
+    close(report[0]);
+  }
   if (error != 0)
     throw Failure(kBadInput, fmt::format("cannot start {}: {}. {}", child.words[0],
                                          std::strerror(error), child.remedy));

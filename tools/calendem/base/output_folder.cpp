@@ -35,7 +35,7 @@ void make_output_folder(const std::string &folder, std::uintmax_t room) {
                                          folder, 1e-6 * room_on_disk(folder), 1e-6 * room));
 }
 
-void must_be_ours(const std::string &file, const std::string &head) {
+void require_own_file(const std::string &file, const std::string &head) {
   if (fs::exists(file) && text_of_file(file).rfind(head, 0) != 0)
     throw Failure(kBadInput,
                   fmt::format("'{}' was not written by this command (its first line does not begin "

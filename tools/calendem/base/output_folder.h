@@ -18,7 +18,7 @@ void make_output_folder(const std::string &folder, std::uintmax_t room = 0);
 
 /// Throws Failure(2) if `file` exists and does not begin with `head`: somebody else's file of that
 /// name, which would be replaced.
-void must_be_ours(const std::string &file, const std::string &head);
+void require_own_file(const std::string &file, const std::string &head);
 
 /// Throws Failure(2) if `folder` is `input`, a folder that is read.
 void must_not_be(const std::string &folder, const std::string &input, const std::string &what);

@@ -59,6 +59,13 @@ std::vector<Key> own_keys() {
   };
 }
 
+Key label_key(const std::string &phase, const std::string &meaning) {
+  return setting("shapes.phases." + phase, "", "0")
+      .range(-2147483647, 2147483647)
+      .is_whole()
+      .means(meaning);
+}
+
 std::vector<Key> shape_keys() {
   return {
       {"shapes.image", "", "none", 0, 0, "",
@@ -68,9 +75,18 @@ std::vector<Key> shape_keys() {
       {"shapes.voxel_size_um", "", "0", 0, 10, "um", "voxel size of the image; 0: from the file"},
       {"shapes.background", "", "0", -2147483647, 2147483647, "", "label of the background", "",
        false, true},
+      {"shapes.neck", "", "0.9", 0.5, 0.99, "",
+       "parts of the active material are two particles where the neck between them is narrower "
+       "than "
+       "this fraction of the smaller part's inscribed radius"},
       {"shapes.sizes", "", "measured", 0, 0, "",
        "size distribution of the bodies: that of the image or that of the recipe",
        "measured|recipe"},
+      label_key("pore", "label of the pores in an image of phases"),
+      label_key("am",
+                "label of the active material, which is separated into particles; that of the "
+                "pores: the image's labels are particles"),
+      label_key("cbd", "label of carbon and binder; that of the pores: there is none"),
   };
 }
 
@@ -179,6 +195,37 @@ void check_cell(const Settings &s, const Recipe &r, Mistakes &mistakes) {
 
 } // namespace
 
+namespace {
+
+PhaseLabels read_phases(const Settings &s, const std::string &image, Mistakes &mistakes) {
+  const auto label = [&](const char *phase) {
+    return static_cast<std::int32_t>(s.number(std::string("shapes.phases.") + phase));
+  };
+  const PhaseLabels out{label("pore"), label("am"), label("cbd")};
+  const auto line = [&](const char *key) { return s.line(std::string("shapes.") + key); };
+  const int given = std::max({line("phases.pore"), line("phases.am"), line("phases.cbd")});
+  if (!out.given() && (out.cbd != out.pore || (given > 0 && line("phases.am") == 0)))
+    mistakes.add(given, fmt::format("shapes.phases.am is {0}, as shapes.phases.pore. Give the "
+                                    "label of the active material: phases = {{ pore = {0}, am = "
+                                    "{1}, cbd = {2} }}.",
+                                    out.pore, out.pore + 1, out.pore + 2));
+  else if (out.given() && out.cbd == out.am)
+    mistakes.add(given, fmt::format("shapes.phases.am and cbd are both {}. Give each phase its own "
+                                    "label, cbd that of the pores if there is none.",
+                                    out.am));
+  if (out.given() && image.empty())
+    mistakes.add(given,
+                 "shapes.phases names the labels of shapes.image, which is missing. Give the "
+                 "image, or remove shapes.phases.");
+  if (out.given() && line("background") > 0)
+    mistakes.add(line("background"),
+                 "shapes.background is for images of particles; of phases it is "
+                 "shapes.phases.pore. Remove one of them.");
+  return out;
+}
+
+} // namespace
+
 ShapeSource read_shapes(const Settings &s, const std::string &file, Mistakes &mistakes) {
   namespace fs = std::filesystem;
   ShapeSource out;
@@ -186,6 +233,8 @@ ShapeSource read_shapes(const Settings &s, const std::string &file, Mistakes &mi
   out.library = path_of(s, "shapes.library", file);
   out.voxel_um = s.number("shapes.voxel_size_um");
   out.background = static_cast<std::int32_t>(s.number("shapes.background"));
+  out.phases = read_phases(s, out.image, mistakes);
+  out.neck = s.number("shapes.neck");
   out.measured_sizes = s.text("shapes.sizes") == "measured";
   if (!out.image.empty() && !out.library.empty())
     mistakes.add(s.line("shapes.library"),
@@ -268,7 +317,7 @@ Recipe read_recipe(const std::string &file) {
   Mistakes mistakes(file);
   Settings s = read_toml(file, FileKind::Recipe, recipe_keys(), mistakes);
   if (s.line(kAmWeight) == 0)
-    s.leave(kAmWeight, {kCarbonWeight, kBinderWeight});
+    s.set_as_remainder(kAmWeight, {kCarbonWeight, kBinderWeight});
   const ReferenceMaterial material = take_material(s, file, recipe_keys(), mistakes);
   take_sizes_by_volume(s, recipe_keys(), mistakes);
   Recipe r = recipe_of(s);

@@ -21,6 +21,9 @@ struct StructureSource {
   std::set<int> am_types, cbd_types, left_out_types;
   bool clusters = false;         ///< AM spheres are primaries of given bodies, else a body each
   bool densities_of_file = true; ///< else the recipe's
+  std::string frame = "last";    ///< of a dump, or its time step
+  double side_x = 0.0,
+         side_y = 0.0; ///< of the recipe's cell, for a table without a box [um]; 0: none
   bool given() const { return !file.empty(); }
 };
 
@@ -38,11 +41,21 @@ StructureSource read_structure_source(const Settings &settings, const std::strin
 
 const std::vector<Key> &recipe_keys();
 
+/// Labels of an image of phases.
+struct PhaseLabels {
+  std::int32_t pore = 0;
+  std::int32_t am = 0;  ///< that of the pores: the labels are particles, not phases
+  std::int32_t cbd = 0; ///< that of the pores: there is none
+  bool given() const { return am != pore; }
+};
+
 /// Where the outer shapes of bodies come from; both paths empty: generated.
 struct ShapeSource {
   std::string image, library; ///< absolute
   double voxel_um = 0.0;      ///< 0: from the image
   std::int32_t background = 0;
+  PhaseLabels phases;
+  double neck = 0.9;          ///< see separate_particles()
   bool measured_sizes = true; ///< else the recipe's lognormal law
   bool given() const { return !image.empty() || !library.empty(); }
 };

@@ -262,16 +262,16 @@ double Settings::number(const std::string &name) const { return std::stod(values
 
 void Settings::set(const std::string &name, const std::string &value) {
   follows_.erase(name);
-  left_by_.erase(name);
+  remainder_of_.erase(name);
   values_[name] = value;
   for (const auto &[follower, other] : follows_)
     if (other == name)
       values_[follower] = value;
-  update_rests();
+  update_remainders();
 }
 
-void Settings::update_rests() {
-  for (const auto &[name, others] : left_by_) {
+void Settings::update_remainders() {
+  for (const auto &[name, others] : remainder_of_) {
     double left = 100.0;
     for (const std::string &other : others)
       left -= number(other);
@@ -279,9 +279,9 @@ void Settings::update_rests() {
   }
 }
 
-void Settings::leave(const std::string &name, const std::vector<std::string> &others) {
-  left_by_[name] = others;
-  update_rests();
+void Settings::set_as_remainder(const std::string &name, const std::vector<std::string> &others) {
+  remainder_of_[name] = others;
+  update_remainders();
 }
 
 void Settings::follow(const std::string &name, const std::string &other) {

@@ -46,8 +46,8 @@ public:
   void follow(const std::string &name, const std::string &other);
   /// The key that this one follows; empty: none.
   std::string followed_by(const std::string &name) const;
-  /// The key is what others, which have values, leave of a hundred, and keeps up with them.
-  void leave(const std::string &name, const std::vector<std::string> &others);
+  /// The key is 100 - sum(others), updated with them; all of them have values.
+  void set_as_remainder(const std::string &name, const std::vector<std::string> &others);
   const std::map<std::string, std::string> &all() const { return values_; }
 
   /// Line of the file that gives the key, 0 if it has its default.
@@ -58,12 +58,12 @@ public:
 
 private:
   std::map<std::string, std::string> values_;
-  std::map<std::string, std::string> follows_;              ///< key, the one it follows
-  std::map<std::string, std::vector<std::string>> left_by_; ///< key, those that leave it
+  std::map<std::string, std::string> follows_;                   ///< key, the one it follows
+  std::map<std::string, std::vector<std::string>> remainder_of_; ///< key, the others
   std::map<std::string, int> lines_;
   std::set<std::string> wrong_;
 
-  void update_rests();
+  void update_remainders();
 };
 
 /// All mistakes go to `mistakes`; what could be read is returned, defaults filled in.

@@ -124,7 +124,7 @@ void run_calibrate(const CalibrateOptions &o) {
   std::vector<std::string> cases;
   for (std::size_t m = 0; m < c.materials.size(); ++m) {
     cases.push_back(o.folder + (m == 0 ? "/case.toml" : fmt::format("/case_{}.toml", m + 1)));
-    must_be_ours(cases.back(), kHeadOfCase);
+    require_own_file(cases.back(), kHeadOfCase);
   }
   fmt::print("calibrate: {}\n", data_in_words(c));
   calibrate(bank, o.settings, c);

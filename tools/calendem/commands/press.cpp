@@ -87,7 +87,7 @@ void press(PressOptions o) {
                     fmt::format("{}: -o names the export itself, which would be replaced. "
                                 "Give another name.",
                                 file));
-    must_be_ours(table, kHeadOfCurve);
+    require_own_file(table, kHeadOfCurve);
     const PressExport from = read_press_export(file, o.format);
     curves.push_back(make_press_curve(file, from, o.contact_MPa));
     PressCurve &curve = curves.back();

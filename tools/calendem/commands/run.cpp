@@ -5,6 +5,7 @@
 #include "base/provenance.h"
 #include "base/run_folder.h"
 #include "commands/commands.h"
+#include "electrode/pack/measured_bodies.h"
 #include "electrode/pack/pack.h"
 #include "electrode/slurry/dry.h"
 #include "electrode/tomogram.h"
@@ -177,6 +178,7 @@ void add_pack_verb(CLI::App &app) {
   struct Arguments {
     std::string spec;
     long seed = -1;
+    bool shapes_only = false;
     PackOptions options;
   };
   auto a = std::make_shared<Arguments>();
@@ -191,13 +193,19 @@ void add_pack_verb(CLI::App &app) {
   verb->add_option("--ranks", a->options.ranks, "MPI ranks")->check(CLI::Range(1, 4096));
   verb->add_flag("--force", a->options.force, "overwrite an electrode of another recipe");
   verb->add_option("--liggghts", a->options.liggghts, "program with the plugin");
+  verb->add_flag("--shapes-only", a->shapes_only,
+                 "only take the shapes from the recipe's image, with what shows how they were "
+                 "separated, into DIR/shapes (shapes.library of other recipes)");
   verb->callback([a] {
     Recipe recipe = read_recipe(a->spec);
     if (a->seed >= 0) {
       recipe.seed = static_cast<unsigned long>(a->seed);
       recipe.settings.set("seed", fmt::format("{}", a->seed));
     }
-    pack_electrode(recipe, a->options);
+    if (a->shapes_only)
+      write_shapes(recipe, a->options.folder);
+    else
+      pack_electrode(recipe, a->options);
   });
 }
 
@@ -227,7 +235,8 @@ void add_tomogram_verb(CLI::App &app) {
       app.add_subcommand("tomogram", "Make a synthetic label image whose particles are known");
   verb->footer(list_of_keys(tomogram_keys()));
   verb->add_option("SPEC", a->spec, "what the image shows (TOML)")->required();
-  verb->add_option("-o,--output", a->file, "image (.mhd, .mha or .vti); beside it NAME.truth.csv")
+  verb->add_option("-o,--output", a->file,
+                   "image (.mhd, .mha, .vti or .tif); beside it NAME.truth.csv")
       ->required();
   verb->callback([a] {
     const Tomogram t = make_tomogram(read_tomogram_spec(a->spec));

@@ -53,6 +53,17 @@ Plot.prototype.domains = function() {
     var low = isNumber(range[0]) ? range[0] : 0, high = isNumber(range[1]) ? range[1] : low;
     return high > low ? [ low, high ] : [ low, low + Math.max(Math.abs(low) * 0.1, 1) ];
   }
+  /// A point at the end of the axis would be cut in half; no axis begins below 0 for it.
+  function withRoom(range) {
+    var room = 0.03 * (range[1] - range[0]);
+    function hasPointAt(x) {
+      return chart.series.some(function(s) { return s.mark === 'points' && s.x.indexOf(x) >= 0; });
+    }
+    return [
+      hasPointAt(range[0]) && range[0] > 0 ? Math.max(range[0] - room, 0) : range[0],
+      hasPointAt(range[1]) ? range[1] + room : range[1]
+    ];
+  }
   var left = this.values(y(false)), right = this.values(y(true));
   left = d3.extent(
       left.concat(chart.limits.map(function(l) { return l.y; }), chart.from_zero ? [ 0 ] : []));
@@ -64,7 +75,7 @@ Plot.prototype.domains = function() {
         out.push(s.y[i]);
     });
   return {
-    x : widened(this.values(function(s, i, out) { out.push(s.x[i]); })),
+    x : withRoom(widened(this.values(function(s, i, out) { out.push(s.x[i]); }))),
     left : widened(left),
     right : widened(d3.extent(right.concat([ 0 ])))
   };

@@ -41,12 +41,12 @@ struct Frames {
 };
 
 void make_whole(Frames &f, const std::array<double, 2> &period) {
-  const Wholes wholes(f.particles, period);
+  const PeriodicUnwrapper unwrapper(f.particles, period);
   for (std::size_t i = 0; i < f.particles.centre.size(); ++i)
-    f.particles.centre[i] = wholes.place(f.particles.centre[i], f.particles.body[i]);
+    f.particles.centre[i] = unwrapper.place(f.particles.centre[i], f.particles.body[i]);
   for (std::size_t i = 0; i < f.bonds.from.size(); ++i) {
-    f.bonds.from[i] = wholes.place(f.bonds.from[i], f.bonds.body[i]);
-    f.bonds.to[i] = wholes.place(f.bonds.to[i], f.bonds.body[i]);
+    f.bonds.from[i] = unwrapper.place(f.bonds.from[i], f.bonds.body[i]);
+    f.bonds.to[i] = unwrapper.place(f.bonds.to[i], f.bonds.body[i]);
   }
 }
 

@@ -111,12 +111,12 @@ std::string draw_place(const ParticleFrame &frame, int body, const Camera &camer
 
 /// One body by itself, whole, its centre at the origin.
 void keep_body(Stage &s, int body, const std::array<double, 2> &period) {
-  const Wholes wholes(s.particles, period);
+  const PeriodicUnwrapper unwrapper(s.particles, period);
   Point centre{0, 0, 0};
   ParticleFrame particles;
   for (std::size_t i = 0; i < s.particles.centre.size(); ++i)
     if (s.particles.body[i] == body) {
-      particles.centre.push_back(wholes.place(s.particles.centre[i], body));
+      particles.centre.push_back(unwrapper.place(s.particles.centre[i], body));
       particles.radius.push_back(s.particles.radius[i]);
       particles.body.push_back(body);
     }
@@ -133,8 +133,8 @@ void keep_body(Stage &s, int body, const std::array<double, 2> &period) {
   BondFrame bonds;
   for (std::size_t i = 0; i < s.bonds.from.size(); ++i)
     if (s.bonds.body[i] == body) {
-      bonds.from.push_back(moved(wholes.place(s.bonds.from[i], body)));
-      bonds.to.push_back(moved(wholes.place(s.bonds.to[i], body)));
+      bonds.from.push_back(moved(unwrapper.place(s.bonds.from[i], body)));
+      bonds.to.push_back(moved(unwrapper.place(s.bonds.to[i], body)));
       bonds.intact.push_back(s.bonds.intact[i]);
       if (i < s.bonds.tags.size())
         bonds.tags.push_back(s.bonds.tags[i]);

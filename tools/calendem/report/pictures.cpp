@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/pictures.h"
 #include "base/provenance.h"
+#include "electrode/structure/slices.h"
 #include "physics/pi.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <sstream>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPNGWriter.h>
-#include <vtkUnsignedCharArray.h>
 
 namespace calendem::report {
 
@@ -136,19 +133,8 @@ std::vector<std::uint8_t> Raster::pixels() const {
 }
 
 std::string png_base64(const std::vector<std::uint8_t> &pixels, int width, int height) {
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(width, height, 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  auto *data = static_cast<unsigned char *>(image->GetScalarPointer());
-  const std::size_t row = static_cast<std::size_t>(width) * 3;
-  for (int y = 0; y < height; ++y) // VTK's rows begin at the bottom
-    std::copy_n(pixels.data() + y * row, row, data + (height - 1 - y) * row);
-  vtkNew<vtkPNGWriter> writer;
-  writer->WriteToMemoryOn();
-  writer->SetInputData(image);
-  writer->Write();
-  return base64(writer->GetResult()->GetPointer(0),
-                static_cast<std::size_t>(writer->GetResult()->GetNumberOfTuples()));
+  const std::string bytes = png_bytes(pixels, width, height);
+  return base64(reinterpret_cast<const unsigned char *>(bytes.data()), bytes.size());
 }
 
 namespace {
@@ -348,7 +334,9 @@ std::array<double, 2> period_of(const Run &run, double time_us) {
   return {0.0, 0.0};
 }
 
-Wholes::Wholes(const ParticleFrame &frame, const std::array<double, 2> &period) : period_(period) {
+PeriodicUnwrapper::PeriodicUnwrapper(const ParticleFrame &frame,
+                                     const std::array<double, 2> &period)
+    : period_(period) {
   if (!(period[0] > 0.0 && period[1] > 0.0))
     return;
   std::map<int, std::array<double, 4>> sums; // cosines and sines of x and y as angles
@@ -363,7 +351,7 @@ Wholes::Wholes(const ParticleFrame &frame, const std::array<double, 2> &period) 
       centre_[body][k] = period_[k] / kTurn * std::atan2(s[2 + k], s[k]);
 }
 
-Point Wholes::place(Point p, int body) const {
+Point PeriodicUnwrapper::place(Point p, int body) const {
   const auto found = centre_.find(body);
   if (body <= 0 || found == centre_.end())
     return p;

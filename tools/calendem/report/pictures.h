@@ -118,10 +118,10 @@ Picture framed(const Moment &moment, const char *subject, const FrameFile &sourc
 /// The periodic sides [um] at that time; 0: not known.
 std::array<double, 2> period_of(const Run &run, double time_us);
 
-class Wholes {
+class PeriodicUnwrapper {
 public:
   /// Without a period everything stays where it is.
-  Wholes(const ParticleFrame &frame, const std::array<double, 2> &period);
+  PeriodicUnwrapper(const ParticleFrame &frame, const std::array<double, 2> &period);
   /// The image of `p`, a point of `body`, nearest to the body's centre in the cell.
   Point place(Point p, int body) const;
 

@@ -22,7 +22,7 @@ namespace {
 
 using nlohmann::json;
 
-RunPart part_of(Run &run) {
+RunPart part_of(Run &run, const json &comparison) {
   RunPart part;
   part.pictures = draw_pictures(run); // may add notes
   part.stages = draw_stages(run);
@@ -32,6 +32,7 @@ RunPart part_of(Run &run) {
   part.name = run.name;
   part.unfinished = run.unfinished;
   part.headline = headline_of(run);
+  part.verdict = verdict_of(run, part.headline, comparison);
   part.facts = facts_of(run.summary, {"provenance", "contact_range"});
   part.electrode =
       facts_of(run.electrode, {"provenance", "recipe", kRecipeGiven, "sphericity_histogram",
@@ -75,6 +76,7 @@ json to_json(const RunPart &run) {
           {"status", run.unfinished.empty() ? "finished" : "unfinished"},
           {"unfinished", run.unfinished},
           {"headline", run.headline},
+          {"verdict", run.verdict},
           {"facts", run.facts},
           {"electrode", run.electrode},
           {"material", run.material},
@@ -89,6 +91,11 @@ json to_json(const RunPart &run) {
           {"one_body", to_json(run.one_body)}};
 }
 
+/// The recipe's name, where the electrode has one.
+std::string title_of(const Run &run) {
+  return run.electrode.is_object() ? run.electrode.value("name", run.name) : run.name;
+}
+
 } // namespace
 
 Report make_report(std::vector<Run> runs, const std::string &command) {
@@ -96,8 +103,9 @@ Report make_report(std::vector<Run> runs, const std::string &command) {
   report.comparison = comparison_of(runs);
   report.charts = plots_of(runs);
   for (auto &run : runs) {
-    report.runs.push_back(part_of(run));
-    report.title += (report.title.empty() ? "" : ", ") + run.name;
+    report.title +=
+        (report.title.empty() ? "" : ", ") + (runs.size() == 1 ? title_of(run) : run.name);
+    report.runs.push_back(part_of(run, report.comparison));
   }
   report.provenance = {
       {"program", "calendem report"}, {"version", version()}, {"command", command}, {"format", 1}};

@@ -15,7 +15,8 @@ namespace calendem::report {
 struct RunPart {
   std::string name;
   std::string unfinished; ///< why; empty = finished
-  nlohmann::json headline, facts, electrode, material, structure, validity, provenance, files;
+  nlohmann::json headline, verdict, facts, electrode, material, structure, validity, provenance,
+      files;
   Mistakes notes;
   std::vector<Picture> pictures;
   std::vector<Picture> stages;   ///< the paper's Figure 3

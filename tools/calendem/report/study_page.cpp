@@ -3,12 +3,14 @@
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "base/run_folder.h"
+#include "effects/effects.h"
 #include "report/page.h"
 #include "report/tables.h"
 #include "simulate/collect.h"
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <limits>
@@ -26,6 +28,18 @@ std::vector<std::size_t> pattern(const std::vector<std::string> &texts) {
   for (const std::string &t : texts)
     out.push_back(std::size_t(std::find(texts.begin(), texts.end(), t) - texts.begin()));
   return out;
+}
+
+/// The value with which an effect of the case does not act: 0 GPa of a yield pressure would be taken
+/// for butter.
+bool is_off(const std::string &column, const std::string &value) {
+  const std::string key = column.substr(column.find('.') + 1);
+  return key.rfind("effects.", 0) == 0 &&
+         std::any_of(effects().begin(), effects().end(), [&](const Effect &e) {
+           const std::vector<std::string> &keys = e.parameter.keys;
+           return std::find(keys.begin(), keys.end(), key) != keys.end() &&
+                  std::strtod(value.c_str(), nullptr) == std::stod(e.parameter.off);
+         });
 }
 
 } // namespace
@@ -91,8 +105,9 @@ std::string StudyTable::label(const StudyGroup &group) {
   for (const auto &[column, value] : group.settings) {
     const auto fact = report::facts_of({{column.substr(column.rfind('.') + 1), nullptr}}, {})[0];
     const std::string name = fact["name"], unit = fact["unit"];
-    out += fmt::format("{}{} = {}{}", out.empty() ? "" : ", ", name, value,
-                       unit.empty() ? "" : " " + unit);
+    out += (out.empty() ? "" : ", ") + name;
+    out += is_off(column, value) ? " off"
+                                 : fmt::format(" = {}{}", value, unit.empty() ? "" : " " + unit);
   }
   return out;
 }
@@ -152,7 +167,7 @@ std::string porosity_distance(const StudyTable &table, const StudyGroup &group) 
 nlohmann::json row_of(const StudyTable &table, const StudyGroup &group) {
   nlohmann::json cells = nlohmann::json::array();
   for (const std::string &column : table.settings())
-    cells.push_back(group.settings.at(column));
+    cells.push_back(is_off(column, group.settings.at(column)) ? "off" : group.settings.at(column));
   cells.push_back(fmt::format("{}", group.rows.size()));
   cells.push_back(shown(table.mean_and_sd(group, "max_pressure_MPa"), 1.0, "{:.1f}"));
   for (const double p : table.pressures("broken_fraction"))

@@ -4,12 +4,14 @@
 #include "base/recipe.h"
 #include "base/shown.h"
 #include "report/page.h"
+#include "simulate/collect.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <optional>
 #include <regex>
 
@@ -21,6 +23,8 @@ using nlohmann::json;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kImbalanceThreshold = 5; // MPa
+constexpr const char *kImbalance = "Largest |P top − P bottom| / P",
+                     *kBeyondLaw = "Contact force beyond its law's range";
 /// A run compares with a row of Table 1 when its maximum pressure is this close to the row's.
 constexpr double kSamePressure = 0.02;
 /// The paper's pressures are converted from gaps: at least 10 % uncertain.
@@ -35,13 +39,37 @@ double number_in(const json &object, const char *key) {
 
 json or_null(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
+/// What the labels of the headline stand for.
+std::string meaning_of(const std::string &label) {
+  static const std::map<std::string, std::string> meanings = {
+      {"Maximum pressure", "Largest pressure on the platen."},
+      {"Total porosity before",
+       "Pores between particles and nanopores inside carbon and binder, before pressing."},
+      {"Total porosity at maximum", "Pores that are left under the largest pressure."},
+      {"Total porosity after relaxation",
+       "Pores that are left when the platen has lost contact with the film."},
+      {"Thickness after relaxation", "Of the coating, without the foil."},
+      {"Springback", "By how much the film grows on release, of its thickness under load."},
+      {"Bonds broken at maximum", "Bonds inside particles, of those there were at first."},
+      {"Cracked bodies", "Particles in two fragments or more, each held by intact bonds."},
+      {"CBD nanoporosity", "Pores inside carbon and binder, which the case imposed."},
+      {kImbalance, "Platen and collector should carry the same pressure; in single rows they do "
+                   "not, so these are not quasi-static. A lower platen.speed_m_s helps."},
+      {kBeyondLaw, "This part of the force between particles is carried by overlaps for which the "
+                   "contact law was not compared with anything: it is extrapolated there."}};
+  const auto found = meanings.find(label);
+  return found == meanings.end() ? "" : found->second;
+}
+
 json figure(const char *label, double value, const char *unit, int decimals,
-            const std::string &remark = "") {
+            const std::string &remark = "", double limit = kNaN) {
   return {{"label", label},
           {"value", or_null(value)},
           {"unit", std::isfinite(value) ? unit : ""},
           {"text", shown(value, decimals)},
-          {"remark", remark}};
+          {"remark", remark},
+          {"means", meaning_of(label)},
+          {"exceeded", value > limit}};
 }
 
 double max_pressure(const Run &run) {
@@ -269,14 +297,12 @@ json headline_of(const Run &run) {
   if (s.contains("imposed"))
     figures.push_back(figure("CBD nanoporosity", kPercent * number_in(s["imposed"], "final"), "%",
                              1, s["imposed"].value("what", "imposed")));
-  figures.push_back(figure("Largest |P top − P bottom| / P",
-                           kPercent * worst_imbalance(c, kImbalanceThreshold), "%", 1,
-                           "above 5 MPa; limit 5 %"));
+  figures.push_back(figure(kImbalance, kPercent * worst_imbalance(c, kImbalanceThreshold), "%", 1,
+                           "above 5 MPa; limit 5 %", kPercent * kQuasiStatic));
   const json range = s.value("/contact_range/at_max_pressure/all"_json_pointer, json());
   if (range.is_object())
-    figures.push_back(figure("Contact force beyond its law's range",
-                             kPercent * number_in(range, "force_beyond_law"), "%", 1,
-                             "at maximum pressure"));
+    figures.push_back(figure(kBeyondLaw, kPercent * number_in(range, "force_beyond_law"), "%", 1,
+                             "at maximum pressure; limit 10 %", kPercent * kWarnedShare));
   return figures;
 }
 

@@ -14,8 +14,14 @@ namespace calendem::report {
 /// `value` with `decimals` digits behind the point; a dash when it is not finite.
 std::string shown(double value, int decimals);
 
-/// Array of {label, value, unit, text, remark}.
+/// Array of {label, value, unit, text, remark, means, exceeded}: `means` is what the label stands
+/// for; `exceeded`: a limit of the model's validity is.
 nlohmann::json headline_of(const Run &run);
+
+/// Array of {kind, text}, kind good, bad or none: how the run stands beside Table 1 of the paper,
+/// and which limits of its headline are exceeded.
+nlohmann::json verdict_of(const Run &run, const nlohmann::json &headline,
+                          const nlohmann::json &comparison);
 
 /// {"rows": [{quantity, pressure_MPa, paper, paper_sd, cells: [{run, value, difference, text…}]}]}:
 /// one cell per run.

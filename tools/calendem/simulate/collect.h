@@ -73,7 +73,7 @@ nlohmann::json presses_of(const std::string &folder, const std::vector<RawRow> &
                           const UnionVolume &filled, const ElectrodeFacts &electrode,
                           const Settings &settings);
 
-/// Facts of the run that only its caller knows; 0 ranks: nobody does.
+/// What the caller passes in about the run; ranks = 0: unknown.
 struct RunFacts {
   double wall_clock_s = 0.0; ///< of this call
   double earlier_s = 0.0;    ///< of the calls that this one resumed, as far as they are known

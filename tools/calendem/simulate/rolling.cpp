@@ -26,12 +26,12 @@ double last_line_load(const nlohmann::json &roll) {
   return roll["passes"].back()["line_load_N_mm"].get<double>();
 }
 
-std::vector<Rehearsal> read_rehearsals(const std::string &file) {
-  std::vector<Rehearsal> done;
+std::vector<TrialPassage> read_trials(const std::string &file) {
+  std::vector<TrialPassage> done;
   std::ifstream in(file);
   std::string heading;
   std::getline(in, heading);
-  Rehearsal r;
+  TrialPassage r;
   char comma;
   while (in >> r.gap >> comma >> r.line_load >> comma >> r.touch)
     done.push_back(r);
@@ -47,11 +47,11 @@ struct Level {
 /// The runs that carried something, the widest gap first. A film carries more in a narrower gap;
 /// where single runs say otherwise, breaks scatter them: they count as their mean, so that loads
 /// grow from one level to the next (the pool-adjacent-violators algorithm of isotonic regression).
-std::vector<Level> levels_of(std::vector<Rehearsal> done) {
+std::vector<Level> levels_of(std::vector<TrialPassage> done) {
   std::sort(done.begin(), done.end(),
-            [](const Rehearsal &a, const Rehearsal &b) { return a.gap > b.gap; });
+            [](const TrialPassage &a, const TrialPassage &b) { return a.gap > b.gap; });
   std::vector<Level> levels;
-  for (const Rehearsal &r : done) {
+  for (const TrialPassage &r : done) {
     if (r.line_load <= 0.0)
       continue;
     levels.push_back({r.gap, std::log(r.line_load)});
@@ -77,7 +77,7 @@ std::pair<const Level *, const Level *> nearest(const std::vector<Level> &levels
 
 } // namespace
 
-double next_gap(const std::vector<Rehearsal> &done, double asked, double lowest) {
+double next_gap(const std::vector<TrialPassage> &done, double asked, double lowest) {
   const std::vector<Level> levels = levels_of(done);
   const auto [less, more] = nearest(levels, asked);
   if (less && more)
@@ -92,22 +92,23 @@ double next_gap(const std::vector<Rehearsal> &done, double asked, double lowest)
   return more ? gap : std::fmax(gap, 0.5 * (known.gap + lowest));
 }
 
-Rehearsals::Rehearsals(const std::string &folder, const Settings &asked, double lowest, bool resume)
+LineLoadSearch::LineLoadSearch(const std::string &folder, const Settings &asked, double lowest,
+                               bool resume)
     : file_(folder + kFile), folder_(folder), now_(asked),
       asked_(asked.number("roll.line_load_N_mm")), lowest_(lowest) {
   if (resume)
-    done_ = read_rehearsals(file_);
+    done_ = read_trials(file_);
   else
     std::filesystem::remove(file_);
   set_gap();
 }
 
-void Rehearsals::set_gap() {
+void LineLoadSearch::set_gap() {
   if (!done_.empty())
     now_.set(kGap, fmt::format("{:.4f}", next_gap(done_, asked_, lowest_)));
 }
 
-bool Rehearsals::again() {
+bool LineLoadSearch::next_trial_needed() {
   if (asked_ <= 0.0)
     return false;
   const nlohmann::json roll = roll_passes(read_raw(folder_ + "/curve_raw.csv"), now_);
@@ -120,12 +121,12 @@ bool Rehearsals::again() {
   const double touch = pass["gap_um"].get<double>() +
                        nip.above(pass["contact_length_before_the_nip_um"].get<double>());
   done_.push_back({now_.number(kGap), line_load, touch});
-  if (agrees(line_load, now_) || static_cast<int>(done_.size()) >= kMostRehearsals)
+  if (agrees(line_load, now_) || static_cast<int>(done_.size()) >= kMostTrials)
     return false;
   // before the gap changes: what is left of this run would be gone on with at another
   clear_old_results(folder_);
   std::string text = "gap_um,line_load_N_mm,touch_um\n";
-  for (const Rehearsal &r : done_)
+  for (const TrialPassage &r : done_)
     text += fmt::format("{},{},{}\n", r.gap, r.line_load, r.touch);
   write_file(file_, text);
   set_gap();
@@ -134,7 +135,7 @@ bool Rehearsals::again() {
 
 nlohmann::json rehearsals_in(const std::string &folder) {
   nlohmann::json out = nlohmann::json::array();
-  for (const Rehearsal &r : read_rehearsals(folder + kFile))
+  for (const TrialPassage &r : read_trials(folder + kFile))
     out.push_back({{"gap_um", r.gap}, {"line_load_N_mm", r.line_load}});
   return out;
 }

@@ -113,6 +113,14 @@ LiggghtsJob job_of(const Settings &s, const ElectrodeFacts &e, const RunOptions 
   return job;
 }
 
+/// LIGGGHTS writes a restart file of its own when it is asked to stop, from which nothing goes on.
+void remove_forced_restarts(const std::string &folder) {
+  std::error_code none;
+  for (const auto &entry : fs::directory_iterator(folder, none))
+    if (entry.path().filename().string().rfind("restart_forced_liggghts_", 0) == 0)
+      fs::remove(entry.path(), none);
+}
+
 /// Collects what a failed run has computed; returns what to report to the user.
 std::string keep_what_there_is(const std::string &folder, const Settings &settings,
                                const ElectrodeFacts &electrode, const RunFacts &facts) {
@@ -131,6 +139,8 @@ std::string keep_what_there_is(const std::string &folder, const Settings &settin
   }
   if (std::filesystem::exists(folder + "/running.restart"))
     report += " --resume continues from the newest restart file.";
+  else
+    report += " No restart file was written yet: --resume begins anew.";
   return report;
 }
 
@@ -200,6 +210,7 @@ void simulate(const Settings &settings, const ElectrodeFacts &electrode, const R
   } catch (const Failure &f) {
     const StopRequests not_now; // a second Ctrl-C would lose what is being collected
     stop_watch();
+    remove_forced_restarts(folder);
     stop_if_packed_anew(settings, electrode_hash);
     facts.stopped_because = f.what();
     throw Failure(f.exit_status(), std::string(f.what()) + "\n" +
@@ -238,7 +249,7 @@ void run_case(const Settings &settings, RunOptions o) {
   o.folder = folder;
   make_output_folder(folder, 2 * room_for_next_files(electrode));
   must_not_be(folder, settings.text("electrode"), "the electrode");
-  must_be_ours(folder + "/case.toml", kAsRun);
+  require_own_file(folder + "/case.toml", kAsRun);
   fs::create_directories(folder + "/vtk");
   const FolderLock lock(folder);
   if (holds_this_run(o, settings, hash, electrode_hash)) {
@@ -251,12 +262,12 @@ void run_case(const Settings &settings, RunOptions o) {
   facts.program = hash_of_file(o.liggghts);
   fmt::print("run: {} atoms, {} bonds, {} ranks -> {}\n", electrode.atoms, electrode.bonds, o.ranks,
              folder);
-  Rehearsals rehearsals(folder, settings, lowest_gap(electrode), o.resume);
+  LineLoadSearch search(folder, settings, lowest_gap(electrode), o.resume);
   do {
-    simulate(rehearsals.settings(), electrode, o, electrode_hash, facts);
+    simulate(search.settings(), electrode, o, electrode_hash, facts);
     o.resume = false;
-  } while (rehearsals.again());
-  const nlohmann::json s = collect(folder, rehearsals.settings(), electrode, facts);
+  } while (search.next_trial_needed());
+  const nlohmann::json s = collect(folder, search.settings(), electrode, facts);
   fmt::print("run: maximum {:.1f} MPa, {:.2f} % of bonds broken, total porosity {:.2f} % after "
              "relaxation, {:.0f} s\n",
              s["max_pressure_MPa"].get<double>(), 100 * s["broken_fraction_at_max"].get<double>(),

@@ -99,6 +99,10 @@ std::vector<std::pair<long, double>> write_series(const std::string &folder, dou
     }
     write_file(fmt::format("{}/vtk/{}.pvd", folder, family), text + " </Collection>\n</VTKFile>\n");
   }
+  std::error_code none; // a convenience, which nothing depends on
+  if (!frames.empty())
+    fs::copy_file(input_scripts() + "/paraview/open_in_paraview.py",
+                  folder + "/open_in_paraview.py", fs::copy_options::overwrite_existing, none);
   return frames;
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/pack/measured_bodies.h"
+#include "base/output_folder.h"
 #include "base/provenance.h"
 #include "electrode/pack/body.h"
+#include "electrode/structure/separated_particles.h"
+#include "electrode/structure/slices.h"
 #include "physics/pi.h"
 #include <algorithm>
 #include <fmt/format.h>
@@ -44,10 +47,80 @@ std::vector<double> measured_diameters(const Recipe &r, const ShapeLibrary &l, d
 ShapeLibrary library_of(const Recipe &r) {
   if (r.shapes.image.empty())
     return read_library(r.shapes.library);
-  ShapeLibrary l = make_library(read_label_image(r.shapes.image, r.shapes.voxel_um),
-                                r.shapes.background, r.shapes.image);
+  LabelImage image = read_label_image(r.shapes.image, r.shapes.voxel_um);
+  if (r.shapes.phases.given())
+    image = separate_particles(image, r.shapes.phases, r.shapes.neck);
+  ShapeLibrary l =
+      make_library(image, r.shapes.phases.given() ? 0 : r.shapes.background, r.shapes.image);
   l.source_hash = hash_of_image(r.shapes.image);
   return l;
+}
+
+namespace {
+
+double mean_sphericity(const ShapeLibrary &l) {
+  double sum = 0.0;
+  for (const MeasuredShape &s : l.shapes)
+    sum += s.sphericity / double(l.shapes.size());
+  return sum;
+}
+
+struct Neck {
+  double neck;
+  ShapeLibrary library;
+};
+
+std::string table_of(const std::vector<Neck> &necks) {
+  std::string out = "neck,particles,whole,cut_by_border,fewer_than_200_voxels,D10_um,D50_um,D90_um,"
+                    "sphericity\n";
+  for (const auto &[neck, l] : necks)
+    out += fmt::format("{:g},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.4f}\n", neck, l.labels,
+                       l.shapes.size(), l.cut.size(), l.coarse.size(), l.volume_quantile(0.1),
+                       l.volume_quantile(0.5), l.volume_quantile(0.9), mean_sphericity(l));
+  return out;
+}
+
+// The recipe's neck, one narrower and one wider: where they give like numbers, the cuts are real.
+std::vector<Neck> separate_at_necks(const Recipe &r, const LabelImage &image,
+                                    const std::string &folder) {
+  constexpr double kStep = 0.05;
+  std::vector<Neck> out;
+  for (const double neck : {r.shapes.neck - kStep, r.shapes.neck, r.shapes.neck + kStep}) {
+    if (neck >= 1.0)
+      continue;
+    const LabelImage particles = separate_particles(image, r.shapes.phases, neck);
+    out.push_back({neck, make_library(particles, 0, r.shapes.image)});
+    if (neck != r.shapes.neck)
+      continue;
+    write_library(out.back().library, folder);
+    write_label_image(particles, folder + "/particles.tif");
+    draw_particles(image, r.shapes.phases, particles, folder + "/slices.png");
+  }
+  return out;
+}
+
+} // namespace
+
+void write_shapes(const Recipe &r, const std::string &folder) {
+  if (r.shapes.image.empty())
+    throw Failure(kBadInput, fmt::format("{}: it has no shapes.image that shapes could be taken "
+                                         "from. Give one, or leave --shapes-only out.",
+                                         r.file));
+  make_output_folder(folder);
+  const std::string shapes = folder + "/shapes";
+  if (!r.shapes.phases.given()) {
+    const ShapeLibrary library = library_of(r);
+    write_library(library, shapes);
+    fmt::print("pack: {} shapes of {} labels: {}/shapes.csv\n", library.shapes.size(),
+               library.labels, shapes);
+    return;
+  }
+  const std::string table =
+      table_of(separate_at_necks(r, read_label_image(r.shapes.image, r.shapes.voxel_um), shapes));
+  write_file(shapes + "/necks.csv", table);
+  fmt::print("{0}pack: shapes of neck {1:g}: {2}/shapes.csv, outlines: {2}/slices.png, labels: "
+             "{2}/particles.tif\n",
+             table, r.shapes.neck, shapes);
 }
 
 std::string hash_of_shapes(const Recipe &r) {
@@ -96,9 +169,7 @@ std::vector<Body> make_bodies(const Recipe &recipe, const ShapeLibrary &library)
 
 nlohmann::json describe_shapes(const Recipe &r, const ShapeLibrary &l,
                                const std::vector<Body> &bodies) {
-  double sphericity = 0.0, packed_volume = 0.0;
-  for (const MeasuredShape &s : l.shapes)
-    sphericity += s.sphericity / double(l.shapes.size());
+  double packed_volume = 0.0;
   std::vector<double> volumes;
   for (const Body &b : bodies) {
     volumes.push_back(b.volume);
@@ -122,7 +193,7 @@ nlohmann::json describe_shapes(const Recipe &r, const ShapeLibrary &l,
           {"shapes", l.shapes.size()},
           {"cut_by_border", l.cut.size()},
           {"too_few_voxels", l.coarse.size()},
-          {"sphericity_mean", sphericity},
+          {"sphericity_mean", mean_sphericity(l)},
           {"sizes", r.structure.given()       ? "structure"
                     : r.shapes.measured_sizes ? "measured"
                                               : "recipe"},

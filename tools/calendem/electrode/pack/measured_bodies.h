@@ -12,6 +12,10 @@ namespace calendem {
 /// The library that the recipe's [shapes] asks for: made from the image, or read. Throws
 /// Failure(2).
 ShapeLibrary library_of(const Recipe &recipe);
+/// Writes the shapes of the recipe's image into folder/shapes and prints how many and which. Of an
+/// image of phases also with a narrower and a wider neck, necks.csv, and what shows the particles:
+/// slices.png with their outlines, particles.tif with their labels. Throws Failure(2).
+void write_shapes(const Recipe &recipe, const std::string &folder);
 /// Hash of what library_of() reads.
 std::string hash_of_shapes(const Recipe &recipe);
 

@@ -23,13 +23,16 @@ namespace calendem {
 namespace fs = std::filesystem;
 namespace {
 
-void show_progress(const PackOptions &o, const Recipe &r, std::string &shown) {
+constexpr std::chrono::seconds kBetweenLines(30); // of progress, as `calendem run` has it
+
+/// In one line of a terminal that changes, or line after line in a file.
+void show_progress(const PackOptions &o, const Recipe &r, bool terminal, std::string &shown) {
   const LastRow row = last_row(o.folder + "/packing.csv");
   const std::string text =
       fmt::format("packing: gap {:.1f} um of {:.1f}, platen {:.3f} MPa, kinetic {:.3g} fJ",
                   row.gap_um, r.thickness(), row.pressure_MPa, row.kinetic_fJ);
   if (row.gap_um > 0.0 && text != shown)
-    std::cout << "\r\033[K" << text << std::flush;
+    std::cout << (terminal ? "\r\033[K" : "") << text << (terminal ? "" : "\n") << std::flush;
   shown = text;
 }
 
@@ -51,9 +54,13 @@ void densify(const PackOptions &o, const Recipe &r) {
                    {"ced_cbd_J_m3", fmt::format("{}", m.ced_cbd_J_m3)}};
   const bool terminal = isatty(1);
   std::string shown;
+  auto last = std::chrono::steady_clock::now();
   run_liggghts(job, [&] {
-    if (terminal)
-      show_progress(o, r, shown);
+    const auto now = std::chrono::steady_clock::now();
+    if (!terminal && now - last < kBetweenLines)
+      return;
+    last = now;
+    show_progress(o, r, terminal, shown);
   });
   if (terminal)
     std::cout << "\r\033[K";
@@ -81,7 +88,7 @@ void check_machine(const Recipe &r, const PackOptions &o) {
   mistakes.stop_if_any();
 }
 
-nlohmann::json finish(const PackInput &in, Start &start, const std::string &folder) {
+nlohmann::json finish(const PackInput &in, BodiesToPack &start, const std::string &folder) {
   const Recipe &recipe = in.recipe;
   const std::vector<Body> &bodies = start.made.bodies;
   std::vector<Particle> &particles = start.placed.loose.particles;
@@ -210,7 +217,7 @@ void pack_electrode(const Recipe &as_given, PackOptions o) {
   std::error_code none;
   fs::remove(summary, none);
   fs::remove(o.folder + "/electrode.rejected.json", none);
-  Start start = make_start(in, o.folder);
+  BodiesToPack start = make_bodies_to_pack(in, o.folder);
   densify(o, in.recipe);
   nlohmann::json j = finish(in, start, o.folder);
   j["wall_clock_s"] =
@@ -253,9 +260,9 @@ BodiesOfStructure bodies_with(const PackInput &in, const ShapeLibrary *library) 
 }
 
 // Bodies and, with measured shapes, what electrode.json says of them.
-Start make_all_bodies(const PackInput &in, const std::string &folder) {
+BodiesToPack make_all_bodies(const PackInput &in, const std::string &folder) {
   const Recipe &r = in.recipe;
-  Start out;
+  BodiesToPack out;
   if (!r.shapes.given()) {
     out.made = bodies_with(in, nullptr);
     return out;
@@ -274,9 +281,9 @@ Start make_all_bodies(const PackInput &in, const std::string &folder) {
 
 } // namespace
 
-Start make_start(const PackInput &in, const std::string &folder) {
+BodiesToPack make_bodies_to_pack(const PackInput &in, const std::string &folder) {
   const Recipe &r = in.recipe;
-  Start out = make_all_bodies(in, folder);
+  BodiesToPack out = make_all_bodies(in, folder);
   if (r.structure.given()) {
     out.placed = place_as_in_structure(r, in.structure, out.made);
     write_file(folder + "/structure.csv", structure_table(in.structure, out.made));
@@ -294,7 +301,7 @@ Start make_start(const PackInput &in, const std::string &folder) {
   return out;
 }
 
-void add_origin(nlohmann::json &electrode, const PackInput &in, const Start &start,
+void add_origin(nlohmann::json &electrode, const PackInput &in, const BodiesToPack &start,
                 const std::vector<Pose> &poses) {
   const Recipe &r = in.recipe;
   nlohmann::json shapes = start.shapes;

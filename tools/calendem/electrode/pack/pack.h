@@ -28,7 +28,7 @@ std::string packing_tools(const std::string &liggghts);
 /// targets.
 void pack_electrode(const Recipe &recipe, PackOptions options);
 
-struct Start {
+struct BodiesToPack {
   BodiesOfStructure made; ///< places and ids are empty without a structure
   PlacementOfStructure placed;
   nlohmann::json shapes; ///< of a library, for electrode.json; null: generated
@@ -36,11 +36,11 @@ struct Start {
 
 /// Makes them and writes start.data, bodies.map, electrode.in and what is known already of shapes
 /// and structure into the folder.
-Start make_start(const PackInput &input, const std::string &folder);
+BodiesToPack make_bodies_to_pack(const PackInput &input, const std::string &folder);
 
 /// What describe() says of the recipe's own shapes and sizes gives way to the measured or given
 /// ones.
-void add_origin(nlohmann::json &electrode, const PackInput &input, const Start &start,
+void add_origin(nlohmann::json &electrode, const PackInput &input, const BodiesToPack &start,
                 const std::vector<Pose> &poses);
 
 } // namespace calendem

@@ -149,7 +149,7 @@ void dry_film(const FilmRecipe &f, DryOptions o) {
       place_spheres(f, shaped ? draw_counts(f.recipe, library) : draw_counts(f.recipe));
   check_cell(f, o, start.particles.front().diameter);
   make_output_folder(o.folder);
-  must_be_ours(o.folder + "/electrode.toml", "# The film that `calendem dry` left");
+  require_own_file(o.folder + "/electrode.toml", "# The film that `calendem dry` left");
   std::error_code none;
   fs::remove(summary, none);
   if (shaped)

@@ -207,12 +207,26 @@ template <class Writer> bool write_with(vtkImageData *data, const std::string &f
   return writer->GetErrorCode() == 0;
 }
 
+vtkSmartPointer<vtkImageData> image_of(const LabelImage &image) {
+  const auto data = vtkSmartPointer<vtkImageData>::New();
+  data->SetDimensions(image.n.data());
+  data->SetSpacing(image.voxel.data());
+  vtkNew<vtkIntArray> values;
+  values->SetName("label");
+  values->SetArray(const_cast<int *>(image.label.data()), vtkIdType(image.label.size()), 1);
+  data->GetPointData()->SetScalars(values);
+  return data;
+}
+
 /// VTK's writers do not always say that the disk was full.
-bool write_whole(vtkImageData *data, const std::string &file) {
+bool write_whole(const LabelImage &image, const std::string &file) {
+  if (is_tiff(file))
+    return write_tiff(image, file);
   if (image_ending(file) == ".vti")
-    return write_with<vtkXMLImageDataWriter>(data, file) && ends_with(file, "</VTKFile>");
+    return write_with<vtkXMLImageDataWriter>(image_of(image), file) &&
+           ends_with(file, "</VTKFile>");
   try {
-    const bool written = write_with<vtkMetaImageWriter>(data, file);
+    const bool written = write_with<vtkMetaImageWriter>(image_of(image), file);
     check_meta_image(file);
     return written;
   } catch (const Failure &) {
@@ -221,13 +235,13 @@ bool write_whole(vtkImageData *data, const std::string &file) {
 }
 
 /// Header and data are written in a folder of their own and take their place when they are whole.
-void write_in_place(vtkImageData *data, const std::string &file) {
+void write_in_place(const LabelImage &image, const std::string &file) {
   namespace fs = std::filesystem;
   const fs::path place = place_of(file), folder = part_of(place.string());
   const std::string header = folder / place.filename();
   std::error_code error, none;
   fs::create_directory(folder, error);
-  const bool whole = !error && write_whole(data, header);
+  const bool whole = !error && write_whole(image, header);
   if (whole)
     for (const std::string &part : {data_file_of(header), header})
       if (!part.empty() && !error)
@@ -270,19 +284,13 @@ void refuse_negative_labels(const LabelImage &image,
 }
 
 void write_label_image(const LabelImage &image, const std::string &file) {
-  vtkNew<vtkImageData> data;
-  data->SetDimensions(image.n.data());
-  data->SetSpacing(image.voxel.data());
-  vtkNew<vtkIntArray> values;
-  values->SetName("label");
-  values->SetArray(const_cast<int *>(image.label.data()), vtkIdType(image.label.size()), 1);
-  data->GetPointData()->SetScalars(values);
   const std::string ending = image_ending(file);
-  if (ending != ".vti" && ending != ".mhd" && ending != ".mha")
-    refuse_image(
-        file,
-        fmt::format("'{}' is not written; give a name that ends in .mhd, .mha or .vti.", ending));
-  write_in_place(data, file);
+  if (ending != ".vti" && ending != ".mhd" && ending != ".mha" && !is_tiff(file))
+    refuse_image(file,
+                 fmt::format("'{}' is not written; give a name that ends in .mhd, .mha, .vti or "
+                             ".tif.",
+                             ending));
+  write_in_place(image, file);
 }
 
 namespace fs = std::filesystem;

@@ -36,9 +36,13 @@ LabelImage read_label_image(const std::string &file, double voxel_um = 0.0);
 void refuse_negative_labels(const LabelImage &image,
                             const std::vector<std::optional<std::int32_t>> &known);
 
-/// Writes .mhd (with a .zraw beside it), .mha or .vti. Throws Failure(2) where it cannot, as on a
+/// Writes .mhd (with a .zraw beside it), .mha, .vti or .tif. Throws Failure(2) where it cannot, as on a
 /// full disk; what was there before is kept.
 void write_label_image(const LabelImage &image, const std::string &file);
+
+/// A page for each slice, the smallest type that holds all labels, packed (deflate), sides of a voxel
+/// as ImageJ states them. False where it cannot be written.
+bool write_tiff(const LabelImage &image, const std::string &file);
 
 /// Endings that can be read, for messages.
 std::string readable_images();

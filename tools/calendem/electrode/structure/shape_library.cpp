@@ -116,9 +116,9 @@ ShapeLibrary make_library(const LabelImage &image, std::int32_t background,
     throw Failure(
         kBadInput,
         fmt::format("{}: {} labels beside the background {}, and no whole particle: these "
-                    "look like phases. Shapes need a number for each particle: separate "
-                    "those of the active material first (Fiji: MorphoLibJ > Distance "
-                    "Transform Watershed 3D), or give the right shapes.background.",
+                    "look like phases. Name them, and the active material is separated into "
+                    "particles: shapes.phases = {{ pore = 0, am = 1, cbd = 2 }} (of a binary image "
+                    "without cbd). Else give the right shapes.background.",
                     source, l.labels, background));
   if (l.shapes.empty())
     throw Failure(kBadInput,
