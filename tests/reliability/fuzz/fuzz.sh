@@ -11,8 +11,8 @@ mkdir -p "$2"
 work=$(cd "$2" && pwd)
 cd "$core"
 # The readers, and of the library electrode all that two of them are linked with.
-sources=(base/*.cpp electrode/*.cpp electrode/*/*.cpp simulate/study_file.cpp diagnose/bank/bank_{spec,study,table}.cpp
-  compare/simulated_run.cpp inference/{numerics,quantities}.cpp ../../tests/validation/sealed/{hidden_changes,round_file}.cpp)
+sources=(base/*.cpp electrode/*.cpp electrode/*/*.cpp simulate/study_file.cpp bank/{bank_file,design,runs}.cpp
+  inference/{numerics,quantities}.cpp)
 image_sources=(electrode/structure/{data_rows,image_header,label_image,numpy_image,png_image,tiff_image,tiff_output,vti_header}.cpp
   base/{image_series,messages,provenance}.cpp)
 for source in "${sources[@]}" "${image_sources[@]}"; do # said by every run of the tests, not only by --all
@@ -23,7 +23,7 @@ command -v clang++ >/dev/null || { echo "skipped: no clang++ (Debian: clang, lib
 # -fno-sanitize=unreachable: toml++ states what it assumes with __builtin_unreachable, which UBSan takes for a fault.
 options=(-std=c++17 -g -O1 -DNDEBUG "-fsanitize=fuzzer,address,undefined" -fno-sanitize=unreachable
   -fno-sanitize-recover=undefined -DCALENDEM_VERSION='"fuzz"'
-  -I "$core" -I "$core/../../src_plugin" -I "$core/../../tests/validation" -I /usr/include/eigen3)
+  -I "$core" -I "$core/../../src_plugin" -I /usr/include/eigen3)
 
 vtk=$(find /usr/include -maxdepth 1 -name 'vtk-9*' | head -n 1) # the Debian package; its suffix is that of the libraries
 [ -n "$vtk" ] || { echo "skipped: no headers of VTK in /usr/include"; exit 77; }
@@ -60,7 +60,7 @@ mkdir -p "$work/$target/corpus"
 cd "$work/$target"
 cp "$here/corpus/${target%_}"/* corpus/
 FUZZ_FOLDER=$(mktemp -d -p /dev/shm calendem_fuzz.XXXXXX)
-export FUZZ_FOLDER FUZZ_TARGET=$target
+export FUZZ_FOLDER FUZZ_TARGET=$target FUZZ_BANK=$core/../../input_scripts/cases/films/bank.toml
 trap 'rm -rf "$FUZZ_FOLDER"' EXIT
 "$program" -max_total_time="$seconds" -max_len=8192 -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 corpus \
   >"$target.log" 2>&1 ||

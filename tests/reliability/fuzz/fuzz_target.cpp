@@ -9,17 +9,16 @@
 #include <map>
 #include <string>
 
+#include "bank/runs.h"
 #include "base/case.h"
 #include "base/csv_table.h"
 #include "base/experiment.h"
 #include "base/messages.h"
 #include "base/plain_text.h"
 #include "base/recipe.h"
-#include "diagnose/bank/bank_table.h"
 #include "electrode/slurry/dry.h"
 #include "electrode/structure/existing_structure.h"
 #include "electrode/tomogram.h"
-#include "sealed/round_file.h"
 #include "simulate/study_file.h"
 
 namespace {
@@ -70,6 +69,8 @@ void structure(const std::string &text) {
   source.body_map = text[0] & 16 ? file() : "";
   source.am_types = {1, 2};
   source.cbd_types = {3};
+  source.densities_of_file = !(text[0] & 32);
+  source.side_x = source.side_y = 12.0;
   const calendem::ExistingStructure g = calendem::read_structure(source);
   for (const auto *phase : {&g.am, &g.cbd})
     for (const calendem::ExistingSphere &p : *phase)
@@ -93,28 +94,22 @@ void study(const std::string &text) {
 }
 
 void bank(const std::string &) {
-  const calendem::BankSpec b = calendem::read_bank_spec(file());
-  demand(!b.parameters.empty() && b.packings > 1 && b.effect_points <= b.base_points);
-  for (const calendem::BankParameter &p : b.parameters)
-    demand(p.low < p.high && std::isfinite(p.high - p.low) && !p.keys.empty());
-  for (const double p : b.pressures)
-    demand(p > 0.0 && std::isfinite(p));
+  const calendem::bank::Bank b = calendem::bank::read_bank(file());
+  demand(!b.design.inputs.empty() && b.design.packings > 1 && b.design.points > 0);
+  for (const calendem::bank::Input &i : b.design.inputs)
+    demand(i.low < i.high && std::isfinite(i.high - i.low) && !i.keys.empty());
 }
 
+// A table of the films' bank.
 void bank_table(const std::string &) {
-  calendem::BankSpec spec;
-  spec.parameters = {{"E_am_GPa", {}, 100.0, 300.0}, {"strength_MPa", {}, 200.0, 900.0}};
-  const calendem::BankTable table = calendem::read_bank_table(spec, file());
-  for (const calendem::BankRow &row : table.rows) {
-    demand(row.point.base.size() == 2 && row.point.base_point >= 0 && row.point.packing > 0);
-    for (const double v : row.point.base)
-      demand(std::isfinite(v));
-    demand(std::isfinite(row.point.value) &&
-           row.run.pressure.size() == row.run.displacement.size());
-  }
-  const std::string written = calendem::write_bank_table(table);
+  const calendem::bank::Bank spec = calendem::bank::read_bank(from_environment("FUZZ_BANK"));
+  const calendem::bank::Runs runs = calendem::bank::read_runs(spec, file());
+  for (const calendem::bank::Run &run : runs.runs)
+    demand(run.point.number > 0 && run.point.packing > 0 &&
+           run.point.values.size() == spec.design.inputs.size());
+  const std::string written = calendem::bank::write_runs(runs);
   put(file(), written);
-  demand(calendem::write_bank_table(calendem::read_bank_table(spec, file())) == written);
+  demand(calendem::bank::write_runs(calendem::bank::read_runs(spec, file())) == written);
 }
 
 void film(const std::string &) {
@@ -123,22 +118,6 @@ void film(const std::string &) {
                          f.wet_density(), f.recipe.thickness(), f.tolerance_points})
     demand(v > 0.0 && std::isfinite(v));
   demand(f.wet_diameter() > f.recipe.cbd_diameter);
-}
-
-// A round for a bank that is sound.
-void round_file(const std::string &text) {
-  put(folder() + "/recipe.toml", "seed = 1\n");
-  put(folder() + "/case.toml", "electrode = \"x\"\n");
-  put(file(), "[bank]\nrecipe = \"recipe.toml\"\ncase = \"case.toml\"\npressures_MPa = [80]\n"
-              "packings = 2\nbase_points = 4\neffect_points = 2\n"
-              "[[parameter]]\nname = \"E\"\nkeys = [\"case.material.am.youngs_modulus_GPa\"]\n"
-              "low = 120\nhigh = 300\n");
-  calendem::read_bank_spec(file());
-  std::rename(file().c_str(), (folder() + "/bank.toml").c_str());
-  put(file(), text);
-  const calendem::Round r = calendem::read_round(file());
-  demand(r.null_draws >= r.null_packings && r.amplitudes >= 0);
-  demand(r.least_understated <= r.most_understated);
 }
 
 void tomogram(const std::string &) {
@@ -151,10 +130,10 @@ using Reader = void (*)(const std::string &);
 
 Reader wanted() {
   static const std::map<std::string, Reader> readers = {
-      {"recipe", recipe},     {"case_", case_},           {"experiment", experiment},
-      {"csv", csv},           {"structure", structure},   {"study", study},
-      {"bank", bank},         {"bank_table", bank_table}, {"film", film},
-      {"tomogram", tomogram}, {"round_file", round_file}};
+      {"recipe", recipe},    {"case_", case_},           {"experiment", experiment},
+      {"csv", csv},          {"structure", structure},   {"study", study},
+      {"bank", bank},        {"bank_table", bank_table}, {"film", film},
+      {"tomogram", tomogram}};
   return readers.at(from_environment("FUZZ_TARGET"));
 }
 

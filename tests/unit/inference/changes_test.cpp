@@ -120,7 +120,7 @@ TEST(FittedModel, LeavesTheResidualsOfTheClosedForm) {
   films.problem.effects[1].probability = 0.9;
   SamplerSettings settings;
   settings.particles = 128;
-  const FittedModel model = fit_model(films.problem, effects_of_model(films.problem), settings);
+  const FittedModel model = fit_model(films.problem, effects_of_model(films.problem), 0, settings);
   const Matrix c = films.problem.films[0].measurement;
   const Vector w = films.signatures.col(1);
   const Matrix absorbed = films.slopes * films.slopes.transpose() + 0.09 * w * w.transpose(),

@@ -164,13 +164,6 @@ private:
 
 } // namespace
 
-bool has_points(const std::string &file) {
-  Mistakes none;
-  const TomlFile parsed = parse_toml(file, FileKind::Bank, none);
-  const toml::table *head = parsed.root["bank"].as_table();
-  return head && head->contains("points");
-}
-
 Bank read_bank(const std::string &file) {
   Mistakes mistakes(file, 20);
   Bank out;

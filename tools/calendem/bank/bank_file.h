@@ -50,9 +50,6 @@ struct Bank {
   std::vector<Numerics> numerics;
 };
 
-/// The file's head counts points.
-bool has_points(const std::string &file);
-
 /// Throws Failure(2) with every mistake of the file. Recipe and case are read when runs are made.
 Bank read_bank(const std::string &file);
 

@@ -84,8 +84,8 @@ const std::vector<Key> &condition_keys() {
        "name of the piece that was pressed, if conditions share one; default: each has its own", "",
        true},
       {"pressing", "", "-", 0, 0, "",
-       "how it was pressed, if not in the usual way: name of a [[pressing]] of the bank that "
-       "diagnose learns from",
+       "how it was pressed, if not in the usual way; diagnose and calibrate leave such a condition "
+       "out",
        "", true},
   };
   return keys;

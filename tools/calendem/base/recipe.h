@@ -21,6 +21,9 @@ struct StructureSource {
   std::set<int> am_types, cbd_types, left_out_types;
   bool clusters = false;         ///< AM spheres are primaries of given bodies, else a body each
   bool densities_of_file = true; ///< else the recipe's
+  std::string frame = "last";    ///< of a dump, or its time step
+  double side_x = 0.0,
+         side_y = 0.0; ///< of the recipe's cell, for a table without a box [um]; 0: none
   bool given() const { return !file.empty(); }
 };
 

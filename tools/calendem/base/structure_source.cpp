@@ -102,8 +102,8 @@ void read_units(const Settings &s, StructureSource &out, Mistakes &mistakes) {
 
 const std::vector<Key> &structure_keys() {
   static const std::vector<Key> keys = {
-      {"structure.file", "", "none", 0, 0, "", "LAMMPS or LIGGGHTS data file with the particles",
-       "", true},
+      {"structure.file", "", "none", 0, 0, "",
+       "data file or dump of LAMMPS or LIGGGHTS, or table x y z r, with the particles", "", true},
       {"structure.atom_style", "", "sphere", 0, 0, "",
        "atom_style of the script that wrote the file; hybrid: sphere or granular first",
        "sphere|granular|bpm/sphere|hybrid"},
@@ -125,6 +125,8 @@ const std::vector<Key> &structure_keys() {
        "shapes|clusters"},
       {"structure.body_map", "", "none", 0, 0, "",
        "file with rows 'id body' for clusters; none: molecule ids are used", "", true},
+      {"structure.frame", "", "last", 0, 0, "", "time step of a dump's frame, such as \"65000\"",
+       "", true},
       {"structure.densities", "", "file", 0, 0, "",
        "densities of the particles: those of the file or those of the recipe", "file|recipe"},
   };
@@ -158,6 +160,9 @@ StructureSource read_structure_source(const Settings &s, const std::string &file
   out.am_types = types_of(s, "structure.am_types", mistakes);
   out.cbd_types = types_of(s, "structure.cbd_types", mistakes);
   out.left_out_types = types_of(s, "structure.left_out_types", mistakes);
+  out.frame = s.text("structure.frame");
+  out.side_x = s.line("cell.x_um") > 0 ? s.number("cell.x_um") : 0.0;
+  out.side_y = s.line("cell.y_um") > 0 ? s.number("cell.y_um") : 0.0;
   read_units(s, out, mistakes);
   check_types(s, out, mistakes);
   check_files(s, out, mistakes);

@@ -6,7 +6,6 @@
 #include "base/particle_sizes.h"
 #include "base/toml_reader.h"
 #include "commands/commands.h"
-#include "diagnose/bank/bank_table.h"
 #include "compare/observables.h"
 #include "electrode/pack/from_structure.h"
 #include "electrode/pack/measured_bodies.h"
@@ -87,13 +86,9 @@ std::string name_after_check(const std::string &file) {
   case FileKind::Study:
     return fmt::format("study of {} runs", read_study(file).runs.size());
   case FileKind::Bank: {
-    if (bank::has_points(file)) {
-      const bank::Bank points = bank::read_bank(file);
-      return fmt::format("bank of {} runs",
-                         bank::study_of(points, bank::points_of(points.design)).runs.size());
-    }
-    const BankSpec spec = read_bank_spec(file);
-    return fmt::format("bank of {} runs", pressed_study(spec, bank_runs(spec)).runs.size());
+    const bank::Bank points = bank::read_bank(file);
+    return fmt::format("bank of {} runs",
+                       bank::study_of(points, bank::points_of(points.design)).runs.size());
   }
   case FileKind::Case:
     read_case(file);

@@ -9,8 +9,8 @@ using inference::Matrix;
 using inference::Vector;
 namespace {
 
-constexpr double kRatio = 1.1;   // between points of the loading
-constexpr double kPart = 0.05;   // of the largest pressure, between points of the release
+constexpr double kRatio = 1.1; // between points of the loading
+constexpr double kPart = 0.05; // of the largest pressure, between points of the release
 constexpr double kLast = 1.0 - 1e-9;
 
 std::vector<double> logs(const std::vector<double> &values) {
@@ -25,6 +25,30 @@ Matrix weights_at(const std::vector<double> &x, const std::vector<double> &at) {
   for (std::size_t k = 0; k < at.size(); ++k)
     out.row(Eigen::Index(k)) = cubic_weights(x, at[k]).transpose();
   return out;
+}
+
+/// Weights of the loading at places `x`, which no run has beyond `last`: from the last one that runs
+/// have on, along the line through it and the one before.
+Matrix loading_weights(const std::vector<double> &x, double last, const std::vector<double> &at) {
+  std::vector<double> known;
+  for (const double v : x)
+    if (v <= last)
+      known.push_back(v);
+  Matrix out = Matrix::Zero(Eigen::Index(at.size()), Eigen::Index(x.size()));
+  const auto n = Eigen::Index(known.size());
+  out.leftCols(n) = weights_at(known, at);
+  const double apart = known[std::size_t(n - 1)] - known[std::size_t(n - 2)];
+  for (Eigen::Index k = 0; k < out.rows(); ++k)
+    if (const double beyond = (at[std::size_t(k)] - known.back()) / apart; beyond > 0.0) {
+      out(k, n - 1) = 1.0 + beyond;
+      out(k, n - 2) = -beyond;
+    }
+  return out;
+}
+
+/// Values by weights; those of weight 0 do not matter, even if no run has them.
+Vector weighed(const Matrix &weights, const Vector &values) {
+  return weights * (weights.array() != 0.0).colwise().any().transpose().select(values, 0.0);
 }
 
 /// Shares of the largest pressure at which releases are known, and 1, where nothing is recovered.
@@ -51,7 +75,8 @@ EmulatedRun::EmulatedRun(const FilmBank &bank, const Film &film, double pressure
   for (double p = bank::loading_pressures().front(); p < kLast * pressure; p *= kRatio)
     loading_.push_back(p);
   loading_.push_back(pressure);
-  by_loading_ = weights_at(logs(bank::loading_pressures()), logs(loading_));
+  by_loading_ = loading_weights(logs(bank::loading_pressures()), std::log(bank.pressures().back()),
+                                logs(loading_));
   const std::vector<double> shares = known_shares();
   std::vector<double> at;
   for (double share = shares.front(); share < kLast; share += kPart)
@@ -83,7 +108,7 @@ SimulatedRun EmulatedRun::of(const Vector &outputs) const {
 
   const double before = solid_column_ / (1.0 - porosity_before_);
   const Vector compression =
-      by_loading_ * outputs.segment(bank::loading_output(0, presses_), by_loading_.cols());
+      weighed(by_loading_, outputs.segment(bank::loading_output(0, presses_), by_loading_.cols()));
   const auto at_max = compression.size() - 1;
   out.thickness_at_max = before * (1.0 - compression[at_max]);
   out.porosity_at_max = 1.0 - solid_column_ / out.thickness_at_max;
@@ -98,9 +123,9 @@ SimulatedRun EmulatedRun::of(const Vector &outputs) const {
   Vector recovered = Vector::Zero(by_release_.rows());
   for (std::size_t p = 0; p < presses_; ++p)
     if (by_press_[Eigen::Index(p)] != 0.0)
-      recovered += by_press_[Eigen::Index(p)] *
-                   (by_release_ * outputs.segment(bank::release_output(p, 0, presses_),
-                                                  by_release_.cols()));
+      recovered +=
+          by_press_[Eigen::Index(p)] *
+          (by_release_ * outputs.segment(bank::release_output(p, 0, presses_), by_release_.cols()));
   out.release_pressure = release_;
   for (const double r : recovered)
     out.release_displacement.push_back(out.displacement.back() - r * out.thickness_at_max);

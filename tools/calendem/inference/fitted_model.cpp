@@ -76,29 +76,36 @@ double gap_of(const Vector &residual, const Vector &sd, const std::vector<Block>
 
 } // namespace
 
-PosteriorProblem problem_of_model(const PosteriorProblem &problem, const std::vector<int> &acting) {
+Matrix with_others_off(const Matrix &amplitudes, const std::vector<int> &acting,
+                       std::size_t effects) {
+  Matrix out = Matrix::Constant(Index(effects), amplitudes.cols(), kOff);
+  out(acting, Eigen::all) = amplitudes;
+  return out;
+}
+
+PosteriorProblem problem_of_model(const PosteriorProblem &problem, const std::vector<int> &acting,
+                                  int film) {
   PosteriorProblem out = problem;
-  const auto spread = [acting, all = problem.effects.size()](const Matrix &amplitudes) {
-    Matrix wide = Matrix::Constant(Index(all), amplitudes.cols(), kOff);
-    wide(acting, Eigen::all) = amplitudes;
-    return wide;
-  };
   out.effects.clear();
   for (const int e : acting) {
     out.effects.push_back(problem.effects[std::size_t(e)]);
     out.effects.back().probability = 1.0;
   }
   out.understated = 0.0;
-  for (FilmData &film : out.films)
-    film.discrepancy.resize(0, 0), film.shared_discrepancy.resize(0, 0);
-  out.predict = [spread, predict = problem.predict](int film, const Matrix &scores,
-                                                    const Matrix &amplitudes) {
-    return predict(film, scores, spread(amplitudes));
+  for (FilmData &of : out.films)
+    of.discrepancy.resize(0, 0), of.shared_discrepancy.resize(0, 0);
+  out.predict = [acting, film, effects = problem.effects, predict = problem.predict](
+                    int of, const Matrix &scores, const Matrix &amplitudes) {
+    Matrix all = with_others_off(amplitudes, acting, effects.size());
+    for (std::size_t e = 0; e < effects.size() && of != film; ++e)
+      if (effects[e].of_film)
+        all.row(Index(e)).setConstant(kOff);
+    return predict(of, scores, all);
   };
   if (problem.other_data)
-    out.other_data = [spread, other = problem.other_data](int material, const Matrix &scores,
-                                                          const Matrix &amplitudes) {
-      return other(material, scores, spread(amplitudes));
+    out.other_data = [acting, all = problem.effects.size(), other = problem.other_data](
+                         int material, const Matrix &scores, const Matrix &amplitudes) {
+      return other(material, scores, with_others_off(amplitudes, acting, all));
     };
   return out;
 }
@@ -111,9 +118,9 @@ std::vector<int> effects_of_model(const PosteriorProblem &problem) {
   return out;
 }
 
-FittedModel fit_model(const PosteriorProblem &problem, const std::vector<int> &acting,
+FittedModel fit_model(const PosteriorProblem &problem, const std::vector<int> &acting, int film,
                       const SamplerSettings &settings) {
-  const PosteriorProblem alone = problem_of_model(problem, acting);
+  const PosteriorProblem alone = problem_of_model(problem, acting, film);
   FittedModel out;
   out.acting = acting;
   out.posterior = sample_posterior(alone, settings);

@@ -8,9 +8,14 @@
 
 namespace calendem::inference {
 
-/// The problem in which these effects (places) act for certain and nothing else. Effects of the new
-/// problem are these, in their order.
-PosteriorProblem problem_of_model(const PosteriorProblem &problem, const std::vector<int> &acting);
+/// The problem in which these effects (places) act for certain and nothing else; faults in one film
+/// alone. Effects of the new problem are these, in their order.
+PosteriorProblem problem_of_model(const PosteriorProblem &problem, const std::vector<int> &acting,
+                                  int film);
+
+/// Amplitudes of all effects of a problem, of which only these have one.
+Matrix with_others_off(const Matrix &amplitudes, const std::vector<int> &acting,
+                       std::size_t effects);
 
 /// Effects of the user's model: `is_of_model`.
 std::vector<int> effects_of_model(const PosteriorProblem &problem);
@@ -25,7 +30,7 @@ struct FittedModel {
   /// makes up for, C - cov(prediction over the draws); exact if all is linear and normal.
   Matrix expected;
 };
-FittedModel fit_model(const PosteriorProblem &problem, const std::vector<int> &acting,
+FittedModel fit_model(const PosteriorProblem &problem, const std::vector<int> &acting, int film,
                       const SamplerSettings &settings);
 
 /// What is left of a block of data.

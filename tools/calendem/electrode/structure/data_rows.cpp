@@ -87,7 +87,7 @@ std::string unpacked_text(const std::string &file, Mistakes &mistakes) {
   if (in)
     gzerror(in.get(), &state);
   if (!in || text.empty())
-    mistakes.add(0, "cannot be read or is empty. Give a data file of LAMMPS or LIGGGHTS.");
+    mistakes.add(0, "cannot be read or is empty. Give a data file or dump of LAMMPS or LIGGGHTS.");
   else if (read < 0 || (state != Z_OK && state != Z_STREAM_END))
     mistakes.add(0, "does not unpack (gzip): it is cut or damaged. Copy it again.");
   return text;
@@ -99,8 +99,9 @@ std::string columns_name(const std::string &atom_style) {
 
 std::string columns_of(const std::string &atom_style) { return columns(atom_style).names; }
 
-AtomRows::AtomRows(const std::string &atom_style, Mistakes &mistakes)
-    : style_(atom_style), mistakes_(mistakes) {}
+AtomRows::AtomRows(const std::string &atom_style, Mistakes &mistakes, const std::string &columns)
+    : style_(atom_style), columns_(columns.empty() ? columns_of(atom_style) : columns),
+      mistakes_(mistakes) {}
 
 bool AtomRows::has_its_columns(int line, size_t words) {
   const Columns &c = columns(style_);
@@ -145,7 +146,7 @@ void AtomRows::read(int line, std::vector<std::string> words, long types) {
   for (int axis = 0; flags && axis < 3; ++axis)
     row.whole("image flag", words.size() - 3 + axis, -1000000, 1000000);
   if (!row.wrong().empty()) {
-    mistakes_.add(line, fmt::format("{} (columns: {}).", row.wrong(), c.names));
+    mistakes_.add(line, fmt::format("{} (columns: {}).", row.wrong(), columns_));
     return;
   }
   const auto [seen, fresh] = line_of_id_.emplace(p.id, line);

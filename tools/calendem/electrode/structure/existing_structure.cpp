@@ -103,8 +103,11 @@ void sort_by_id(std::vector<ExistingSphere> &spheres) {
 
 ExistingStructure read_structure(const StructureSource &s) {
   Mistakes mistakes(s.file, kMostListed), in_map(s.body_map, kMostListed);
-  const ParticleData data = read_particle_data(
-      s.file, {s.atom_style, s.length_um, s.density_g_cm3, s.z_periodic}, mistakes);
+  const ParticleData data =
+      read_particle_data(s.file,
+                         {s.atom_style, s.length_um, s.density_g_cm3, s.z_periodic,
+                          s.densities_of_file, s.frame, s.side_x, s.side_y},
+                         mistakes);
   check_types(s, data, mistakes);
   ExistingStructure g;
   g.lx = data.box.x();

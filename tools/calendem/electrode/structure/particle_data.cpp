@@ -64,13 +64,7 @@ public:
   ParticleData finish(bool ends_with_newline) {
     header_.check();
     check_counts(ends_with_newline);
-    ParticleData out;
-    out.box = format_.length_um * (header_.high() - header_.low());
-    out.molecules = atoms_.molecules();
-    for (DataParticle &p : atoms_.good())
-      if (put_into_box(p))
-        out.particles.push_back(p);
-    return out;
+    return in_the_box(atoms_, header_.low(), header_.high(), format_, mistakes_);
   }
   const std::string &style() const { return style_; }
 
@@ -117,66 +111,73 @@ private:
                                    "cut. Give the whole file.",
                                    rows_["Velocities"], announced));
   }
-
-  // From the box's corner, in um and g/cm3; false if it lies where it cannot.
-  bool put_into_box(DataParticle &p) {
-    constexpr double kRounding = 1e-6, kFarthest = 1e4; // in sides of the box
-    p.diameter *= format_.length_um;
-    p.density *= format_.density_g_cm3;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double lo = header_.low()[axis], hi = header_.high()[axis], side = hi - lo;
-      const double from = p.x[axis] - lo;
-      const bool periodic = axis < 2 || format_.z_periodic;
-      if (!std::isfinite(side)) // reported already
-        return false;
-      if (std::fabs(from - 0.5 * side) > (periodic ? kFarthest : 0.5 + kRounding) * side) {
-        const char name = char('x' + axis);
-        mistakes_.add(p.line, fmt::format("particle {} lies outside the box: {} = {:g}, {}lo and "
-                                          "{}hi are {:g} and {:g}{}.",
-                                          p.id, name, p.x[axis], name, name, lo, hi,
-                                          periodic ? ", more than 10000 boxes away"
-                                                   : ", not periodic. Give structure.boundary as "
-                                                     "in the script, or the right box"));
-        return false;
-      }
-      p.x[axis] = format_.length_um * (periodic ? from - side * std::floor(from / side) : from);
-    }
-    return true;
-  }
 };
 
 } // namespace
 
 namespace {
 
-// What a file is that is none of a structure, and what to do; empty: it may be one.
-std::string other_kind(const std::string &text) {
-  const std::string first = text.substr(0, std::min(text.find('\n'), size_t(200)));
-  if (first.rfind("ITEM:", 0) == 0)
-    return "this is a dump, which has neither all densities nor the types' number: write the "
-           "structure with write_data (of a dump: read_dump, then write_data).";
-  if (const PlainText plain = plain_text(text.substr(0, 200));
-      !plain.wrong.empty() || plain.encoding == "UTF-16")
-    return "this is no data file: it " +
-           (plain.wrong.empty() ? "is UTF-16. Save it as UTF-8." : plain.wrong);
-  if (first.find(',') != std::string::npos && first.find_first_of("xX") != std::string::npos &&
-      text.find("Atoms") == std::string::npos)
-    return fmt::format(
-        "this is a table ('{}') without a box. Write a data file: 'N atoms', 'N atom "
-        "types', the box, then Atoms with the rows id type diameter density x y z.",
-        first.substr(0, 60));
-  return "";
+constexpr const char *kColumnsAreNamed = "by the file itself";
+
+// False for a row that lies where it cannot.
+bool put_into_box(DataParticle &p, const Eigen::Vector3d &low, const Eigen::Vector3d &high,
+                  const DataFormat &format, Mistakes &mistakes) {
+  constexpr double kRounding = 1e-6, kFarthest = 1e4; // in sides of the box
+  p.diameter *= format.length_um;
+  p.density *= format.density_g_cm3;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double lo = low[axis], hi = high[axis], side = hi - lo;
+    const double from = p.x[axis] - lo;
+    const bool periodic = axis < 2 || format.z_periodic;
+    if (!std::isfinite(side)) // reported already
+      return false;
+    if (std::fabs(from - 0.5 * side) > (periodic ? kFarthest : 0.5 + kRounding) * side) {
+      const char name = char('x' + axis);
+      mistakes.add(p.line, fmt::format("particle {} lies outside the box: {} = {:g}, {}lo and "
+                                       "{}hi are {:g} and {:g}{}.",
+                                       p.id, name, p.x[axis], name, name, lo, hi,
+                                       periodic ? ", more than 10000 boxes away"
+                                                : ", not periodic. Give structure.boundary as "
+                                                  "in the script, or the right box"));
+      return false;
+    }
+    p.x[axis] = format.length_um * (periodic ? from - side * std::floor(from / side) : from);
+  }
+  return true;
 }
 
 } // namespace
 
+ParticleData in_the_box(AtomRows &rows, const Eigen::Vector3d &low, const Eigen::Vector3d &high,
+                        const DataFormat &format, Mistakes &mistakes) {
+  ParticleData out;
+  out.box = format.length_um * (high - low);
+  out.molecules = rows.molecules();
+  for (DataParticle &p : rows.good())
+    if (put_into_box(p, low, high, format, mistakes))
+      out.particles.push_back(p);
+  return out;
+}
+
 ParticleData parse_particle_data(const std::string &file, const DataFormat &format,
                                  std::string &style, Mistakes &mistakes) {
   const std::string text = unpacked_text(file, mistakes);
-  if (const std::string kind = other_kind(text); !kind.empty()) {
-    mistakes.add(0, kind);
+  const PlainText plain = plain_text(text.substr(0, 200));
+  if (!plain.wrong.empty() || plain.encoding == "UTF-16") {
+    mistakes.add(0, "this is no data file: it " +
+                        (plain.wrong.empty() ? "is UTF-16. Save it as UTF-8." : plain.wrong));
     return {};
   }
+  style = "";
+  if (const ParticleFile kind = kind_of_particle_file(text); kind != ParticleFile::Data) {
+    style = kColumnsAreNamed;
+    return kind == ParticleFile::Dump ? parse_dump(text, format, mistakes)
+                                      : parse_sphere_table(text, format, mistakes);
+  }
+  if (format.frame != "last")
+    mistakes.add(0, fmt::format("structure.frame is \"{}\", but a data file has one frame. Remove "
+                                "it, or give a dump.",
+                                format.frame));
   std::istringstream in(text);
   Reader reader(format, mistakes);
   std::string line;
@@ -194,7 +195,8 @@ ParticleData read_particle_data(const std::string &file, const DataFormat &forma
   std::string style;
   const ParticleData data = parse_particle_data(file, format, style, mistakes);
   const int before = mistakes.count();
-  check_columns(file, format, style, data, mistakes);
+  if (style != kColumnsAreNamed)
+    check_columns(file, format, style, data, mistakes);
   if (mistakes.count() == before)
     check_units(format, data, mistakes);
   return data;

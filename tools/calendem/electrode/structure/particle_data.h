@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Data files of LAMMPS and LIGGGHTS (read_data, write_data) that hold spheres, and whether a file
-// can have the columns and the units that its user states.
+// Spheres of LAMMPS and LIGGGHTS (data files, dumps) and of tables x y z r, and whether a file can
+// have the columns and the units that its user states.
 #ifndef CALENDEM_ELECTRODE_STRUCTURE_PARTICLE_DATA_H
 #define CALENDEM_ELECTRODE_STRUCTURE_PARTICLE_DATA_H
 
@@ -22,6 +22,9 @@ struct DataFormat {
   double length_um = 1.0;            ///< one unit of length
   double density_g_cm3 = 1.0;        ///< one unit of density
   bool z_periodic = false;           ///< x and y always are
+  bool densities = true;             ///< wanted; else those that a dump or table lacks are 1 g/cm3
+  std::string frame = "last";        ///< of a dump, or its time step
+  double side_x = 0.0, side_y = 0.0; ///< of a table's box [um]; 0: not known
 };
 
 struct DataParticle {
@@ -48,6 +51,18 @@ std::string columns_of(const std::string &atom_style);
 ParticleData read_particle_data(const std::string &file, const DataFormat &format,
                                 Mistakes &mistakes);
 
+/// What its first line says.
+enum class ParticleFile { Data, Dump, Table };
+ParticleFile kind_of_particle_file(const std::string &text);
+
+/// A frame of a dump, whose columns are named. Further mistakes: another box than the stated
+/// boundary, a frame that is not there or cut, columns that lack place, size, type or density.
+ParticleData parse_dump(const std::string &text, const DataFormat &format, Mistakes &mistakes);
+/// A table whose header names x, y, z and r or d; ids are the rows' numbers and types 1 where it
+/// names none. Its box has the sides of the format and no height.
+ParticleData parse_sphere_table(const std::string &text, const DataFormat &format,
+                                Mistakes &mistakes);
+
 /// As read_particle_data(), without these checks; `style`: what stands behind `Atoms #`.
 ParticleData parse_particle_data(const std::string &file, const DataFormat &format,
                                  std::string &style, Mistakes &mistakes);
@@ -72,7 +87,8 @@ std::string columns_name(const std::string &atom_style);
 
 class AtomRows {
 public:
-  AtomRows(const std::string &atom_style, Mistakes &mistakes);
+  /// `columns`: for messages, those of the file where they are not the style's.
+  AtomRows(const std::string &atom_style, Mistakes &mistakes, const std::string &columns = "");
 
   /// Rows may name the type so (section Atom Type Labels).
   void name_type(const std::string &number, const std::string &label) {
@@ -86,7 +102,7 @@ public:
   std::vector<DataParticle> &good() { return good_; } ///< in the units of the file
 
 private:
-  std::string style_;
+  std::string style_, columns_;
   Mistakes &mistakes_;
   size_t rows_ = 0, width_ = 0;
   bool molecules_ = false;
@@ -97,6 +113,11 @@ private:
 
   bool has_its_columns(int line, size_t words);
 };
+
+/// The good rows in um and g/cm3 from the corner `low` of the box, those in it where it is periodic; a
+/// mistake for each that lies outside where it is not.
+ParticleData in_the_box(AtomRows &rows, const Eigen::Vector3d &low, const Eigen::Vector3d &high,
+                        const DataFormat &format, Mistakes &mistakes);
 
 /// The bytes of a file, unpacked if it is packed by gzip. A mistake where it is cut.
 std::string unpacked_text(const std::string &file, Mistakes &mistakes);
