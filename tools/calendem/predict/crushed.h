@@ -8,8 +8,8 @@
 
 namespace calendem {
 
-/// How wrong the model may be of all loads of one material, standard deviation of ln: its particles
-/// are cubic lattices, which break at up to nine times the load if they are turned. An estimate.
+/// How wrong the model may be of all loads of one material, standard deviation of ln: the grains of a
+/// powder are not the model's. An estimate.
 constexpr double kCrushingModel = 0.3;
 
 /// Adds the crushing loads of an experiment. What is left out is reported in `not_said`.
