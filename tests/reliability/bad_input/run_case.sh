@@ -65,9 +65,11 @@ ended() { # the exit status of the run in the background, what it said
   ! pgrep -af "^[^ ]*/(liggghts|calendem) .*$work/" || fail "that goes on, nobody waits for it"
   return $status
 }
-ended_within_5_s() { # as ended, but what it had begun may take that long
+killed_within_5_s() { # by SIGKILL, and what it had begun ends by itself
+  local status=0
   for _ in $(seq 50); do [ -z "$(ranks_of_run)" ] || sleep 0.1; done
-  ended
+  ended || status=$?
+  [ $status -eq 137 ]
 }
 stopped_run() { # in run/: a run that was stopped after two restart files
   begin --ranks 1

@@ -155,4 +155,23 @@ TEST(Presses, HaveWhatEachLeft) {
 // Requirement: a curve without rows is no reason to lose the rest of a summary.
 TEST(Presses, OfNoCurveThereAreNone) { EXPECT_TRUE(two_presses({}, 0).empty()); }
 
+// Requirement: what people want of a run stands first; nothing is lost.
+TEST(Summary, BeginsWithTheNumbersThatAreAskedForMost) {
+  const std::string folder = calendem_test::test_folder().string();
+  const nlohmann::json summary = {{"atom_steps_per_second", 5},
+                                  {"bodies", 3},
+                                  {"springback", 0.1},
+                                  {"max_pressure_MPa", 150.0},
+                                  {"zeta", {1, 2}}};
+  write_summary(folder, summary);
+  const std::string text = text_of_file(folder + "/summary.json");
+  EXPECT_EQ(nlohmann::json::parse(text), summary);
+  const nlohmann::ordered_json written = nlohmann::ordered_json::parse(text);
+  std::vector<std::string> keys;
+  for (const auto &item : written.items())
+    keys.push_back(item.key());
+  EXPECT_EQ(keys, (std::vector<std::string>{"max_pressure_MPa", "springback", "bodies",
+                                            "atom_steps_per_second", "zeta"}));
+}
+
 } // namespace

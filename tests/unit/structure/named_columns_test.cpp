@@ -184,6 +184,15 @@ TEST(SphereTables, HaveTheBoxOfTheRecipe) {
   }
 }
 
+// calendem pack writes such a title.
+TEST(SphereTables, ADataFileWhoseTitleNamesItsColumnsIsNone) {
+  const ParticleData d = read_named("film; micro units: id type diameter density x y z\n\n1 atoms\n"
+                                    "1 atom types\n0 9 xlo xhi\n0 8 ylo yhi\n0 7 zlo zhi\n\n"
+                                    "Atoms\n\n1 1 4 4.65 1 2 3\n");
+  ASSERT_EQ(d.particles.size(), 1u);
+  EXPECT_EQ(d.box, Eigen::Vector3d(9, 8, 7));
+}
+
 TEST(SphereTables, SayWhatTheyLack) {
   const std::string text = "type,x,y,z,r\n1,1,2,3,2.2\n";
   expect_parts(said_of(text), {"no box", "cell.x_um and cell.y_um",

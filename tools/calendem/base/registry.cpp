@@ -135,17 +135,23 @@ size_t in_common(const std::string &a, const std::string &b) {
 } // namespace
 
 std::string likely_meant(const std::string &name, const std::vector<Key> &keys) {
-  const std::string last = last_part(name);
-  std::vector<std::string> same, all, like;
+  const std::string last = last_part(name), table = name.substr(0, name.size() - last.size());
+  const std::set<std::string> words = words_of(last);
+  std::vector<std::string> longer, same, all, like;
   size_t most = 0;
   for (const Key &key : keys) {
+    const std::set<std::string> of_key = words_of(last_part(key.name));
+    if (key.name.rfind(table, 0) == 0 &&
+        std::includes(of_key.begin(), of_key.end(), words.begin(), words.end()))
+      longer.push_back(key.name);
     if (last_part(key.name) == last || key.variable == last)
       same.push_back(key.name);
     all.push_back(key.name);
     most = std::max(most, in_common(name, key.name));
   }
-  if (!same.empty())
-    return closest(name, same);
+  for (const auto &candidates : {longer, same})
+    if (!candidates.empty())
+      return closest(name, candidates);
   const std::string spelt = closest(name, all);
   if (edit_distance(name, spelt) <= kMostTypingErrors)
     return spelt;

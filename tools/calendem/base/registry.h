@@ -27,8 +27,8 @@ int edit_distance(const std::string &a, const std::string &b);
 /// What stands behind the last dot of a key's name.
 std::string last_part(const std::string &name);
 
-/// The key that a user who wrote `name` most likely meant: the same last part in another table, the
-/// input scripts' name of it, a typing error or two, else the one with most words in common.
+/// The key that a user who wrote `name` most likely meant: all its words in its table, its last part
+/// in another, the input scripts' name of it, a typing error, else most words in common.
 std::string likely_meant(const std::string &name, const std::vector<Key> &keys);
 
 /// Throws Failure(2) with the names there are.

@@ -34,6 +34,7 @@ void add_measure_verb(CLI::App &app);   ///< measure DIR|IMAGE -o OUT
 void add_sample_verb(CLI::App &app);    ///< sample DIR... --one gap|pressure -o DIR
 void add_press_verb(CLI::App &app);     ///< press RAW.csv... -o CURVE.csv --diameter-mm D
 void add_report_verb(CLI::App &app);    ///< report DIR... [-o FILE.html]
+void add_export_verb(CLI::App &app);    ///< export RUN [--bpx FILE] [--lammps FILE] [--phases FILE]
 void add_compare_verb(CLI::App &app);   ///< compare EXPERIMENT.toml DIR... -o DIR
 void add_diagnose_verb(CLI::App &app);  ///< diagnose EXPERIMENT.toml -o DIR [--bank BANK.toml]
 void add_calibrate_verb(CLI::App &app); ///< calibrate EXPERIMENT.toml... -o DIR [--bank BANK.toml]

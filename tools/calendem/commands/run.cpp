@@ -130,7 +130,7 @@ void collect_folder(const std::string &folder, const std::string &electrode) {
   nlohmann::json s = collect(folder, settings, facts, {});
   if (before.is_object() && before.value("steps", s["steps"]) == s["steps"]) {
     keep_what_run_knew(before, s);
-    write_file(folder + "/summary.json", s.dump(2) + "\n");
+    write_summary(folder, s);
   }
   fmt::print("collect: {} rows of the run up to {:.1f} MPa, {:.2f} % of bonds broken, {}\n",
              read_raw(folder + "/curve_raw.csv").size(), s["max_pressure_MPa"].get<double>(),

@@ -113,6 +113,10 @@ ParticleFrame read_particles(const std::string &file, Mistakes &mistakes) {
     frame.radius.push_back(radius->GetTuple1(i));
     frame.body.push_back(static_cast<int>(std::lround(body->GetTuple1(i))));
   }
+  for (const auto &[name, to] : {std::pair("id", &frame.tag), std::pair("type", &frame.type)})
+    if (vtkDataArray *values = data->GetPointData()->GetArray(name))
+      for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+        to->push_back(static_cast<int>(std::lround(values->GetTuple1(i))));
   return frame;
 }
 

@@ -25,7 +25,8 @@ struct FrameFile {
 struct ParticleFrame {
   std::vector<Point> centre;
   std::vector<double> radius;
-  std::vector<int> body; ///< 0 = CBD
+  std::vector<int> body;      ///< 0 = CBD
+  std::vector<int> tag, type; ///< empty: not in the file
 };
 
 struct BondFrame {

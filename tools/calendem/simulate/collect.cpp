@@ -366,9 +366,21 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
   if (settings.number("roll.line_load_N_mm") > 0.0)
     s["roll"]["rehearsals"] = rehearsals_in(folder);
   s["energy_fJ"] = energy_ledger(rows, top);
-  write_file(folder + "/summary.json", s.dump(2) + "\n");
+  write_summary(folder, s);
   warn(s, folder);
   return s;
+}
+
+void write_summary(const std::string &folder, const nlohmann::json &summary) {
+  nlohmann::ordered_json out;
+  for (const char *key :
+       {"max_pressure_MPa", "porosity_initial", "porosity_at_max", "porosity_after_relaxation",
+        "thickness_at_max_um", "thickness_after_relaxation_um", "springback",
+        "broken_fraction_at_max", "cracked_bodies", "bodies"})
+    if (summary.contains(key))
+      out[key] = summary[key];
+  out.update(nlohmann::ordered_json(summary)); // the others follow in the order of their names
+  write_file(folder + "/summary.json", out.dump(2) + "\n");
 }
 
 void stop_if_checks_failed(const nlohmann::json &summary, const std::string &folder) {

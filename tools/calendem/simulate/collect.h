@@ -91,6 +91,9 @@ struct RunFacts {
 nlohmann::json collect(const std::string &folder, const Settings &settings,
                        const ElectrodeFacts &electrode, const RunFacts &facts);
 
+/// summary.json, which begins with the numbers that are asked for most.
+void write_summary(const std::string &folder, const nlohmann::json &summary);
+
 /// Throws Failure(4) with the summary's failed checks, if there are any.
 void stop_if_checks_failed(const nlohmann::json &summary, const std::string &folder);
 

@@ -4,6 +4,7 @@
 #include "base/output_folder.h"
 #include "base/provenance.h"
 #include "base/run_folder.h"
+#include "simulate/collect.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -390,7 +391,7 @@ void make_sample(const std::vector<std::string> &runs, OneFor shared, const std:
   write_file(folder + "/curve.csv", sample.curve());
   write_file(folder + "/electrode.json", electrode.dump(2) + "\n");
   write_file(folder + "/case.toml", case_of(cells, sample));
-  write_file(folder + "/summary.json", summary.dump(2) + "\n");
+  write_summary(folder, summary);
   fmt::print("sample: {} cells under one {}, {:.2f} mg/cm2, {:.1f} MPa at {:.2f} um, {:.2f} um and "
              "{:.2f} % porosity after release -> {}\n",
              cells.size(), what["one"].get<std::string>(),

@@ -268,8 +268,10 @@ ParticleFile kind_of_particle_file(const std::string &text) {
   std::replace_if(
       names.begin(), names.end(), [](char c) { return std::strchr(",;\"#%", c) != nullptr; }, ' ');
   const NamedColumns columns(words_of(names));
-  return columns.missing(false, false).empty() && columns.has({"x"}) && columns.has({"y"}) &&
-                 columns.has({"z"})
+  constexpr size_t kHead = 2000; // bytes; the title of a data file may name its columns
+  const bool announces_atoms = text.substr(0, kHead).find(" atoms") != std::string::npos;
+  return !announces_atoms && columns.missing(false, false).empty() && columns.has({"x"}) &&
+                 columns.has({"y"}) && columns.has({"z"})
              ? ParticleFile::Table
              : ParticleFile::Data;
 }
