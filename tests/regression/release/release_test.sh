@@ -72,7 +72,7 @@ case $1 in
     bin=$2 work=$3 electrode=$3/electrode
     settings=(-var speed_m_s 2 -var touch_speed_m_s 2 -var vtk_every_us 1000 -var restart_every_us 1000)
     mkdir -p "$work"
-    "$bin/calendem" pack "$scripts/cases/bank/electrode.toml" -o "$electrode" --ranks 1 --force
+    "$bin/calendem" pack "$scripts/cases/films/electrode.toml" -o "$electrode" --ranks 1 --force
     rm -rf "$work/pressed"
     mkdir -p "$work/pressed/vtk"
     script in.compression "$work/pressed" "${settings[@]}"

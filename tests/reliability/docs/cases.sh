@@ -39,7 +39,7 @@ readmes_name_files() {
   grep -oE '`(base|electrode|simulate|measure|report|diagnose|predict|commands)/[a-z_/]+`' -r "$folder" --include=README.md |
     tr -d '`' | while IFS=: read -r page name; do compgen -G "$folder/$name*" >/dev/null || echo "$page: $name"; done |
     report "these are not there"
-  for folder in report diagnose/inference; do
+  for folder in report; do
     page=tools/calendem/$folder/README.md
     grep -q '^| file |' "$page" || { echo "FAILED: $page has no table of files"; exit 1; }
     awk -F'|' '/^\| file \|/ { on = 1 } !/^\|/ { on = 0 } on { print $2 }' "$page" | { grep -oE '`[a-z_./]+`' || true; } | tr -d '`' |

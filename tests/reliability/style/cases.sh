@@ -45,9 +45,7 @@ includes_point_one_way() { # physics <- laws <- liggghts, tools/calendem; tests 
   done
   cxx_files | matching '^tools/calendem/' | cut -d/ -f3- | sed 's:/*[^/]*$::' | sort -u |
     without "^($known)?$" | report "folders of tools/calendem that have no place in the order of includes" || exit 1
-  includes tools/calendem | matching '<(gtest|gmock|benchmark)/' | report "tools/calendem must not include tests" || exit 1
-  { grep -rnE 'tests/validation|calendem_sealed|(^|[^a-z_.])sealed[/)]' src_plugin tools --include='*.h' --include='*.cpp' \
-    --include=CMakeLists.txt || true; } | report "programs of tests/validation test the products, which must not know them"
+  includes tools/calendem | matching '<(gtest|gmock|benchmark)/' | report "tools/calendem must not include tests"
 }
 named_files_exist() { # those that heads of laws name, and pages (.md) that any comment names; or a program writes them
   local file name folder found
@@ -87,10 +85,10 @@ states_are_claimed() { # a restart's states that no fix takes are lost: fix time
     while read -r style; do grep -qF "\"$style\"" src_plugin/liggghts/base/fix_time_bpm.cpp || echo "$style"; done |
     report "fixes with a state that kStylesWithState of base/fix_time_bpm.cpp does not name"
 }
-header_options=(-std=c++17 -Wall -Wextra -I src_plugin -I tools/calendem -I tests/validation -isystem /usr/include/eigen3 -x c++)
-all_headers() { # of physics, laws, tools/calendem and tests/validation as one translation unit
+header_options=(-std=c++17 -Wall -Wextra -I src_plugin -I tools/calendem -isystem /usr/include/eigen3 -x c++)
+all_headers() { # of physics, laws and tools/calendem as one translation unit
   { find src_plugin/physics src_plugin/laws -name '*.h' -printf '%P %H\n' | sed 's|\(.*\) src_plugin/\(.*\)|\2/\1|'
-    find tools/calendem tests/validation -name '*.h' -printf '%P\n'; } | LC_ALL=C sort | sed 's/.*/#include "&"/'
+    find tools/calendem -name '*.h' -printf '%P\n'; } | LC_ALL=C sort | sed 's/.*/#include "&"/'
 }
 headers_agree() { # no two definitions of one name
   all_headers | "${CXX:-g++}" "${header_options[@]}" -Werror -fsyntax-only - ||

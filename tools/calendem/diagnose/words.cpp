@@ -153,8 +153,7 @@ Words words_of(const Json &gap) {
               : answer == "one of these"   ? one_of(gap["which"])
               : answer == "something else" ? something_else()
                                            : nothing(gap);
-  if (answer != "nothing to see")
-    out.next.push_back(best_measurement(gap["which"]));
+  out.next.push_back(best_measurement(gap["which"]));
   return out;
 }
 
