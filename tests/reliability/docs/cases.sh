@@ -36,13 +36,14 @@ paths_exist() { # those of the repository that stand in code, and links of the p
 # shellcheck disable=SC2016 # backticks of Markdown
 readmes_name_files() {
   local folder=tools/calendem page name
-  grep -oE '`(base|electrode|simulate|measure|report|diagnose|predict|commands)/[a-z_/]+`' -r "$folder" --include=README.md |
+  grep -oE '`(base|bank|compare|electrode|films|inference|simulate|measure|press|report|diagnose|predict|commands)/[a-z_/]+`' -r "$folder" --include=README.md |
     tr -d '`' | while IFS=: read -r page name; do compgen -G "$folder/$name*" >/dev/null || echo "$page: $name"; done |
     report "these are not there"
-  for folder in report; do
+  for folder in report inference; do # a table of files, or a list of them: * `name`: …
     page=tools/calendem/$folder/README.md
-    grep -q '^| file |' "$page" || { echo "FAILED: $page has no table of files"; exit 1; }
-    awk -F'|' '/^\| file \|/ { on = 1 } !/^\|/ { on = 0 } on { print $2 }' "$page" | { grep -oE '`[a-z_./]+`' || true; } | tr -d '`' |
+    grep -qE '^\| file \||^\* `[a-z_]+`:' "$page" || { echo "FAILED: $page lists no files"; exit 1; }
+    awk -F'|' '/^\| file \|/ { on = 1 } !/^\|/ { on = 0 } on { print $2 } /^\* `[a-z_]+`:/' "$page" |
+      { grep -oE '`[a-z_./]+`' || true; } | tr -d '`' |
       while read -r name; do compgen -G "tools/calendem/$folder/$name*" >/dev/null || echo "$page: $name"; done
   done | report "these are not there"
 }
