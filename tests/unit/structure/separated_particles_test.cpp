@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// From phases to particles: necks whose width is known, a synthetic tomogram whose particles are,
-// and published images where CALENDEM_IMAGES names their folder.
+// From phases to particles: necks whose width is known, a synthetic tomogram whose particles are.
 #include "electrode/pack/measured_bodies.h"
 #include "electrode/structure/measured_shape.h"
 #include "electrode/structure/separated_particles.h"
 #include "electrode/structure/slices.h"
 #include "electrode/tomogram.h"
 #include "support.h"
-#include <cstdlib>
 #include <fmt/format.h>
 #include <map>
 #include <vtkDataArray.h>
@@ -184,21 +182,6 @@ TEST(SeparatedParticles, OutlinesTellWholeFromCutOnes) {
     EXPECT_EQ(pixels.count("30 90 200"), cut ? 1u : 0u);
     EXPECT_GT(pixels.at("200 200 200"), pixels.at(cut ? "30 90 200" : "200 30 30"));
   }
-}
-
-// TauFactor's test electrode (doi:10.21105/joss.05358).
-TEST(SeparatedParticles, OfAPublishedElectrode) {
-  const char *images = std::getenv("CALENDEM_IMAGES");
-  if (!images)
-    GTEST_SKIP() << "CALENDEM_IMAGES names no folder with taufactor_electrode.tiff";
-  const LabelImage image = read_label_image(std::string(images) + "/taufactor_electrode.tiff", 1.0);
-  std::map<std::int32_t, double> share;
-  for (const std::int32_t label : image.label)
-    share[label] += 1.0 / double(image.label.size());
-  EXPECT_NEAR(share[0], 0.44992, 5e-6);
-  EXPECT_NEAR(share[85], 0.40047, 5e-6);
-  EXPECT_NEAR(share[170], 0.14962, 5e-6);
-  EXPECT_GT(particles_in(separate_particles(image, {0, 85, 170}, 0.9)), 100);
 }
 
 } // namespace

@@ -36,7 +36,7 @@ std::map<long, double> masses_of_electrode(const std::string &folder);
 /// where the frames lack tags or a mass.
 std::string lammps_data(const ParticleFrame &particles, const BondFrame &bonds, const Cell &cell,
                         const std::map<long, double> &mass, const std::string &title);
-/// Of the frame of that moment; `electrode`: its folder, empty: that of the run's case.
+/// The frame of that moment; `electrode`: its folder, empty: that of the run's case.
 std::string lammps_data_of_run(const std::string &folder, const RunMoment &moment,
                                const std::string &electrode);
 
