@@ -44,7 +44,7 @@ case $case in
     "$packaging/make-deb" --no-install-dependencies | tee "$work/log"
     deb=$(tail -n 1 "$work/log")
     dpkg-deb --field "$deb" Depends | tee "$work/depends"
-    for package in openmpi-bin libvtk9 libopenmpi libfmt libnlopt libssl libtiff; do
+    for package in openmpi-bin libvtk9 libopenmpi libfmt libnlopt libssl libtiff libinsighttoolkit; do
       grep -q "$package" "$work/depends" || fail "the package does not depend on $package"
     done
     dpkg-deb --extract "$deb" "$work/root"

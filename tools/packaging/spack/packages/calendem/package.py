@@ -29,6 +29,7 @@ class Calendem(CMakePackage):
     depends_on("libtiff")
     depends_on("minizip")
     depends_on("nlopt")
+    depends_on("itk@5:")
     depends_on("nlohmann-json@3.11:")
     depends_on("openssl")
     depends_on("tomlplusplus@3:")
