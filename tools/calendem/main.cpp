@@ -18,26 +18,17 @@ struct Verb {
   void (*add)(CLI::App &);
   const char *group; ///< heading in the help; empty: not shown
 };
-const Verb kVerbs[] = {{calendem::add_pack_verb, "Electrodes"},
-                       {calendem::add_dry_verb, "Electrodes"},
-                       {calendem::add_tomogram_verb, "Electrodes"},
-                       {calendem::add_run_verb, "Runs"},
-                       {calendem::add_collect_verb, "Runs"},
-                       {calendem::add_measure_verb, "Runs"},
-                       {calendem::add_report_verb, "Runs"},
-                       {calendem::add_export_verb, "Runs"},
-                       {calendem::add_study_verb, "Many runs"},
-                       {calendem::add_sample_verb, "Many runs"},
-                       {calendem::add_bank_verb, "Many runs"},
-                       {calendem::add_press_verb, "Experiments"},
-                       {calendem::add_compare_verb, "Experiments"},
-                       {calendem::add_diagnose_verb, "Experiments"},
-                       {calendem::add_calibrate_verb, "Predictions"},
-                       {calendem::add_predict_verb, "Predictions"},
-                       {calendem::add_design_verb, "Predictions"},
-                       {calendem::add_validate_verb, "Help"},
-                       {calendem::add_effects_verb, "Help"},
-                       {calendem::add_registry_verb, ""}};
+const Verb kVerbs[] = {
+    {calendem::add_pack_verb, "Electrodes"},       {calendem::add_dry_verb, "Electrodes"},
+    {calendem::add_tomogram_verb, "Electrodes"},   {calendem::add_run_verb, "Runs"},
+    {calendem::add_collect_verb, "Runs"},          {calendem::add_measure_verb, "Runs"},
+    {calendem::add_report_verb, "Runs"},           {calendem::add_export_verb, "Runs"},
+    {calendem::add_study_verb, "Many runs"},       {calendem::add_sample_verb, "Many runs"},
+    {calendem::add_bank_verb, "Many runs"},        {calendem::add_press_verb, "Experiments"},
+    {calendem::add_compare_verb, "Experiments"},   {calendem::add_diagnose_verb, "Experiments"},
+    {calendem::add_calibrate_verb, "Predictions"}, {calendem::add_predict_verb, "Predictions"},
+    {calendem::add_design_verb, "Predictions"},    {calendem::add_validate_verb, "Help"},
+    {calendem::add_effects_verb, "Help"},          {calendem::add_registry_verb, ""}};
 
 void add_verbs(CLI::App &app) {
   app.require_subcommand(1);

@@ -55,14 +55,12 @@ values = [[1, 4], [1, 5], [2, 4]]
 T
 cat >"$work/bank.toml" <<'T'
 [bank]
+name = "six points"
 recipe = "electrode.toml"
 case = "case.toml"
-pressures_MPa = [4]
+points = 6
 packings = 2
-base_points = 4
-effect_points = 2
-effects = ["friction"]
-[[parameter]]
+[[input]]
 name = "E"
 keys = ["case.material.am.youngs_modulus_GPa"]
 low = 100

@@ -55,7 +55,7 @@ named_files_exist() { # those that heads of laws name, and pages (.md) that any 
       case $name in *:[0-9]*) file=$name; continue ;; esac
       found=0
       for folder in . src_plugin "$(dirname "${file%:*}")"; do [ ! -f "$folder/$name" ] || found=1; done
-      [ $found -eq 1 ] || grep -qrF "$name\"" tools/calendem tests/validation --include='*.cpp' || echo "$file names $name"
+      [ $found -eq 1 ] || grep -qrF "$name\"" tools/calendem --include='*.cpp' || echo "$file names $name"
     done | sort -u | report "files that a comment names and that do not exist"
 }
 pi_has_one_place() { # physics/pi.h

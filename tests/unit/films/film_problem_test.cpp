@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "films/film_problem.h"
 #include "base/provenance.h"
 #include "films/emulated_run.h"
+#include "films/film_problem.h"
 #include "support/made_coatings.h"
 #include "support/test_folder.h"
 #include <fmt/format.h>
@@ -47,9 +47,7 @@ struct Pressed {
     const Matrix scores = Matrix::Zero(Eigen::Index(of.parameters.size()), 1);
     return of.problem.predict(0, scores, amplitudes).mean;
   }
-  Vector off() const {
-    return Vector::Constant(Eigen::Index(of.effects.size()), inference::kOff);
-  }
+  Vector off() const { return Vector::Constant(Eigen::Index(of.effects.size()), inference::kOff); }
   Eigen::Index place(const std::string &name) const {
     for (std::size_t k = 0; k < films.readings.size(); ++k)
       if (films.readings[k].observable.name.rfind(name, 0) == 0)
@@ -69,8 +67,8 @@ TEST(FilmProblem, PredictsEveryReadingOfAFilm) {
   const Pressed p({});
   ASSERT_EQ(p.films.readings.size(), 8u);
   const FilmBank &bank = made_film_bank();
-  const Material middle = material_of(
-      p.of, Vector::Zero(Eigen::Index(p.of.parameters.size())), p.off());
+  const Material middle =
+      material_of(p.of, Vector::Zero(Eigen::Index(p.of.parameters.size())), p.off());
   const Film &film = p.films.films[0];
   const SimulatedRun run =
       EmulatedRun(bank, film, 80.0)
@@ -90,8 +88,8 @@ TEST(FilmProblem, HasTheErrorsThatAreStated) {
   EXPECT_NEAR(m(porosity, porosity), 0.25, 1e-12);
   const double solid = solid_thickness_um(pressed(), 6.0),
                measured = p.films.readings[std::size_t(first)].observable.measured;
-  EXPECT_NEAR(m(first, first) * solid * solid,
-              0.01 + 0.16 + std::pow(measured * solid * 0.01, 2), 1e-9);
+  EXPECT_NEAR(m(first, first) * solid * solid, 0.01 + 0.16 + std::pow(measured * solid * 0.01, 2),
+              1e-9);
   EXPECT_NEAR(m(first, first + 1) * solid * solid,
               0.16 + std::pow(solid * 0.01, 2) * measured *
                          p.films.readings[std::size_t(first) + 1].observable.measured,
@@ -110,8 +108,8 @@ TEST(FilmProblem, ThePressuresErrorIsASlope) {
   for (int k = 0; k < 3; ++k)
     middle[k] = p.of.parameters[std::size_t(k)].prior.value(0.0);
   const std::vector<double> at = {middle[0], middle[1], middle[2], 46.0, 2.2};
-  const double slope = 100.0 * (made_porosity(at, 0.0, 84.0) - made_porosity(at, 0.0, 76.0)) /
-                       std::log(84.0 / 76.0);
+  const double slope =
+      100.0 * (made_porosity(at, 0.0, 84.0) - made_porosity(at, 0.0, 76.0)) / std::log(84.0 / 76.0);
   EXPECT_NEAR(all.errors[0](p.place("total porosity"), 0), 0.05 * slope, 0.15 * 0.05 * -slope);
 }
 
@@ -178,6 +176,18 @@ TEST(FilmProblem, WhatTheModelHasActsWithNineTenths) {
   }
 }
 
+// A contact follows one law: as in the bank's design the later effect stays.
+TEST(FilmProblem, AnEffectMayExcludeAnother) {
+  Pressed p({});
+  const Vector both = Vector::Zero(Eigen::Index(p.of.effects.size())),
+               scores = Vector::Zero(Eigen::Index(p.of.parameters.size()));
+  EXPECT_EQ(material_of(p.of, scores, both).effects.size(), 2u);
+  p.of.excluded = {{}, {0}};
+  const Material one = material_of(p.of, scores, both);
+  ASSERT_EQ(one.effects.size(), 1u);
+  EXPECT_EQ(one.effects[0].effect, 1);
+}
+
 // A whole sample shows a mean of packings; one cell shows one.
 TEST(FilmProblem, PackingsScatterByTheSamplesSize) {
   const auto scatter = [](const std::string &diameter) {
@@ -187,7 +197,8 @@ TEST(FilmProblem, PackingsScatterByTheSamplesSize) {
     return s.size() > 0 ? s(p.place("total porosity"), 0) : 0.0;
   };
   EXPECT_EQ(scatter(""), 0.0);
-  const double wide = scatter("sample_diameter_mm = 11\n"), narrow = scatter("sample_diameter_mm = 1.1\n");
+  const double wide = scatter("sample_diameter_mm = 11\n"),
+               narrow = scatter("sample_diameter_mm = 1.1\n");
   EXPECT_NEAR(narrow / wide, 100.0, 1e-6);
 }
 

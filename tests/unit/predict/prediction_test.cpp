@@ -131,8 +131,7 @@ TEST(OwnRuns, HaveTheNanoporesOfTheirMaterial) {
   for (Draw &d : draws)
     d.materials = {{{190.0, 2.4, 480.0, 3.0}, {{kCollapses, 0.4}}}};
   const auto file = calendem_test::test_folder() / "film.toml";
-  std::ofstream(file)
-      << "name = \"film\"\n[cbd]\nnanoporosity_percent = 45\n";
+  std::ofstream(file) << "name = \"film\"\n[cbd]\nnanoporosity_percent = 45\n";
   const Study study = own_runs(bank, draws, read_recipe(file.string()), 0, {50.0});
   EXPECT_NEAR(study.runs.front().recipe.nanoporosity, 0.48, 1e-12);
   EXPECT_NEAR(study.runs.front().settings.number("effects.cbd_collapse.initial_nanoporosity"), 0.48,
@@ -170,7 +169,8 @@ TEST(Chances, AnAssuredProbabilityHoldsForFourOfFiveMaterials) {
   const auto of = [](FilmNumber number) {
     Predictions draws;
     for (int k = 0; k < 100; ++k)
-      draws.push_back(number == FilmNumber::Cracked ? std::vector<MeanVariance>(2, MeanVariance{0.1, 0.0})
+      draws.push_back(number == FilmNumber::Cracked
+                          ? std::vector<MeanVariance>(2, MeanVariance{0.1, 0.0})
                       : k < 70 ? std::vector<MeanVariance>{{0.3, 1e-12}, {0.3, 3.64e-4}}
                                : std::vector<MeanVariance>{{0.4, 1e-12}, {0.3, 3.64e-4}});
     return draws;

@@ -13,7 +13,7 @@ namespace calendem::bank {
 namespace {
 
 constexpr double kSamePressure = 0.05; // of a press that met its target
-constexpr std::size_t kEvery = 4; // of curve_pressures()
+constexpr std::size_t kEvery = 4;      // of curve_pressures()
 constexpr std::size_t kFewestPresses = 3, kFewestRuns = 8;
 
 inference::Prior prior_of(Spread spread, double low, double high) {
@@ -108,8 +108,7 @@ namespace {
 void add_curves(const Run &run, const std::vector<double> &pressures, Eigen::Index r,
                 inference::Matrix &values) {
   for (std::size_t k = 0; k < loading_pressures().size(); ++k)
-    values(loading_output(k, pressures.size()), r) =
-        run.loading[kEvery * k] / run.thickness_before;
+    values(loading_output(k, pressures.size()), r) = run.loading[kEvery * k] / run.thickness_before;
   for (std::size_t p = 0; p < run.presses.size() && p < pressures.size(); ++p) {
     const PressedFilm &film = run.presses[p];
     if (std::fabs(film.pressure / pressures[p] - 1.0) > kSamePressure)
@@ -133,7 +132,8 @@ inference::TrainingRuns training_of(const Runs &runs) {
   if (used.size() < kFewestRuns)
     throw Failure(kBadInput, fmt::format("{}: the table has {} runs; at least {} are needed.",
                                          runs.bank.file, used.size(), kFewestRuns));
-  const auto n = Eigen::Index(used.size()), outputs = Eigen::Index(count_of_outputs(pressures.size()));
+  const auto n = Eigen::Index(used.size()),
+             outputs = Eigen::Index(count_of_outputs(pressures.size()));
   inference::TrainingRuns out;
   out.at.inputs.resize(Eigen::Index(space.priors.size()), n);
   out.at.amplitudes = inference::Matrix::Zero(Eigen::Index(space.amplitudes.size()) + 1, n);

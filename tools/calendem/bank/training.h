@@ -66,7 +66,9 @@ inline constexpr std::array<std::size_t, 5> kReleases = {1, 3, 5, 7, 9};
 inline int release_output(std::size_t k, std::size_t j, std::size_t pressures) {
   return loading_output(loading_pressures().size(), pressures) + int(k * kReleases.size() + j);
 }
-inline int count_of_outputs(std::size_t pressures) { return release_output(pressures, 0, pressures); }
+inline int count_of_outputs(std::size_t pressures) {
+  return release_output(pressures, 0, pressures);
+}
 
 inference::TrainingRuns training_of(const Runs &runs);
 

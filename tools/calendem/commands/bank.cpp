@@ -94,6 +94,9 @@ void make_bank(const StudyOptions &given, const std::vector<std::string> &from) 
   std::sort(runs.begin(), runs.end(),
             [](const bank::Run &a, const bank::Run &b) { return a.point.number < b.point.number; });
   write_table(spec, runs, given.folder);
+  const auto there = [](const bank::Run &run) { return run.failed.empty(); };
+  if (!runs.empty() && std::none_of(runs.begin(), runs.end(), there))
+    throw Failure(kSimulationFailed, given.folder + ": no point has a run.");
 }
 
 } // namespace calendem

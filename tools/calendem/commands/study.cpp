@@ -21,14 +21,15 @@ struct BankOptions {
 
 void add_bank_verb(CLI::App &app) {
   auto o = std::make_shared<BankOptions>();
-  CLI::App *verb = app.add_subcommand(
-      "bank", "Make the simulations that diagnose and calibrate learn from");
+  CLI::App *verb =
+      app.add_subcommand("bank", "Make the simulations that diagnose and calibrate learn from");
   verb->add_option("BANK", o->study.file, "bank (TOML)")->required();
   add_study_options(*verb, o->study);
-  verb->add_option("--from", o->from, "tables of this bank whose runs are taken and not made again");
-  CLI::Option *check = verb->add_flag(
-      "--check", o->check,
-      "run nothing: how well the emulator predicts packings that are left out");
+  verb->add_option("--from", o->from,
+                   "tables of this bank whose runs are taken and not made again");
+  CLI::Option *check =
+      verb->add_flag("--check", o->check,
+                     "run nothing: how well the emulator predicts packings that are left out");
   for (const char *other : {"--only", "--table", "--slurm", "--slurm-dry-run"})
     check->excludes(verb->get_option(other));
   verb->callback([o] {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kFewestParticles = 4;
 constexpr double kOtherStrength = 1.2; // factor between strengths that tell the power
-constexpr double kBeside = 0.02; // beyond the diameters, as a fraction of them
+constexpr double kBeside = 0.02;       // beyond the diameters, as a fraction of them
 
 Eigen::Vector2d of(double diameter) { return {1.0, std::log(diameter)}; }
 

@@ -25,9 +25,9 @@ public:
 private:
   double pressure_, porosity_before_, solid_column_;
   std::size_t presses_;
-  inference::Vector by_press_;      ///< weights of the presses
-  inference::Matrix by_loading_;    ///< points of the curve x outputs of the loading
-  inference::Matrix by_release_;    ///< points of the curve x releases
+  inference::Vector by_press_;            ///< weights of the presses
+  inference::Matrix by_loading_;          ///< points of the curve x outputs of the loading
+  inference::Matrix by_release_;          ///< points of the curve x releases
   std::vector<double> loading_, release_; ///< pressures of the points, increasing
 
   double number(FilmNumber number, const inference::Vector &outputs) const;

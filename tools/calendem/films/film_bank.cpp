@@ -56,9 +56,15 @@ FilmBank::FilmBank(const bank::Runs &runs, inference::Emulator emulator)
     floor_nanoporosity_ = read_case(spec_.case_file, recipe_).number(kFloor);
     material_.push_back({kNanoporosity, {inference::Prior::uniform, -within, within}});
   }
-  for (std::size_t e = 0; e < effects_.size(); ++e)
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
     if (effects_[e].name == kCollapse)
       collapse_ = int(e);
+    excluded_.emplace_back();
+    for (const std::string &name : spec_.design.inputs[std::size_t(space_.effects[e])].excludes)
+      for (std::size_t other = 0; other < effects_.size(); ++other)
+        if (effects_[other].name == name)
+          excluded_.back().push_back(int(other));
+  }
   const auto larger = spec_.design.larger.recipe.find(kLoading);
   if (larger != spec_.design.larger.recipe.end())
     larger_loading_ = std::stod(larger->second);
@@ -144,8 +150,8 @@ inference::Expectation FilmBank::emulated(const Film &film,
     const inference::Matrix without = emulator_.predict(open, outputs, false).mean;
     for (std::size_t k = 0; k < collapsing.size(); ++k) {
       const Eigen::Index m = collapsing[k], from = Eigen::Index(k);
-      of.mean.col(m) = without.col(from) + as[std::size_t(m)].collapse *
-                                               (of.mean.col(m) - without.col(from));
+      of.mean.col(m) =
+          without.col(from) + as[std::size_t(m)].collapse * (of.mean.col(m) - without.col(from));
     }
   }
   const auto first = [&](FilmNumber number) {

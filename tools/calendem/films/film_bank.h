@@ -66,6 +66,9 @@ public:
   const std::vector<bank::Input> &film() const { return film_; }
   /// Those that the bank's runs have.
   const std::vector<inference::Parameter> &effects() const { return effects_; }
+  /// Places of effects that are off in the bank's runs where the effect of that place acts: a contact
+  /// follows one law.
+  const std::vector<int> &excluded_by(int effect) const { return excluded_[std::size_t(effect)]; }
 
   /// Throws Failure(2) if its recipe is another electrode than the bank's but for the parameters.
   /// Other particles pass where the bank's cell could hardly show the difference: percentiles by
@@ -110,6 +113,7 @@ private:
   std::vector<double> pressures_;
   inference::Emulator emulator_;
   std::vector<inference::Parameter> material_, effects_;
+  std::vector<std::vector<int>> excluded_; ///< of each effect
   std::vector<bank::Input> film_;
   std::array<bool, kFilmNumbers> known_{};
   int strength_ = -1, collapse_ = -1; ///< places among material_ and effects_; -1: none

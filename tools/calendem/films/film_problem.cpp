@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kStep = 0.05; // of the logarithm of the pressure, for a slope
+constexpr double kStep = 0.05;                     // of the logarithm of the pressure, for a slope
 constexpr double kNodesFrom = 1.0, kNodesTo = 6.0; // of ln(p / MPa), one apart
 
 /// Readings whose errors of the model are alike at like pressures.
@@ -165,8 +165,8 @@ Matrix correlation_of(const Matrix &covariance) {
 }
 
 /// Adds `of` of each reading as an error common to readings of one group.
-void add_common(const std::vector<Reading> &readings, const Vector &of,
-                std::string Reading::*group, Matrix &to) {
+void add_common(const std::vector<Reading> &readings, const Vector &of, std::string Reading::*group,
+                Matrix &to) {
   for (Index i = 0; i < of.size(); ++i)
     for (Index j = 0; j < of.size(); ++j)
       if (readings[std::size_t(i)].*group == readings[std::size_t(j)].*group)
@@ -263,10 +263,10 @@ inference::FilmData FilmModel::data(const ModelError &error, double sizes) const
   for (Index i = 0; i < n; ++i)
     for (Index j = 0; j < n; ++j) {
       const Reading &a = all[std::size_t(i)], &b = all[std::size_t(j)];
-      out.discrepancy(i, j) = kind_of(a.observable) == kind_of(b.observable)
-                                  ? per_porosity[i] * per_porosity[j] *
-                                        alike_at(pressure_of(a), pressure_of(b))
-                                  : 0.0;
+      out.discrepancy(i, j) =
+          kind_of(a.observable) == kind_of(b.observable)
+              ? per_porosity[i] * per_porosity[j] * alike_at(pressure_of(a), pressure_of(b))
+              : 0.0;
     }
   out.shared_errors.resize(n, 2);
   out.shared_errors.col(0) = error.numerics * of_pressed;
@@ -328,8 +328,8 @@ Matrix shared_discrepancy(const std::vector<Reading> &readings, const Vector &pe
   const Matrix factors = node_factors(pressures);
   Matrix out = Matrix::Zero(factors.rows(), factors.cols() * Index(kinds.size()));
   for (Index k = 0; k < factors.rows(); ++k) {
-    const auto at = std::find(kinds.begin(), kinds.end(),
-                              kind_of(readings[std::size_t(k)].observable));
+    const auto at =
+        std::find(kinds.begin(), kinds.end(), kind_of(readings[std::size_t(k)].observable));
     if (at != kinds.end())
       out.row(k).segment((at - kinds.begin()) * factors.cols(), factors.cols()) =
           per_porosity[k] * factors.row(k);
@@ -351,21 +351,28 @@ inference::Parameter fault_parameter(const std::string &name) {
 /// What all films' predictors share.
 struct Shared {
   std::vector<inference::Parameter> parameters, effects;
-  std::size_t of_material = 0; ///< effects that are a material's
+  std::vector<std::vector<int>> excluded; ///< by each effect of a material
   std::vector<FilmModel> films;
 
   Material material(const Vector &scores, const Vector &amplitudes) const {
     Material out;
     for (std::size_t k = 0; k < parameters.size(); ++k)
       out.parameters.push_back(parameters[k].prior.value(scores[Index(k)]));
-    for (std::size_t e = 0; e < of_material; ++e)
-      if (inference::acts(amplitudes[Index(e)]))
+    std::vector<char> acting(excluded.size());
+    for (std::size_t e = 0; e < acting.size();
+         ++e) { // the later one stays, as in the bank's design
+      acting[e] = inference::acts(amplitudes[Index(e)]);
+      for (const int other : excluded[e])
+        acting[std::size_t(other)] = acting[std::size_t(other)] && !acting[e];
+    }
+    for (std::size_t e = 0; e < acting.size(); ++e)
+      if (acting[e])
         out.effects.push_back({int(e), effects[e].prior.value(amplitudes[Index(e)])});
     return out;
   }
   PressInstruments press(const Vector &amplitudes) const {
     PressInstruments out;
-    for (std::size_t e = of_material; e < effects.size(); ++e)
+    for (std::size_t e = excluded.size(); e < effects.size(); ++e)
       if (inference::acts(amplitudes[Index(e)])) {
         const Effect &effect = find_effect(effects[e].name);
         out.*effect.shown = effect.parameter.value(effects[e].prior.value(amplitudes[Index(e)]));
@@ -419,7 +426,9 @@ FilmProblem problem_of(const FilmBank &bank, const MeasuredFilms &measured,
   out.parameters = bank.material();
   out.effects = bank.effects();
   auto shared = std::make_shared<Shared>();
-  shared->of_material = out.effects.size();
+  for (std::size_t e = 0; e < out.effects.size(); ++e)
+    out.excluded.push_back(bank.excluded_by(int(e)));
+  shared->excluded = out.excluded;
   inference::PosteriorProblem &p = out.problem;
   Vector middle_amplitudes(Index(out.effects.size()));
   for (std::size_t e = 0; e < out.effects.size(); ++e) {
@@ -470,9 +479,7 @@ Material material_of(const FilmProblem &of, const Vector &scores, const Vector &
   Shared shared;
   shared.parameters = of.parameters;
   shared.effects = of.effects;
-  while (shared.of_material < of.effects.size() &&
-         !of.problem.effects[shared.of_material].of_film)
-    ++shared.of_material;
+  shared.excluded = of.excluded;
   return shared.material(scores, amplitudes);
 }
 

@@ -76,6 +76,7 @@ struct FilmProblem {
   inference::PosteriorProblem problem;
   std::vector<inference::Parameter> parameters; ///< FilmBank::material()
   std::vector<inference::Parameter> effects;    ///< FilmBank::effects(), then faults of the press
+  std::vector<std::vector<int>> excluded;       ///< FilmBank::excluded_by, of each effect
   /// Place in MeasuredFilms::readings of each film's data.
   std::vector<std::vector<int>> readings;
 };

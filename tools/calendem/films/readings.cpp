@@ -18,8 +18,9 @@ std::string left_out(const Condition &c, const FilmBank &bank) {
   if (!c.pressing.empty())
     return fmt::format("pressed in a way of its own (\"{}\"): left out.", c.pressing);
   if (!c.max_pressure_MPa || !bank.covers(c.max_pressure_MPa->value))
-    return fmt::format("its pressure is not known, or outside the bank's {:g} to {:g} MPa: left out.",
-                       bank.pressures().front(), bank.pressures().back());
+    return fmt::format(
+        "its pressure is not known, or outside the bank's {:g} to {:g} MPa: left out.",
+        bank.pressures().front(), bank.pressures().back());
   return "";
 }
 
@@ -34,8 +35,8 @@ std::vector<Observable> observables_for(const Experiment &e, const Condition &gi
                                         const FilmBank &bank, std::vector<std::string> &warnings) {
   const bool by_thickness =
       given.thickness_after_um || given.thickness_at_max_um || !given.curve.empty();
-  Condition c = by_thickness && !loading_of(e, given) ? with_loading_of_recipe(e, given, warnings)
-                                                      : given;
+  Condition c =
+      by_thickness && !loading_of(e, given) ? with_loading_of_recipe(e, given, warnings) : given;
   c.control = "pressure"; // to which it went, however it was set
   std::vector<Observable> out;
   for (Observable &o : observables_of(e, c, warnings)) {
@@ -105,9 +106,10 @@ void add_readings(const Experiment &e, const FilmBank &bank, MeasuredFilms &to,
     }
   }
   if (to.readings.size() == before)
-    throw Failure(kBadInput, fmt::format("{}: no condition has a pressure within the bank's {:g} to "
-                                         "{:g} MPa and a value that the bank predicts.",
-                                         e.name, bank.pressures().front(), bank.pressures().back()));
+    throw Failure(kBadInput,
+                  fmt::format("{}: no condition has a pressure within the bank's {:g} to "
+                              "{:g} MPa and a value that the bank predicts.",
+                              e.name, bank.pressures().front(), bank.pressures().back()));
 }
 
 Observable observable_of(FilmNumber number, double measured, double sd) {

@@ -161,8 +161,7 @@ Matrix covariance_of(const Calibration &c, const Predicted &p, const Draw &draw)
       if (a.film == b.film)
         out(i, j) += p.by_pressure[i] * p.by_pressure[j];
       if (a.number == b.number && a.film == b.film)
-        out(i, j) += std::sqrt(p.variance[i] * p.variance[j]) *
-                     alike_at(a.pressure, b.pressure);
+        out(i, j) += std::sqrt(p.variance[i] * p.variance[j]) * alike_at(a.pressure, b.pressure);
       if (i == j)
         out(i, j) += a.sd * a.sd;
     }

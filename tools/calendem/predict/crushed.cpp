@@ -106,8 +106,8 @@ double log_likelihood_of_crushed(const FilmBank &bank, const Calibration &c, int
     return 0.0;
   Vector off{Eigen::Index(read.size())};
   for (std::size_t k = 0; k < read.size(); ++k)
-    off[Eigen::Index(k)] = std::log(read[k].load) -
-                           bank.crushing()->log_load(read[k].diameter, strength_of(bank, as));
+    off[Eigen::Index(k)] =
+        std::log(read[k].load) - bank.crushing()->log_load(read[k].diameter, strength_of(bank, as));
   return -0.5 * off.dot(Cholesky(covariance_of(*bank.crushing(), read)).solve(off));
 }
 

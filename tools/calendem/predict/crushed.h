@@ -18,8 +18,8 @@ void add_crushed(const Experiment &experiment, const FilmBank &bank, int materia
 
 /// Logarithm of the likelihood of the loads that were measured of one material (its place in
 /// Calibration::materials), but for a constant.
-double log_likelihood_of_crushed(const FilmBank &bank, const Calibration &calibration,
-                                 int material, const Material &as);
+double log_likelihood_of_crushed(const FilmBank &bank, const Calibration &calibration, int material,
+                                 const Material &as);
 
 /// Loads that lie beyond two standard deviations of what the strength that was found means, in words.
 std::vector<std::string> contradicting_loads(const FilmBank &bank, const Calibration &calibration);

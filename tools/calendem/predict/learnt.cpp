@@ -65,8 +65,9 @@ LeftOutDatum lesson_of(const std::vector<std::vector<MeanVariance>> &predicted, 
                             with(without.size(), 1.0 / double(without.size()));
   LeftOutDatum out;
   Mixture mixture;
-  for (const std::size_t k : inference::resampled(
-           inference::Vector::Map(without.data(), Eigen::Index(without.size())), int(without.size())))
+  for (const std::size_t k :
+       inference::resampled(inference::Vector::Map(without.data(), Eigen::Index(without.size())),
+                            int(without.size())))
     mixture.of.push_back(predicted[k][datum]);
   out.without = band_of(mixture, 0.0, 1.0);
   double squares = 0.0;

@@ -76,8 +76,7 @@ MeasuredFilms measured_films(const Calibration &c) {
 Draw draw_of(const FilmProblem &problem, const inference::Draw &from) {
   Draw out;
   for (Eigen::Index m = 0; m < from.scores.cols(); ++m)
-    out.materials.push_back(
-        material_of(problem, from.scores.col(m), from.amplitudes.col(m)));
+    out.materials.push_back(material_of(problem, from.scores.col(m), from.amplitudes.col(m)));
   out.missed = {from.discrepancy, from.shared};
   out.alike = from.material_correlation;
   return out;
@@ -96,8 +95,8 @@ void calibrate(const FilmBank &bank, const CalibrationSettings &settings, Calibr
                                      const inference::Matrix &amplitudes) {
       inference::Vector out(scores.cols());
       for (Eigen::Index k = 0; k < out.size(); ++k)
-        out[k] = log_likelihood_of_crushed(
-            bank, c, material, material_of(problem, scores.col(k), amplitudes.col(k)));
+        out[k] = log_likelihood_of_crushed(bank, c, material,
+                                           material_of(problem, scores.col(k), amplitudes.col(k)));
       return out;
     };
   inference::SamplerSettings sampler;

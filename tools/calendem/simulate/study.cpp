@@ -108,7 +108,7 @@ std::vector<std::string> make_what_runs(const Study &study, const StudyOptions &
   } catch (const Failure &f) {
     if (f.exit_status() == kBadInput || stop_requested() != 0)
       throw;
-    fmt::print("study: {}\n{} with such runs are left out.\n", f.what(), parts);
+    fmt::print("{}\n{} with such runs are left out.\n", f.what(), parts);
   }
   return making.finished();
 }
