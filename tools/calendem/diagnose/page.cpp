@@ -24,6 +24,9 @@ std::string range(const Json &of) {
                      shown(of["high90"], "{:.3g}"));
 }
 
+/// "yield_pressure_GPa" of "effects.nmc_plasticity.yield_pressure_GPa".
+std::string last_name(const std::string &key) { return key.substr(key.rfind('.') + 1); }
+
 json change_rows(const Json &which) {
   std::vector<Json> changes(which["changes"].begin(), which["changes"].end());
   std::stable_sort(changes.begin(), changes.end(), [](const Json &a, const Json &b) {
@@ -41,8 +44,7 @@ json change_rows(const Json &which) {
                 {"bayes", shown(c["bayes_factor"], "{:.2g}")},
                 {"value", "–"}};
     if (c.contains("amplitude") && !c["amplitude"].is_null())
-      row["value"] =
-          fmt::format("{}: {}", c["amplitude"]["key"].get<std::string>(), range(c["amplitude"]));
+      row["value"] = fmt::format("{} {}", last_name(c["amplitude"]["key"]), range(c["amplitude"]));
     out.push_back(row);
   }
   return out;
