@@ -83,7 +83,7 @@ sed 's/^median_um.*/median_um = 9/' "$cases/real/blb_nmc111_90/electrode.toml" >
 sed 's/electrode.toml/coarse.toml/' "$cases/real/blb_nmc111_90/experiment.toml" >coarse_pressed.toml
 refuses "the film is not of the bank's kind" calibrate coarse_pressed.toml --bank "$cases/films/bank.toml"
 printf 'name = "rough"\n[particles]\nirregularity = 0.3\n' >rough.toml
-refuses "particles.irregularity: 0.3 instead of 0.1" predict model/model.json rough.toml
+refuses "particles.irregularity: 0.3 instead of 0.05" predict model/model.json rough.toml
 printf 'name = "small"\n[particles]\nmax_um = 5\n' >small_only.toml
 refuses "particles.max_um: 5 instead of 16.2" predict model/model.json small_only.toml
 printf 'name = "thin"\n[coating]\nloading_mg_cm2 = 2\n' >thin.toml
