@@ -48,18 +48,4 @@ void write_gap(const Json &gap, const std::string &page, const std::string &fold
   write_file(folder + "/gap.html", page);
 }
 
-nlohmann::json read_diagnosis(const std::string &file) {
-  nlohmann::json gap = nlohmann::json::parse(text_of_file(file), nullptr, false);
-  Mistakes mistakes;
-  if (!gap.is_object())
-    mistakes.add(file, "missing, cut or damaged: it holds no JSON object", "diagnose again");
-  else
-    for (const char *part : {"where", "which"})
-      if (!gap.contains(part) || gap[part].is_null())
-        mistakes.add(file, fmt::format("it has no '{}'", part),
-                     "give a gap.json that calendem diagnose wrote");
-  mistakes.stop_if_any();
-  return gap;
-}
-
 } // namespace calendem

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// gap.json, which `compare` and `diagnose` write: one schema (docs/reference/gap.md), one writer,
-// one reader. What a verb does not find out is null or an empty list.
+// gap.json, which `compare` and `diagnose` write: one schema (docs/reference/gap.md), one writer.
+// What a verb does not find out is null or an empty list.
 #ifndef CALENDEM_BASE_GAP_FILE_H
 #define CALENDEM_BASE_GAP_FILE_H
 
@@ -33,9 +33,6 @@ nlohmann::ordered_json new_gap(const std::string &experiment, nlohmann::ordered_
 /// gap.json and gap.html.
 void write_gap(const nlohmann::ordered_json &gap, const std::string &page,
                const std::string &folder);
-
-/// Throws Failure(2) if the file is missing, cut, or no gap.json of a diagnosis.
-nlohmann::json read_diagnosis(const std::string &file);
 
 } // namespace calendem
 

@@ -12,7 +12,6 @@ constexpr double kSameTarget = 0.02;
 // Shares of the maximum pressure; the release is compared at the same, less the first: there the
 // film parts from the platen, and how it does is the press's affair too.
 constexpr double kCurveShares[] = {0.1, 0.25, 0.5, 0.75};
-constexpr double kRowsApart = 0.0199; // of the largest pressure: rows a fiftieth apart all count
 
 double none(const SimulatedRun &) { return 0.0; }
 double percent(const SimulatedRun &) { return 100.0; }
@@ -291,34 +290,6 @@ std::vector<Observable> observables_of(const Experiment &e, const Condition &c,
       not_said.push_back(fmt::format("{}: {} has no standard deviation; the measurement counts as "
                                      "exact.",
                                      c.id, o.name));
-  return out;
-}
-
-std::vector<Observable> release_rows(const Experiment &e, const Condition &c) {
-  std::vector<Observable> out;
-  if (c.curve.empty())
-    return out;
-  const MeasuredCurve curve = read_measured_curve(c.curve);
-  const MeasuredBranch &rows = curve.release;
-  const std::optional<Measured> loading = loading_of(e, c);
-  const double solid = loading ? solid_thickness_um(e, loading->value) : 1.0;
-  const double largest = curve.loading.pressure.back();
-  double next = kCurveShares[1] * largest;
-  for (std::size_t k = 0; k < rows.pressure.size(); ++k) {
-    const double at = rows.pressure[k];
-    if (at < next)
-      continue;
-    next = at + kRowsApart * largest;
-    Observable o;
-    o.pressure = at;
-    o.measured = rows.displacement[k] / solid;
-    o.sd = c.curve_sd_um / solid;
-    o.simulated = [at, of_solid = loading.has_value()](const SimulatedRun &r) {
-      return displacement_at(r.release_pressure, r.release_displacement, at) /
-             (of_solid ? r.solid_column : 1.0);
-    };
-    out.push_back(o);
-  }
   return out;
 }
 

@@ -55,11 +55,6 @@ enum class Branch { Loading, Release };
 std::vector<Observable> points_of_curve(const Experiment &experiment, const Condition &condition,
                                         double largest, Branch branch);
 
-/// The rows of the measured release from a quarter of the largest pressure on, a fiftieth of it
-/// apart at least: as measured, not interpolated. Below, the bank's releases bend between their
-/// pressures.
-std::vector<Observable> release_rows(const Experiment &experiment, const Condition &condition);
-
 /// True if the run's platen did what the condition says, within 2 %.
 bool belongs(const SimulatedRun &run, const Condition &condition);
 

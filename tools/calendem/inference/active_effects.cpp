@@ -9,23 +9,6 @@ namespace {
 
 using Eigen::Index;
 
-/// Draws x switches: 1 where an effect acts.
-Matrix indicators(const std::vector<Switch> &switches, const Posterior &posterior, int material) {
-  Matrix out(Index(posterior.draws.size()), Index(switches.size()));
-  for (Index d = 0; d < out.rows(); ++d)
-    for (Index s = 0; s < out.cols(); ++s)
-      out(d, s) =
-          acts(score_of(posterior.draws[std::size_t(d)], material, switches[std::size_t(s)]));
-  return out;
-}
-
-Vector weights_of_draws(const Posterior &posterior) {
-  Vector out{Index(posterior.draws.size())};
-  for (Index d = 0; d < out.size(); ++d)
-    out[d] = posterior.draws[std::size_t(d)].weight;
-  return out / out.sum();
-}
-
 double odds(double probability, double least) {
   const double p = std::clamp(probability, least, 1.0 - least);
   return p / (1.0 - p);
@@ -73,12 +56,6 @@ std::vector<ActiveEffect> active_effects(const PosteriorProblem &problem,
   return out;
 }
 
-Matrix joint_probabilities(const PosteriorProblem &problem, const Posterior &posterior,
-                           int material) {
-  const Matrix on = indicators(switches_of(problem, material), posterior, material);
-  return on.transpose() * weights_of_draws(posterior).asDiagonal() * on;
-}
-
 std::vector<RankedHypothesis> ranked_hypotheses(const PosteriorProblem &problem,
                                                 const Posterior &posterior, int material,
                                                 double share) {
@@ -117,30 +94,6 @@ CredibleRange parameter_range(const Posterior &posterior, int parameter, int mat
     weights.push_back(d.weight);
   }
   return credible_range(values, weights);
-}
-
-DiscrepancyEvidence discrepancy_evidence(const PosteriorProblem &problem,
-                                         const Posterior &posterior) {
-  double ratio = 0.0;
-  Index data = 0;
-  for (const FilmData &f : problem.films)
-    if (f.discrepancy.size() > 0) {
-      ratio += (f.discrepancy.diagonal().array() / f.measurement.diagonal().array()).sum();
-      data += f.observed.size();
-    }
-  DiscrepancyEvidence out;
-  out.visible_size = data > 0 ? std::sqrt(double(data) / ratio) : INFINITY;
-  std::vector<double> sizes, weights;
-  for (const Draw &d : posterior.draws) {
-    sizes.push_back(d.discrepancy);
-    weights.push_back(d.weight);
-    out.probability += d.discrepancy > out.visible_size ? d.weight : 0.0;
-  }
-  const double share = 0.5 * (problem.discrepancy.scaled(out.visible_size) + 1.0),
-               least = 0.5 / double(posterior.draws.size());
-  out.bayes_factor = odds(out.probability, least) / odds(1.0 - share, least);
-  out.size = credible_range(sizes, weights);
-  return out;
 }
 
 } // namespace calendem::inference

@@ -24,10 +24,6 @@ struct ActiveEffect {
 std::vector<ActiveEffect> active_effects(const PosteriorProblem &problem,
                                          const Posterior &posterior, int material);
 
-/// Probabilities that two effects act together; on the diagonal that one does.
-Matrix joint_probabilities(const PosteriorProblem &problem, const Posterior &posterior,
-                           int material);
-
 /// All effects that act, and no others.
 struct RankedHypothesis {
   std::vector<Switch> effects; ///< empty: none
@@ -40,16 +36,6 @@ std::vector<RankedHypothesis> ranked_hypotheses(const PosteriorProblem &problem,
 
 /// Range of a parameter's score over the draws.
 CredibleRange parameter_range(const Posterior &posterior, int parameter, int material);
-
-/// What the posterior says about what no effect of the table explains.
-struct DiscrepancyEvidence {
-  double visible_size = 0.0; ///< at which its variance equals the readings', on average over data
-  double probability = 0.0;  ///< that it is larger
-  double bayes_factor = 0.0; ///< the odds of this over those before the data
-  CredibleRange size;
-};
-DiscrepancyEvidence discrepancy_evidence(const PosteriorProblem &problem,
-                                         const Posterior &posterior);
 
 } // namespace calendem::inference
 

@@ -64,21 +64,6 @@ WithGradient with_differences(const std::function<double(const Vector &)> &funct
   };
 }
 
-Matrix hessian(const WithGradient &function, const Vector &at, double step) {
-  const auto n = at.size();
-  Matrix second(n, n);
-  Vector moved = at, above(n), below(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    moved[i] = at[i] + step;
-    function(moved, above);
-    moved[i] = at[i] - step;
-    function(moved, below);
-    moved[i] = at[i];
-    second.col(i) = (above - below) / (2.0 * step);
-  }
-  return 0.5 * (second + second.transpose());
-}
-
 namespace {
 
 constexpr std::uint64_t kShiftsStream = 0x50b01; // of the stream of shifts

@@ -29,9 +29,6 @@ Minimum minimise(const WithGradient &function, const Vector &start);
 /// The gradient by central differences of step 1e-4.
 WithGradient with_differences(const std::function<double(const Vector &)> &function);
 
-/// The second derivatives by central differences of the gradient.
-Matrix hessian(const WithGradient &function, const Vector &at, double step);
-
 /// dimension x count points in (0, 1): Boost's Sobol sequence (Joe and Kuo's direction numbers),
 /// shifted modulo 1 by a vector that `shift` seeds (Cranley and Patterson 1976). 0: not shifted.
 Matrix sobol_points(int dimension, int count, std::uint64_t shift);

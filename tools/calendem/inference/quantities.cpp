@@ -9,10 +9,6 @@
 
 namespace calendem::inference {
 
-std::string key_of(const ObservableId &o) {
-  return fmt::format("{}|{}|{}|{:.6g}", o.name, o.stage, o.condition, o.coordinate);
-}
-
 std::vector<Block> blocks_of(const std::vector<ObservableId> &all) {
   std::vector<Block> blocks;
   for (int i = 0; i < int(all.size()); ++i) {
@@ -26,45 +22,6 @@ std::vector<Block> blocks_of(const std::vector<ObservableId> &all) {
     at->members.push_back(i);
   }
   return blocks;
-}
-
-std::vector<int> places_in(const std::vector<ObservableId> &all,
-                           const std::vector<ObservableId> &wanted) {
-  std::map<std::string, int> place;
-  for (int i = 0; i < int(all.size()); ++i)
-    place.emplace(key_of(all[i]), i);
-  std::vector<int> places;
-  std::string missing;
-  for (const ObservableId &o : wanted) {
-    const auto at = place.find(key_of(o));
-    if (at == place.end())
-      missing += "\n  " + key_of(o);
-    else
-      places.push_back(at->second);
-  }
-  if (!missing.empty())
-    throw Failure(kBadInput, "the bank of simulations lacks observables of the experiment. Make "
-                             "it again with them, or leave them out:" +
-                                 missing);
-  return places;
-}
-
-void check(const ObservableVector &e) {
-  const auto n = Eigen::Index(e.of.size());
-  if (n == 0 || e.values.size() != n || e.covariance.rows() != n || e.covariance.cols() != n)
-    throw Failure(kBadInput,
-                  fmt::format("{} observables with {} values and a covariance of {} x {}: give at "
-                              "least one, and as many values and rows",
-                              n, e.values.size(), e.covariance.rows(), e.covariance.cols()));
-  for (Eigen::Index i = 0; i < n; ++i)
-    if (!std::isfinite(e.values[i]) || !(e.covariance(i, i) > 0.0))
-      throw Failure(kBadInput, fmt::format("{}: value {:g}, variance {:g}; a number and a variance "
-                                           "above 0 are needed. Leave out what was not measured",
-                                           key_of(e.of[i]), e.values[i], e.covariance(i, i)));
-  const bool symmetric = e.covariance.isApprox(e.covariance.transpose(), 1e-10);
-  if (!symmetric || Cholesky(e.covariance).info() != Eigen::Success)
-    throw Failure(kBadInput, "the covariance of the measurement is not symmetric and positive "
-                             "definite: no correlation may reach 1");
 }
 
 namespace {
@@ -96,16 +53,6 @@ double Prior::scaled(double value) const {
   return 2.0 * share - 1.0;
 }
 
-double Prior::value_slope(double score) const {
-  if (kind == normal)
-    return b;
-  return pdf(kStandardNormal, score) * (kind == uniform ? b - a : value(score) * std::log(b / a));
-}
-
-double Prior::scaled_slope(double score) const {
-  return kind == normal ? 0.5 : 2.0 * pdf(kStandardNormal, score);
-}
-
 double Prior::density(double value) const {
   if (kind == normal)
     return pdf(kStandardNormal, (value - a) / b) / b;
@@ -121,18 +68,8 @@ double Parameter::strength(double value) const {
                      : std::log(value / nothing) / std::log(prior.upper() / nothing);
 }
 
-double Parameter::strength_slope(double value) const {
-  return power > 0.0 ? power * std::pow(value / prior.upper(), power - 1.0) / prior.upper()
-                     : 1.0 / (value * std::log(prior.upper() / nothing));
-}
-
 double Parameter::input(double value) const {
   return power == 1.0 ? prior.scaled(value) : 2.0 * strength(value) - 1.0;
-}
-
-double Parameter::input_slope(double score) const {
-  return power == 1.0 ? prior.scaled_slope(score)
-                      : 2.0 * strength_slope(prior.value(score)) * prior.value_slope(score);
 }
 
 void check(const Parameter &p) {

@@ -18,14 +18,6 @@ struct ObservableId {
   double coordinate = 0.0; ///< of a point of a curve, scaled to 0-1 over the curve
 };
 
-/// An experiment's values, in scales in which their errors are about normal (take the logarithm or
-/// the logit before, of bank and experiment alike).
-struct ObservableVector {
-  std::vector<ObservableId> of;
-  Vector values;
-  Matrix covariance; ///< of measurement, and of numerics where known; square of the values' units
-};
-
 /// The observables of one name, stage and condition: a scalar or a curve.
 struct Block {
   std::string name, stage, condition;
@@ -34,17 +26,6 @@ struct Block {
 
 /// In the order of first appearance.
 std::vector<Block> blocks_of(const std::vector<ObservableId> &all);
-
-/// "name|stage|condition|coordinate": a column of the bank's table.
-std::string key_of(const ObservableId &observable);
-
-/// Places of `wanted` in `all`. Throws Failure(2) that names every one that is not there.
-std::vector<int> places_in(const std::vector<ObservableId> &all,
-                           const std::vector<ObservableId> &wanted);
-
-/// Throws Failure(2): sizes that differ, values that are no numbers, a covariance that is not
-/// symmetric and positive definite.
-void check(const ObservableVector &experiment);
 
 /// A parameter is the image of a standard normal *score*: inference sees scores only, whose prior
 /// is the same for all. Emulators see the *scaled* value, -1 to 1 over the prior's range.
@@ -58,9 +39,6 @@ struct Prior {
   double score(double value) const;
   /// -1 at the lower bound (mean - 2 sd), 1 at the upper (mean + 2 sd).
   double scaled(double value) const;
-  /// d value / d score, and d scaled(value) / d score.
-  double value_slope(double score) const;
-  double scaled_slope(double score) const;
   /// Per unit of the value, which counts as the bound beyond one.
   double density(double value) const;
   /// Largest value the prior reaches, for the scale of an amplitude: b, or a + 2 b.
@@ -79,11 +57,9 @@ struct Parameter {
 
   /// What an amplitude does, 1 at the upper end of the prior; emulators learn in it.
   double strength(double value) const;
-  double strength_slope(double value) const; ///< d strength / d value
   /// What emulators see: the scaled value, or of an amplitude of another power than 1 its strength
   /// on the same scale.
   double input(double value) const;
-  double input_slope(double score) const; ///< d input / d score
 };
 
 /// Throws Failure(2) if the bounds are in the wrong order, or a spread is not positive.

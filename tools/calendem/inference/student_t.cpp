@@ -9,12 +9,6 @@
 
 namespace calendem::inference {
 
-double mixed_degrees(const Matrix &known, const Matrix &estimated, double degrees_of_freedom) {
-  const Cholesky total(known + estimated);
-  const double share = total.solve(estimated).trace() / double(known.rows());
-  return std::min(kNormal, degrees_of_freedom / std::max(share * share, 1e-12));
-}
-
 double log_student_t(double square, double log_determinant, int n, double nu) {
   if (nu >= kNormal)
     return -0.5 * (n * std::log(2.0 * kPi) + log_determinant + square);

@@ -10,10 +10,6 @@ namespace calendem::inference {
 
 constexpr double kNormal = 1e6; ///< from here on a t distribution is computed as normal
 
-/// Degrees of freedom of `known + estimated`, whose second part has `degrees_of_freedom`: divided
-/// by the square of its mean share, trace((known + estimated)^-1 estimated) / n. At most kNormal.
-double mixed_degrees(const Matrix &known, const Matrix &estimated, double degrees_of_freedom);
-
 /// ln density of the multivariate t distribution of a residual whose square in its scale matrix is
 /// `square` (Kotz and Nadarajah 2004, eq. 1.1).
 double log_student_t(double square, double log_determinant, int n, double degrees_of_freedom);
