@@ -183,7 +183,7 @@ TEST(Training, EffectsAreStrengthsAndPressesTheirPressures) {
   }
   runs.runs[1].presses.back().pressure = 250.0;
   const inference::TrainingRuns t = bank::training_of(runs);
-  ASSERT_EQ(t.values.rows(), 6 * kFilmNumbers);
+  ASSERT_EQ(t.values.rows(), bank::count_of_outputs(6));
   const auto output = [](std::size_t k) {
     return bank::output_of(FilmNumber::PorosityAfter, k, 6);
   };

@@ -56,15 +56,7 @@ FilmBank::FilmBank(const bank::Runs &runs, inference::Emulator emulator)
     floor_nanoporosity_ = read_case(spec_.case_file, recipe_).number(kFloor);
     material_.push_back({kNanoporosity, {inference::Prior::uniform, -within, within}});
   }
-  for (std::size_t e = 0; e < effects_.size(); ++e) {
-    if (effects_[e].name == kCollapse)
-      collapse_ = int(e);
-    excluded_.emplace_back();
-    for (const std::string &name : spec_.design.inputs[std::size_t(space_.effects[e])].excludes)
-      for (std::size_t other = 0; other < effects_.size(); ++other)
-        if (effects_[other].name == name)
-          excluded_.back().push_back(int(other));
-  }
+  note_effects();
   const auto larger = spec_.design.larger.recipe.find(kLoading);
   if (larger != spec_.design.larger.recipe.end())
     larger_loading_ = std::stod(larger->second);
@@ -78,6 +70,18 @@ FilmBank::FilmBank(const bank::Runs &runs, inference::Emulator emulator)
               .array()
               .isFinite()
               .any();
+  }
+}
+
+void FilmBank::note_effects() {
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    if (effects_[e].name == kCollapse)
+      collapse_ = int(e);
+    excluded_.emplace_back();
+    for (const std::string &name : spec_.design.inputs[std::size_t(space_.effects[e])].excludes)
+      for (std::size_t other = 0; other < effects_.size(); ++other)
+        if (effects_[other].name == name)
+          excluded_.back().push_back(int(other));
   }
 }
 
@@ -126,6 +130,26 @@ void FilmBank::place(const Material &material, const Alike &as, Eigen::Index col
   at.amplitudes(at.amplitudes.rows() - 1, column) = larger_share(as.film);
 }
 
+/// Collapse takes as much as there are nanopores for.
+void FilmBank::scale_collapse(const inference::Points &at, const std::vector<Alike> &as,
+                              const std::vector<int> &outputs, inference::Matrix &mean) const {
+  std::vector<Eigen::Index> collapsing;
+  for (Eigen::Index m = 0; m < mean.cols() && collapse_ >= 0; ++m)
+    if (as[std::size_t(m)].collapse != 1.0 && at.amplitudes(collapse_, m) != 0.0)
+      collapsing.push_back(m);
+  if (collapsing.empty())
+    return;
+  inference::Points open = {at.inputs(Eigen::all, collapsing),
+                            at.amplitudes(Eigen::all, collapsing)};
+  open.amplitudes.row(collapse_).setZero();
+  const inference::Matrix without = emulator_.predict(open, outputs, false).mean;
+  for (std::size_t k = 0; k < collapsing.size(); ++k) {
+    const Eigen::Index m = collapsing[k], from = Eigen::Index(k);
+    mean.col(m) =
+        without.col(from) + as[std::size_t(m)].collapse * (mean.col(m) - without.col(from));
+  }
+}
+
 inference::Expectation FilmBank::emulated(const Film &film,
                                           const std::vector<const Material *> &materials,
                                           const std::vector<int> &outputs) const {
@@ -139,21 +163,7 @@ inference::Expectation FilmBank::emulated(const Film &film,
     place(material, as.back(), m, at);
   }
   inference::Expectation of = emulator_.predict(at, outputs);
-  std::vector<Eigen::Index> collapsing; // of other nanopores than the bank's
-  for (Eigen::Index m = 0; m < n && collapse_ >= 0; ++m)
-    if (as[std::size_t(m)].collapse != 1.0 && at.amplitudes(collapse_, m) != 0.0)
-      collapsing.push_back(m);
-  if (!collapsing.empty()) {
-    inference::Points open = {at.inputs(Eigen::all, collapsing),
-                              at.amplitudes(Eigen::all, collapsing)};
-    open.amplitudes.row(collapse_).setZero();
-    const inference::Matrix without = emulator_.predict(open, outputs, false).mean;
-    for (std::size_t k = 0; k < collapsing.size(); ++k) {
-      const Eigen::Index m = collapsing[k], from = Eigen::Index(k);
-      of.mean.col(m) =
-          without.col(from) + as[std::size_t(m)].collapse * (of.mean.col(m) - without.col(from));
-    }
-  }
+  scale_collapse(at, as, outputs, of.mean);
   const auto first = [&](FilmNumber number) {
     return bank::output_of(number, 0, pressures_.size());
   };

@@ -64,7 +64,7 @@ public:
   /// Nanoporosity of a film's CBD, if it is made of that material, 0-1.
   double nanoporosity(const Film &film, const Material &material) const;
   const std::vector<bank::Input> &film() const { return film_; }
-  /// Those that the bank's runs have.
+  /// Effects that the bank's runs have.
   const std::vector<inference::Parameter> &effects() const { return effects_; }
   /// Places of effects that are off in the bank's runs where the effect of that place acts: a contact
   /// follows one law.
@@ -133,6 +133,9 @@ private:
   Alike alike(const Film &film, double nanoporosity) const;
   void check_nanoporosity() const;
   double larger_share(const Film &film) const;
+  void note_effects();
+  void scale_collapse(const inference::Points &at, const std::vector<Alike> &as,
+                      const std::vector<int> &outputs, inference::Matrix &mean) const;
   void place(const Material &material, const Alike &as, Eigen::Index column,
              inference::Points &at) const;
 };

@@ -156,7 +156,7 @@ Matrix output_correlation(const FilmBank &bank) {
   return out;
 }
 
-/// Of covariance C: C_ij / sqrt(C_ii C_jj), 1 on the diagonal.
+/// C_ij / sqrt(C_ii C_jj), 1 on the diagonal.
 Matrix correlation_of(const Matrix &covariance) {
   const Vector sd = covariance.diagonal().cwiseMax(1e-300).cwiseSqrt();
   Matrix out = sd.cwiseInverse().asDiagonal() * covariance * sd.cwiseInverse().asDiagonal();
@@ -171,6 +171,19 @@ void add_common(const std::vector<Reading> &readings, const Vector &of, std::str
     for (Index j = 0; j < of.size(); ++j)
       if (readings[std::size_t(i)].*group == readings[std::size_t(j)].*group)
         to(i, j) += of[i] * of[j];
+}
+
+/// Covariance of a discrepancy of size 1: readings of one kind have it alike at like pressures.
+Matrix discrepancy_of_one(const std::vector<Reading> &readings, const Vector &per_porosity) {
+  const Index n = per_porosity.size();
+  Matrix out = Matrix::Zero(n, n);
+  for (Index i = 0; i < n; ++i)
+    for (Index j = 0; j < n; ++j) {
+      const Reading &a = readings[std::size_t(i)], &b = readings[std::size_t(j)];
+      if (kind_of(a.observable) == kind_of(b.observable))
+        out(i, j) = per_porosity[i] * per_porosity[j] * alike_at(pressure_of(a), pressure_of(b));
+    }
+  return out;
 }
 
 /// A film's data and how they are predicted.
@@ -259,15 +272,7 @@ inference::FilmData FilmModel::data(const ModelError &error, double sizes) const
   out.fixed.diagonal().array() += tiny;
   out.emulator_correlation = emulator_;
   out.scatter_correlation = scatter_;
-  out.discrepancy.resize(n, n);
-  for (Index i = 0; i < n; ++i)
-    for (Index j = 0; j < n; ++j) {
-      const Reading &a = all[std::size_t(i)], &b = all[std::size_t(j)];
-      out.discrepancy(i, j) =
-          kind_of(a.observable) == kind_of(b.observable)
-              ? per_porosity[i] * per_porosity[j] * alike_at(pressure_of(a), pressure_of(b))
-              : 0.0;
-    }
+  out.discrepancy = discrepancy_of_one(all, per_porosity);
   out.shared_errors.resize(n, 2);
   out.shared_errors.col(0) = error.numerics * of_pressed;
   out.shared_errors.col(1) = kPorosityBySize * sizes * of_pressed;
@@ -420,36 +425,46 @@ std::vector<std::string> acting_in(const Settings &settings, const FilmBank &ban
   return out;
 }
 
-FilmProblem problem_of(const FilmBank &bank, const MeasuredFilms &measured,
-                       const ProblemOptions &options) {
-  FilmProblem out;
-  out.parameters = bank.material();
-  out.effects = bank.effects();
-  auto shared = std::make_shared<Shared>();
-  for (std::size_t e = 0; e < out.effects.size(); ++e)
-    out.excluded.push_back(bank.excluded_by(int(e)));
-  shared->excluded = out.excluded;
-  inference::PosteriorProblem &p = out.problem;
-  Vector middle_amplitudes(Index(out.effects.size()));
-  for (std::size_t e = 0; e < out.effects.size(); ++e) {
+namespace {
+
+/// Parameters, effects and their priors; the amplitudes of the model that may be wrong, in the middle
+/// of their priors.
+Vector add_priors(const FilmBank &bank, const ProblemOptions &options, FilmProblem &to) {
+  to.parameters = bank.material();
+  to.effects = bank.effects();
+  inference::PosteriorProblem &p = to.problem;
+  Vector middle(Index(to.effects.size()));
+  for (std::size_t e = 0; e < to.effects.size(); ++e) {
     const bool acting = std::find(options.acting.begin(), options.acting.end(),
-                                  out.effects[e].name) != options.acting.end();
+                                  to.effects[e].name) != options.acting.end();
     p.effects.push_back({acting ? 1.0 - options.wrong : options.wrong, false});
-    middle_amplitudes[Index(e)] = acting ? 0.0 : inference::kOff;
+    middle[Index(e)] = acting ? 0.0 : inference::kOff;
+    to.excluded.push_back(bank.excluded_by(int(e)));
   }
   if (options.faults)
     for (const std::string &fault : bank.spec().faults) {
-      out.effects.push_back(fault_parameter(fault));
+      to.effects.push_back(fault_parameter(fault));
       p.effects.push_back({options.wrong, true});
     }
-  shared->parameters = out.parameters;
-  shared->effects = out.effects;
-  p.parameters = int(out.parameters.size());
-  p.materials = int(measured.materials.size());
+  p.parameters = int(to.parameters.size());
   p.discrepancy = discrepancy_of(options.error);
   p.understated = options.understated;
-  const Material middle =
-      shared->material(Vector::Zero(Index(out.parameters.size())), middle_amplitudes);
+  return middle;
+}
+
+} // namespace
+
+FilmProblem problem_of(const FilmBank &bank, const MeasuredFilms &measured,
+                       const ProblemOptions &options) {
+  FilmProblem out;
+  const Vector amplitudes = add_priors(bank, options, out);
+  auto shared = std::make_shared<Shared>();
+  shared->parameters = out.parameters;
+  shared->effects = out.effects;
+  shared->excluded = out.excluded;
+  inference::PosteriorProblem &p = out.problem;
+  p.materials = int(measured.materials.size());
+  const Material middle = shared->material(Vector::Zero(Index(out.parameters.size())), amplitudes);
   const std::vector<std::string> kinds = common_kinds(measured);
   for (int f = 0; f < int(measured.films.size()); ++f) {
     std::vector<Reading> readings;

@@ -342,12 +342,19 @@ private:
 
 } // namespace
 
+namespace {
+
+EffectSet most_probable(const FilmBank &bank, const Calibration &c, std::size_t material) {
+  const std::vector<EffectSet> sets = effect_sets_of(bank, c);
+  return *std::max_element(sets.begin(), sets.end(), [&](const EffectSet &a, const EffectSet &b) {
+    return a.probability[material] < b.probability[material];
+  });
+}
+
+} // namespace
+
 std::string case_of(const FilmBank &bank, const Calibration &c, std::size_t of_those) {
-  std::vector<EffectSet> sets = effect_sets_of(bank, c);
-  const EffectSet best =
-      *std::max_element(sets.begin(), sets.end(), [&](const EffectSet &a, const EffectSet &b) {
-        return a.probability[of_those] < b.probability[of_those];
-      });
+  const EffectSet best = most_probable(bank, c, of_those);
   const std::vector<int> &effects = best.effects;
   std::vector<const Draw *> of;
   for (const Draw &d : c.draws)

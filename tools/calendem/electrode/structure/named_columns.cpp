@@ -302,6 +302,17 @@ ParticleData parse_dump(const std::string &text, const DataFormat &format, Mista
   return frame.finish(newline);
 }
 
+namespace {
+
+std::vector<std::vector<double>> numbers_of(const CsvTable &table) {
+  std::vector<std::vector<double>> out;
+  for (const std::string &name : table.header())
+    out.push_back(table.numbers(name));
+  return out;
+}
+
+} // namespace
+
 ParticleData parse_sphere_table(const std::string &text, const DataFormat &format,
                                 Mistakes &mistakes) {
   const CsvTable table = CsvTable::parse(with_separators(text));
@@ -325,9 +336,6 @@ ParticleData parse_sphere_table(const std::string &text, const DataFormat &forma
                                 missing));
   if (!mistakes.empty())
     return {};
-  std::vector<std::vector<double>> values;
-  for (const std::string &name : table.header())
-    values.push_back(table.numbers(name));
   // As high as its centres lie; a row without a height is refused as such.
   Eigen::Vector3d low(0.0, 0.0, HUGE_VAL),
       high(format.side_x / format.length_um, format.side_y / format.length_um, -HUGE_VAL);
@@ -337,6 +345,7 @@ ParticleData parse_sphere_table(const std::string &text, const DataFormat &forma
       high.z() = std::max(high.z(), z);
     }
   AtomRows rows(kStyle, mistakes, joined(table.header()));
+  const std::vector<std::vector<double>> values = numbers_of(table);
   for (size_t k = 0; k < table.rows(); ++k)
     rows.read(table.line_of(k),
               columns.row([&](size_t column) { return text_of(values[column][k]); }, long(k) + 1,
