@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "films/film_problem.h"
 #include "base/case.h"
-#include "films/emulated_run.h"
+#include "films/film_readings.h"
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -16,7 +16,6 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kStep = 0.05;                     // of the logarithm of the pressure, for a slope
 constexpr double kNodesFrom = 1.0, kNodesTo = 6.0; // of ln(p / MPa), one apart
 
 /// Readings whose errors of the model are alike at like pressures.
@@ -40,120 +39,6 @@ Matrix node_factors(const std::vector<double> &pressures) {
       with(i, k) = alike_at(node(i), pressures[std::size_t(k)]);
   }
   return Cholesky(between).matrixL().solve(with).transpose();
-}
-
-/// Predicts the readings of one film.
-class FilmReadings {
-public:
-  FilmReadings(const FilmBank &bank, const Film &film, std::vector<Reading> readings)
-      : bank_(bank), film_(film), readings_(std::move(readings)), outputs_(outputs_of_runs(bank)) {
-    for (const Reading &r : readings_) {
-      const auto place = runs_.find(r.pressure);
-      if (place == runs_.end())
-        runs_.emplace(r.pressure,
-                      std::make_pair(EmulatedRun(bank, film, r.pressure),
-                                     EmulatedRun(bank, film, r.pressure * std::exp(kStep))));
-    }
-  }
-
-  const std::vector<Reading> &readings() const { return readings_; }
-
-  inference::Expectation emulated(const std::vector<const Material *> &materials,
-                                  const std::vector<int> &outputs) const {
-    return bank_.emulated(film_, materials, outputs);
-  }
-  const std::vector<int> &outputs() const { return outputs_; }
-
-  struct Values {
-    Vector at, by_log_pressure; ///< with the film pressed more
-  };
-  Values values(const Vector &outputs, const PressInstruments &press) const {
-    Values out{Vector(Index(readings_.size())), Vector(Index(readings_.size()))};
-    std::map<double, std::pair<SimulatedRun, SimulatedRun>> shown;
-    const PressInstruments more{std::exp(-kStep), press.compliance, press.thickness_zero};
-    for (const auto &[pressure, runs] : runs_)
-      shown.emplace(pressure, std::make_pair(shown_by({1.0, press.compliance, press.thickness_zero},
-                                                      runs.first.of(outputs)),
-                                             shown_by(more, runs.second.of(outputs))));
-    for (std::size_t k = 0; k < readings_.size(); ++k) {
-      const auto &[here, beyond] = shown.at(readings_[k].pressure);
-      const auto &of = readings_[k].observable.simulated;
-      const auto at = Index(k);
-      out.at[at] = of(here);
-      out.by_log_pressure[at] = (of(beyond) - out.at[at]) / kStep;
-    }
-    out.at -= std::log(press.pressure_factor) * out.by_log_pressure; // the gauge shows too much
-    return out;
-  }
-
-  /// Change of the readings by the outputs.
-  Matrix slopes(const Vector &outputs) const {
-    const Vector base = values(outputs, {}).at;
-    Matrix out = Matrix::Zero(base.size(), outputs.size());
-    for (Index o = 0; o < outputs.size(); ++o) {
-      if (!std::isfinite(outputs[o]))
-        continue;
-      Vector changed = outputs;
-      constexpr double kSmall = 1e-4;
-      changed[o] += kSmall;
-      out.col(o) = (values(changed, {}).at - base) / kSmall;
-    }
-    return out;
-  }
-
-  /// A derivative of each reading, by what `of` picks; 0 where it has none.
-  Vector derivatives(Derivative Observable::*of, const Vector &outputs) const {
-    Vector out = Vector::Zero(Index(readings_.size()));
-    for (std::size_t k = 0; k < readings_.size(); ++k)
-      if (const Derivative &d = readings_[k].observable.*of)
-        out[Index(k)] = d(runs_.at(readings_[k].pressure).first.of(outputs));
-    return out;
-  }
-
-  /// What one of porosity is in each reading: how the model's discrepancy is weighed.
-  Vector per_porosity(const Vector &outputs) const {
-    Vector out = derivatives(&Observable::per_porosity, outputs);
-    for (std::size_t k = 0; k < readings_.size(); ++k)
-      if (!readings_[k].observable.per_porosity)
-        out[Index(k)] = kCrackedPerPorosity;
-    return out;
-  }
-
-private:
-  const FilmBank &bank_;
-  Film film_;
-  std::vector<Reading> readings_;
-  std::vector<int> outputs_;
-  std::map<double, std::pair<EmulatedRun, EmulatedRun>> runs_; ///< by pressure
-};
-
-/// Correlation of the emulator's errors between outputs: of one kind they are alike at like pressures.
-Matrix output_correlation(const FilmBank &bank) {
-  const std::vector<int> outputs = outputs_of_runs(bank);
-  const auto n = Index(outputs.size());
-  const std::size_t presses = bank.pressures().size();
-  std::vector<int> kind;
-  std::vector<double> pressure;
-  for (const int o : outputs) {
-    if (o < bank::loading_output(0, presses)) {
-      kind.push_back(o / int(presses));
-      pressure.push_back(bank.pressures()[std::size_t(o) % presses]);
-    } else if (o < bank::release_output(0, 0, presses)) {
-      kind.push_back(kFilmNumbers);
-      pressure.push_back(
-          bank::loading_pressures()[std::size_t(o - bank::loading_output(0, presses))]);
-    } else {
-      const auto of_release = std::size_t(o - bank::release_output(0, 0, presses));
-      kind.push_back(kFilmNumbers + 1);
-      pressure.push_back(bank.pressures()[of_release / bank::kReleases.size()]);
-    }
-  }
-  Matrix out = Matrix::Identity(n, n);
-  for (Index i = 0; i < n; ++i)
-    for (Index j = 0; j < n; ++j)
-      if (i != j && kind[std::size_t(i)] == kind[std::size_t(j)])
-        out(i, j) = alike_at(pressure[std::size_t(i)], pressure[std::size_t(j)]);
-  return out;
 }
 
 /// C_ij / sqrt(C_ii C_jj), 1 on the diagonal.
@@ -397,10 +282,6 @@ struct Shared {
 };
 
 } // namespace
-
-double alike_at(double pressure, double other) {
-  return std::exp(-0.5 * std::pow(std::log(pressure / other), 2));
-}
 
 ModelError model_error_of(const FilmBank &bank) {
   ModelError out;

@@ -6,7 +6,7 @@
 
 #include "base/experiment.h"
 #include "compare/observables.h"
-#include "films/film_bank.h"
+#include "films/emulated_run.h"
 #include "inference/posterior.h"
 
 namespace calendem {
@@ -44,9 +44,6 @@ void add_readings(const Experiment &experiment, const FilmBank &bank, MeasuredFi
 
 /// Readings of numbers of the film itself, as calibrate has them.
 Observable observable_of(FilmNumber number, double measured, double sd);
-
-/// Errors of model and emulator change over a factor e of pressure.
-double alike_at(double pressure, double other);
 
 /// The model's discrepancy in the share of cracked particles, in units of that in porosities: of 1 to
 /// 4 points, 5 to 20 %. An estimate.
