@@ -17,28 +17,6 @@ constexpr std::size_t kThinned = 4; // every fourth draw tells what further data
 // The discrepancy shows from where it is as large as the errors, within the middle half of its prior.
 constexpr double kQuarter = 0.25;
 
-/// The films that a model was calibrated on, with what was read of them.
-MeasuredFilms films_of(const Calibration &c) {
-  MeasuredFilms out;
-  out.materials = c.materials;
-  std::map<int, int> places;
-  for (const Datum &d : c.data) {
-    const auto [at, is_new] = places.emplace(d.film, int(out.films.size()));
-    if (is_new) {
-      out.films.push_back(c.films[std::size_t(d.film)]);
-      out.cells.push_back(0.0);
-    }
-    Reading r;
-    r.film = at->second;
-    r.condition = r.specimen = d.condition;
-    r.pressure = d.pressure;
-    r.pressure_sd = d.pressure_sd;
-    r.observable = observable_of(d.number, d.measured, d.sd);
-    out.readings.push_back(r);
-  }
-  return out;
-}
-
 /// In what an experiment lies outside the bank.
 std::vector<std::string> outside_of(const FilmBank &bank, const Film &film, const Experiment &e) {
   std::vector<std::string> out = bank.beyond(film);
@@ -160,7 +138,7 @@ Diagnosis diagnosed(const Experiment &e, const FilmBank &bank, const DiagnosisOp
   Diagnosis d;
   d.experiment = e.name;
   if (options.prior)
-    d.measured = films_of(*options.prior);
+    d.measured = measured_films(*options.prior);
   add_readings(e, bank, d.measured, d.warnings);
   d.film = int(d.measured.films.size()) - 1;
   d.outside = outside_of(bank, d.measured.films.back(), e);

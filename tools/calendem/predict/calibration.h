@@ -69,6 +69,9 @@ struct Calibration {
 void add_experiment(const Experiment &experiment, const FilmBank &bank, Calibration &to,
                     std::vector<std::string> &not_said);
 
+/// The films that have data, with them, as readings; their samples are large.
+MeasuredFilms measured_films(const Calibration &calibration);
+
 struct CalibrationSettings {
   int samples = 512; ///< of the sampler
   int draws = 400;   ///< that are kept

@@ -50,17 +50,16 @@ double acting(const Calibration &c, int effect, std::size_t material) {
   return sum / double(c.draws.size());
 }
 
-namespace {
-
-/// The films that have data, with them.
 MeasuredFilms measured_films(const Calibration &c) {
   MeasuredFilms out;
   out.materials = c.materials;
   std::map<int, int> places;
   for (const Datum &d : c.data) {
     const auto [at, is_new] = places.emplace(d.film, int(out.films.size()));
-    if (is_new)
+    if (is_new) {
       out.films.push_back(c.films[std::size_t(d.film)]);
+      out.cells.push_back(0.0);
+    }
     Reading r;
     r.film = at->second;
     r.condition = r.specimen = d.condition;
@@ -71,6 +70,8 @@ MeasuredFilms measured_films(const Calibration &c) {
   }
   return out;
 }
+
+namespace {
 
 /// The product's draw of one of the inference.
 Draw draw_of(const FilmProblem &problem, const inference::Draw &from) {
