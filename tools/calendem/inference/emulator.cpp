@@ -8,9 +8,10 @@
 namespace calendem::inference {
 namespace {
 
-constexpr double kScaleDegrees = 10.0; // of the prior of an output's scale
-constexpr int kMostToFit = 500;        // runs that the hyperparameters are fitted to
-constexpr Eigen::Index kBatch = 64;    // points at a time: their covariances stay in the cache
+constexpr double kScaleDegrees = 10.0;    // of the prior of an output's scale
+constexpr int kMostToFit = 500;           // runs that the hyperparameters are fitted to
+constexpr double kLeastEigenvalue = 1e-3; // of a correlation: pairs of outputs have other runs
+constexpr Eigen::Index kBatch = 64;       // points at a time: their covariances stay in the cache
 
 Points chosen(const Points &from, const std::vector<int> &places) {
   return {from.inputs(Eigen::all, places), from.amplitudes(Eigen::all, places)};
@@ -244,6 +245,24 @@ LeftOut Emulator::left_out() const {
       leave_out(f, inverse, of, out);
   }
   return out;
+}
+
+Matrix error_correlation(const LeftOut &left_out, const Matrix &values, const Matrix &expected) {
+  const Matrix error = (values - left_out.predicted).cwiseQuotient(left_out.deviation);
+  const Matrix known = error.array().isFinite().cast<double>();
+  const Matrix z = (known.array() > 0.0).select(error, 0.0);
+  const Matrix square = z.cwiseAbs2() * known.transpose(), runs = known * known.transpose();
+  const Matrix sd = square.cwiseProduct(square.transpose()).cwiseSqrt();
+  const Matrix sample = (sd.array() > 0.0).select((z * z.transpose()).cwiseQuotient(sd), expected);
+  const Eigen::ArrayXXd off = (sample - expected).array(),
+                        doubt = (1.0 - sample.array().square()).square() / runs.array().max(1.0),
+                        kept = (1.0 - doubt / off.square().max(1e-300)).max(0.0);
+  const Eigen::SelfAdjointEigenSolver<Matrix> parts(Matrix(expected.array() + kept * off));
+  const Matrix out = parts.eigenvectors() *
+                     parts.eigenvalues().cwiseMax(kLeastEigenvalue).asDiagonal() *
+                     parts.eigenvectors().transpose();
+  const Vector scale = out.diagonal().cwiseSqrt().cwiseInverse();
+  return scale.asDiagonal() * out * scale.asDiagonal();
 }
 
 std::vector<Accuracy> accuracy_of(const LeftOut &left_out, const Matrix &values) {

@@ -90,6 +90,11 @@ private:
                  LeftOut &out) const;
 };
 
+/// Correlation between outputs of the errors of packings that were left out, in their predicted standard
+/// deviations. Where it differs from `expected`, a correlation matrix, by less than chance would have it,
+/// it is that; else the difference is shrunk by its own variance (the positive part of James and Stein).
+Matrix error_correlation(const LeftOut &left_out, const Matrix &values, const Matrix &expected);
+
 /// For each output; NaN where no run has it.
 std::vector<Accuracy> accuracy_of(const LeftOut &left_out, const Matrix &values);
 

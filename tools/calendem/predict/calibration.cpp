@@ -151,7 +151,8 @@ Predicted predicted_data(const FilmBank &bank, const Calibration &c, const Draw 
 }
 
 /// Covariance of measured - predicted.
-Matrix covariance_of(const Calibration &c, const Predicted &p, const Draw &draw) {
+Matrix covariance_of(const FilmBank &bank, const Calibration &c, const Predicted &p,
+                     const Draw &draw) {
   const auto n = Eigen::Index(c.data.size());
   Matrix out(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
@@ -159,9 +160,9 @@ Matrix covariance_of(const Calibration &c, const Predicted &p, const Draw &draw)
       const Datum &a = c.data[std::size_t(i)], &b = c.data[std::size_t(j)];
       out(i, j) = error_covariance(c.error, draw, spot_of(c, a), spot_of(c, b));
       if (a.film == b.film)
-        out(i, j) += p.by_pressure[i] * p.by_pressure[j];
-      if (a.number == b.number && a.film == b.film)
-        out(i, j) += std::sqrt(p.variance[i] * p.variance[j]) * alike_at(a.pressure, b.pressure);
+        out(i, j) += p.by_pressure[i] * p.by_pressure[j] +
+                     std::sqrt(p.variance[i] * p.variance[j]) *
+                         bank.error_correlation(a.number, a.pressure, b.number, b.pressure);
       if (i == j)
         out(i, j) += a.sd * a.sd;
     }
@@ -181,7 +182,7 @@ std::vector<MeanVariance> each_from_the_others(const FilmBank &bank, const Calib
                                                const Draw &draw) {
   const Predicted p = predicted_data(bank, c, draw);
   const auto n = Eigen::Index(c.data.size());
-  const Matrix precision = Cholesky(covariance_of(c, p, draw)).solve(Matrix::Identity(n, n));
+  const Matrix precision = Cholesky(covariance_of(bank, c, p, draw)).solve(Matrix::Identity(n, n));
   const Vector measured = measured_of(c), pull = precision * (measured - p.mean);
   std::vector<MeanVariance> out;
   for (Eigen::Index k = 0; k < n; ++k)
@@ -257,7 +258,7 @@ std::vector<MeanVariance> missed_given_data(const FilmBank &bank, const Calibrat
   const int film = known == c.films.end() ? -1 : int(known - c.films.begin());
   const auto n = Eigen::Index(c.data.size());
   const Predicted p = predicted_data(bank, c, draw);
-  const Cholesky chol(covariance_of(c, p, draw));
+  const Cholesky chol(covariance_of(bank, c, p, draw));
   const Vector weights = chol.solve(measured_of(c) - p.mean);
   std::vector<MeanVariance> out;
   for (const double pressure : query.pressures) {
