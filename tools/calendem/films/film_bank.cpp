@@ -115,6 +115,11 @@ double FilmBank::larger_share(const Film &film) const {
              : 0.0;
 }
 
+inference::Points FilmBank::no_points(Eigen::Index count) const {
+  return {inference::Matrix(Eigen::Index(space_.priors.size()), count),
+          inference::Matrix::Zero(Eigen::Index(space_.amplitudes.size()) + 1, count)};
+}
+
 void FilmBank::place(const Material &material, const Alike &as, Eigen::Index column,
                      inference::Points &at) const {
   std::size_t of_recipe = 0, of_case = 0;
@@ -154,8 +159,7 @@ inference::Expectation FilmBank::emulated(const Film &film,
                                           const std::vector<const Material *> &materials,
                                           const std::vector<int> &outputs) const {
   const auto n = Eigen::Index(materials.size());
-  inference::Points at = {inference::Matrix(Eigen::Index(space_.priors.size()), n),
-                          inference::Matrix::Zero(Eigen::Index(space_.amplitudes.size()) + 1, n)};
+  inference::Points at = no_points(n);
   std::vector<Alike> as;
   for (Eigen::Index m = 0; m < n; ++m) {
     const Material &material = *materials[std::size_t(m)];
@@ -284,6 +288,16 @@ const inference::Matrix &FilmBank::error_correlation() const {
     error_correlation_ = inference::error_correlation(emulator_.left_out(), emulator_.runs().values,
                                                       expected_correlation(pressures_));
   return *error_correlation_;
+}
+
+inference::Matrix FilmBank::films_alike(const std::vector<Film> &films,
+                                        const std::vector<const Material *> &materials) const {
+  inference::Points at = no_points(Eigen::Index(films.size()));
+  for (std::size_t f = 0; f < films.size(); ++f)
+    place(*materials[f], alike(films[f], nanoporosity(films[f], *materials[f])), Eigen::Index(f),
+          at);
+  return emulator_.correlation(
+      at, bank::output_of(FilmNumber::PorosityAfter, pressures_.size() / 2, pressures_.size()));
 }
 
 double FilmBank::error_correlation(FilmNumber a, double at_a, FilmNumber b, double at_b) const {

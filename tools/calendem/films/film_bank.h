@@ -103,6 +103,9 @@ public:
   std::vector<std::vector<MeanVariance>>
   at_pressures(FilmNumber number, const Film &film,
                const std::vector<const Material *> &materials) const;
+  /// Correlation of the emulator's errors between films, each of its material: films x films.
+  inference::Matrix films_alike(const std::vector<Film> &films,
+                                const std::vector<const Material *> &materials) const;
   /// Weights of the values at the bank's pressures that give the one at `pressure` (cubic_weights).
   inference::Vector weights_at(double pressure) const;
   /// Between them by the cubic through the four nearest, in the pressure's logarithm; beyond them
@@ -145,6 +148,7 @@ private:
   void note_effects();
   void scale_collapse(const inference::Points &at, const std::vector<Alike> &as,
                       const std::vector<int> &outputs, inference::Matrix &mean) const;
+  inference::Points no_points(Eigen::Index count) const;
   void place(const Material &material, const Alike &as, Eigen::Index column,
              inference::Points &at) const;
 };

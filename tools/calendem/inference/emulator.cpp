@@ -215,6 +215,22 @@ Emulator::Batch Emulator::predict_batch(std::size_t place, const Points &at,
   return out;
 }
 
+Matrix Emulator::correlation(const Points &at, int output) const {
+  const auto knows = [&](const Factor &f) {
+    return std::find(f.outputs.begin(), f.outputs.end(), output) != f.outputs.end();
+  };
+  const auto factor = std::find_if(factors_.begin(), factors_.end(), knows);
+  if (factor == factors_.end())
+    return Matrix::Identity(at.inputs.cols(), at.inputs.cols());
+  const Kernel &kernel = kernels_[std::size_t(factor->group)];
+  const Matrix known = factor->covariance.matrixL().solve(kernel.expected(factor->at, at));
+  Matrix left = kernel.expected(at, at) - known.transpose() * known;
+  const Vector scale = left.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  left = scale.asDiagonal() * left * scale.asDiagonal();
+  left.diagonal().setOnes();
+  return left;
+}
+
 /// What the factor's outputs miss by where the runs `of` are unknown, and its variance: the residual is
 /// [K^-1]_BB^-1 [K^-1 y]_B for the block B (Rasmussen and Williams eq. 5.12, for more than one run).
 void Emulator::leave_out(const Factor &f, const Matrix &inverse, const std::vector<int> &of,

@@ -59,6 +59,8 @@ public:
   Expectation predict(const Points &at, const std::vector<int> &outputs,
                       bool with_variance = true) const;
   LeftOut left_out() const;
+  /// Between points, of what the emulator does not know of an output's expectation.
+  Matrix correlation(const Points &at, int output) const;
 
 private:
   /// Outputs of a group that the same runs have.
