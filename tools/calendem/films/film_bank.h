@@ -94,7 +94,7 @@ public:
 
   /// Correlation of the emulator's errors between all its outputs, as packings that were left out show it.
   const inference::Matrix &error_correlation() const;
-  /// The same between numbers of one film at any two pressures [MPa].
+  /// Also between numbers of one film at any two pressures [MPa].
   double error_correlation(FilmNumber a, double at_a, FilmNumber b, double at_b) const;
 
   /// At each of the bank's pressures, of one material or of several.
