@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "films/film_problem.h"
 #include "base/case.h"
-#include "films/film_readings.h"
+#include "films/film_model.h"
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -21,15 +21,6 @@ using Eigen::Index;
 constexpr double kDegreesOfOneCell = 12.0;
 constexpr double kNodesFrom = 1.0, kNodesTo = 6.0; // of ln(p / MPa), one apart
 
-/// Readings whose errors of the model are alike at like pressures.
-std::string kind_of(const Observable &o) {
-  return o.curve.empty() ? o.name + "|" + o.stage : o.curve + "|" + o.stage;
-}
-
-double pressure_of(const Reading &r) {
-  return r.observable.pressure > 0.0 ? r.observable.pressure : r.pressure;
-}
-
 /// Values of a shared discrepancy at nodes, whose product is about `alike_at`.
 Matrix node_factors(const std::vector<double> &pressures) {
   const auto nodes = Index(kNodesTo - kNodesFrom) + 1, n = Index(pressures.size());
@@ -42,160 +33,6 @@ Matrix node_factors(const std::vector<double> &pressures) {
       with(i, k) = alike_at(node(i), pressures[std::size_t(k)]);
   }
   return Cholesky(between).matrixL().solve(with).transpose();
-}
-
-/// C_ij / sqrt(C_ii C_jj), 1 on the diagonal.
-Matrix correlation_of(const Matrix &covariance) {
-  const Vector sd = covariance.diagonal().cwiseMax(1e-300).cwiseSqrt();
-  Matrix out = sd.cwiseInverse().asDiagonal() * covariance * sd.cwiseInverse().asDiagonal();
-  out.diagonal().setOnes();
-  return out;
-}
-
-/// Adds `of` of each reading as an error common to readings of one group.
-void add_common(const std::vector<Reading> &readings, const Vector &of, std::string Reading::*group,
-                Matrix &to) {
-  for (Index i = 0; i < of.size(); ++i)
-    for (Index j = 0; j < of.size(); ++j)
-      if (readings[std::size_t(i)].*group == readings[std::size_t(j)].*group)
-        to(i, j) += of[i] * of[j];
-}
-
-/// Covariance of a discrepancy of size 1: readings of one kind have it alike at like pressures.
-Matrix discrepancy_of_one(const std::vector<Reading> &readings, const Vector &per_porosity) {
-  const Index n = per_porosity.size();
-  Matrix out = Matrix::Zero(n, n);
-  for (Index i = 0; i < n; ++i)
-    for (Index j = 0; j < n; ++j) {
-      const Reading &a = readings[std::size_t(i)], &b = readings[std::size_t(j)];
-      if (kind_of(a.observable) == kind_of(b.observable))
-        out(i, j) = per_porosity[i] * per_porosity[j] * alike_at(pressure_of(a), pressure_of(b));
-    }
-  return out;
-}
-
-/// A film's data and how they are predicted.
-class FilmModel {
-public:
-  FilmModel(const FilmBank &bank, const MeasuredFilms &measured, int film,
-            const std::vector<Reading> &readings, double cells, const Material &middle)
-      : readings_(bank, measured.films[std::size_t(film)], readings), cells_(cells),
-        correlation_(bank.error_correlation()) {
-    const inference::Expectation e = readings_.emulated({&middle}, readings_.outputs());
-    outputs_ = e.mean.col(0);
-    slopes_ = readings_.slopes(outputs_);
-    const Vector sd = e.variance.col(0).cwiseMax(0.0).cwiseSqrt(),
-                 packings = e.scatter.col(0).cwiseMax(0.0).cwiseSqrt();
-    emulator_ = correlation_of(covariance(sd));
-    scatter_ = correlation_of(covariance(packings));
-    for (Index o = 0; o < slopes_.cols(); ++o)
-      if (slopes_.col(o).any())
-        used_.push_back(int(o));
-    for (Index k = 0; k < slopes_.rows(); ++k) {
-      places_.emplace_back();
-      for (std::size_t u = 0; u < used_.size(); ++u)
-        if (slopes_(k, used_[u]) != 0.0)
-          places_.back().push_back(Index(u));
-    }
-    slopes_ = Matrix(slopes_(Eigen::all, used_));
-    correlation_ = Matrix(correlation_(used_, used_));
-  }
-
-  inference::FilmData data(const ModelError &error, double sizes) const;
-  inference::FilmPredictions predict(const std::vector<Material> &materials,
-                                     const std::vector<PressInstruments> &presses) const;
-  Vector per_porosity() const { return readings_.per_porosity(outputs_); }
-
-private:
-  FilmReadings readings_;
-  double cells_;
-  Matrix correlation_, slopes_, emulator_, scatter_;
-  Vector outputs_;
-  std::vector<int> used_;                  ///< outputs on which any reading depends
-  std::vector<std::vector<Index>> places_; ///< places in them on which each depends
-
-  Matrix covariance(const Vector &sd) const {
-    const Matrix by = slopes_ * finite(sd).asDiagonal();
-    return by * correlation_ * by.transpose();
-  }
-  static Vector finite(const Vector &of) {
-    return of.unaryExpr([](double v) { return std::isfinite(v) ? v : 0.0; });
-  }
-  double variance(Index reading, const Vector &sd) const {
-    double sum = 0.0;
-    for (const Index i : places_[std::size_t(reading)])
-      for (const Index j : places_[std::size_t(reading)])
-        sum += slopes_(reading, i) * sd[i] * correlation_(i, j) * sd[j] * slopes_(reading, j);
-    return sum;
-  }
-};
-
-inference::FilmData FilmModel::data(const ModelError &error, double sizes) const {
-  const std::vector<Reading> &all = readings_.readings();
-  const auto n = Index(all.size());
-  inference::FilmData out;
-  out.observed.resize(n);
-  Vector stated(n), loading(n), drift(n), zero(n), before(n), after(n);
-  const Vector per_porosity = readings_.per_porosity(outputs_),
-               of_pressed = readings_.derivatives(&Observable::per_porosity, outputs_),
-               of_initial = readings_.derivatives(&Observable::per_initial_porosity, outputs_);
-  for (Index k = 0; k < n; ++k) {
-    const Reading &r = all[std::size_t(k)];
-    out.observed[k] = r.observable.measured;
-    stated[k] = r.observable.sd * r.observable.sd;
-    loading[k] = r.observable.by_loading;
-    drift[k] = r.observable.by_drift;
-    zero[k] = r.observable.by_zero;
-    before[k] = r.specimen_porosity_before * of_initial[k];
-    after[k] = r.specimen_porosity * of_pressed[k];
-  }
-  out.measurement = stated.asDiagonal();
-  add_common(all, loading, &Reading::specimen, out.measurement);
-  add_common(all, drift, &Reading::condition, out.measurement);
-  add_common(all, zero, &Reading::condition, out.measurement);
-  out.fixed = Matrix::Zero(n, n);
-  add_common(all, before, &Reading::specimen, out.fixed);
-  add_common(all, after, &Reading::specimen, out.fixed);
-  const double tiny = 1e-12 * std::max(1.0, out.measurement.diagonal().maxCoeff());
-  out.fixed.diagonal().array() += tiny;
-  out.emulator_correlation = emulator_;
-  out.scatter_correlation = scatter_;
-  out.discrepancy = discrepancy_of_one(all, per_porosity);
-  out.shared_errors.resize(n, 2);
-  out.shared_errors.col(0) = error.numerics * of_pressed;
-  out.shared_errors.col(1) = kPorosityBySize * sizes * of_pressed;
-  return out;
-}
-
-inference::FilmPredictions FilmModel::predict(const std::vector<Material> &materials,
-                                              const std::vector<PressInstruments> &presses) const {
-  std::vector<const Material *> of;
-  for (const Material &m : materials)
-    of.push_back(&m);
-  const inference::Expectation e = readings_.emulated(of, used_);
-  const auto n = Index(readings_.readings().size()), count = Index(materials.size());
-  inference::FilmPredictions out;
-  out.mean.resize(n, count);
-  out.variance.resize(n, count);
-  if (cells_ > 0.0)
-    out.scatter.resize(n, count);
-  out.errors.assign(1, Matrix(n, count));
-  Vector outputs = outputs_;
-  for (Index m = 0; m < count; ++m) {
-    outputs(used_) = e.mean.col(m);
-    const auto values = readings_.values(outputs, presses[std::size_t(m)]);
-    out.mean.col(m) = values.at;
-    const Vector sd = finite(e.variance.col(m).cwiseMax(0.0).cwiseSqrt()),
-                 packings = finite(e.scatter.col(m).cwiseMax(0.0).cwiseSqrt());
-    for (Index k = 0; k < n; ++k) {
-      out.errors[0](k, m) =
-          values.by_log_pressure[k] * readings_.readings()[std::size_t(k)].pressure_sd;
-      out.variance(k, m) = variance(k, sd);
-      if (cells_ > 0.0)
-        out.scatter(k, m) = variance(k, packings) / cells_;
-    }
-  }
-  return out;
 }
 
 /// Kinds of readings that several films have: their discrepancies may be common.
@@ -370,8 +207,8 @@ FilmProblem problem_of(const FilmBank &bank, const MeasuredFilms &measured,
       }
     const double cells =
         std::size_t(f) < measured.cells.size() ? measured.cells[std::size_t(f)] : 0.0;
-    shared->films.emplace_back(bank, measured, f, readings, cells, middle);
     const Film &film = measured.films[std::size_t(f)];
+    shared->films.emplace_back(bank, film, readings, cells, middle);
     p.films.push_back(shared->films.back().data(options.error, film.sizes));
     p.films.back().material = film.material;
     if (!kinds.empty())
