@@ -5,6 +5,7 @@
 #include "compare/gap.h"
 #include "diagnose/diagnosis.h"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace calendem {
@@ -63,7 +64,7 @@ json set_rows(const Json &which) {
 json measurement_rows(const Json &which) {
   json out = json::array();
   for (const Json &m : which["measurements"])
-    out.push_back({{"what", fmt::format("{} after {:g} MPa", m["observable"].get<std::string>(),
+    out.push_back({{"what", fmt::format("{} after {:.3g} MPa", m["observable"].get<std::string>(),
                                         m["pressure_MPa"].get<double>())},
                    {"sd", fmt::format("{:.2g} {}", m["sd"].get<double>(),
                                       shown_unit(m["unit"].get<std::string>()))},
@@ -116,8 +117,9 @@ std::vector<report::Chart> curve_charts(const Json &gap) {
       c.x_label = "Pressure (MPa)";
       c.y_label = fmt::format("Displacement{}", p["unit"] == "um" ? " (µm)" : " / solid thickness");
       c.from_zero = false;
-      c.note = "Points of the loading, and of the release from the same pressure; error bars: one "
-               "standard deviation of all errors.";
+      c.note = "Points of the loading, and of the release from the same pressure. Both models are "
+               "shifted by the error of the first contact that fits best; error bars: one standard "
+               "deviation of all other errors.";
       const char *const names[] = {"measured", "model, recalibrated",
                                    "with the leading explanation"};
       for (int k = 0; k < 3; ++k) {
@@ -130,12 +132,15 @@ std::vector<report::Chart> curve_charts(const Json &gap) {
       }
       chart = out.insert(out.end(), c);
     }
-    const char *const keys[] = {"measured", "model", "explained"};
-    for (int k = 0; k < 3; ++k) {
-      chart->series[std::size_t(k)].x.push_back(p["pressure_MPa"]);
-      chart->series[std::size_t(k)].y.push_back(p[keys[k]]);
+    const auto value = [&](const char *key) { return p[key].get<double>(); };
+    const double y[] = {value("measured"), value("model") + value("zero"),
+                        value("explained") + value("zero_explained")};
+    for (std::size_t k = 0; k < 3; ++k) {
+      chart->series[k].x.push_back(p["pressure_MPa"]);
+      chart->series[k].y.push_back(y[k]);
     }
-    chart->series[0].y_error.push_back(p["sd"]);
+    const double sd = value("sd"), zero = value("zero_sd");
+    chart->series[0].y_error.push_back(std::sqrt(std::max(0.0, sd * sd - zero * zero)));
   }
   return out;
 }

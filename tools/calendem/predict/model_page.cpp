@@ -25,13 +25,17 @@ json percent_row(const Json &row, std::initializer_list<const char *> keys) {
   return out;
 }
 
+/// Intervals of films left out that hold as many measured values are taken at their word: 90 % of
+/// them should, and of a dozen one or two more may miss.
+constexpr double kReliable = 0.75;
+
 /// Films left out, with what the rules of thumb say, and how far each is off.
 json left_out_part(const Json &model) {
   const Json &rows = model.at("left_out");
   if (rows.empty())
     return nullptr;
   json table = json::array();
-  std::vector<double> off, heckel, meyer;
+  std::vector<double> off, heckel, meyer, width;
   int in50 = 0, in90 = 0;
   json others = json::array();
   for (const Json &r : rows) {
@@ -49,6 +53,7 @@ json left_out_part(const Json &model) {
     row["meyer"] = fmt::format("{:.1f}", kPercent * r["rules"]["Meyer"].get<double>());
     in90 += row["inside"] == "yes";
     in50 += measured >= r["low50"] && measured <= r["high50"];
+    width.push_back(r["high90"].get<double>() - r["low90"].get<double>());
     off.push_back(std::fabs(r["median"].get<double>() - measured));
     heckel.push_back(std::fabs(r["rules"]["Heckel"].get<double>() - measured));
     meyer.push_back(std::fabs(r["rules"]["Meyer"].get<double>() - measured));
@@ -67,8 +72,21 @@ json left_out_part(const Json &model) {
           {"in90", fmt::format("{} of {}", in90, table.size())},
           {"in50", fmt::format("{} of {}", in50, table.size())},
           {"off", median(off)},
+          {"width", median(width)},
+          {"reliable", in90 >= kReliable * double(table.size())},
           {"heckel_off", median(heckel)},
           {"meyer_off", median(meyer)}};
+}
+
+/// The films that the bank covers.
+std::string films_in_words(const FilmBank &bank) {
+  std::string out;
+  for (const bank::Input &input : bank.film()) {
+    const NameAndUnit in = in_words(input.name);
+    out += fmt::format("{} {:g} to {:g}{}, ", in.name, input.low, input.high, in.unit);
+  }
+  return out + fmt::format("pressed to {:g} to {:g} MPa", bank.pressures().front(),
+                           bank.pressures().back());
 }
 
 json confirmed_part(const Json &model) {
@@ -148,6 +166,7 @@ json parameters_part(const Json &model) {
     const auto text = shown_alike({p["median"], p["low90"], p["high90"]});
     rows.push_back(
         {{"name", p["parameter"]},
+         {"meaning", p["meaning"]},
          {"prior", shown(p["prior_low"], "{:g}") + " to " + shown(p["prior_high"], "{:g}")},
          {"median", text[0]},
          {"low", text[1]},
@@ -253,6 +272,8 @@ std::string model_page(const FilmBank &bank, const Calibration &c, const Json &m
                  {"any_crushing", !model.at("crushing").empty()},
                  {"emulators_rows", emulators_part(model)},
                  {"bank_name", bank.spec().name},
+                 {"films", films_in_words(bank)},
+                 {"material", bank.recipe().material.name},
                  {"provenance_rows", provenance_of(model)}};
   return report::to_html(page);
 }
