@@ -93,6 +93,7 @@ readme_is_short() {
   sed '/^```/,/^```/d; s/\](\([^)]*\))/]/g' README.md | tr '\n' ' ' | { grep -oE '\([^()]*\)' || true; } | awk 'NF > 8' |
     report "a parenthesis of README.md may have 8 words"
 }
+# shellcheck disable=SC2016 # Markdown
 tutorials_have_a_folder_each() { # so that they can be typed one after another
   for page in docs/tutorials/*.md; do
     sed -n '/^```\(sh\|console\)$/,/^```$/p' "$page" | { grep -oE '(-o|mkdir -p|>) ?my/[a-z_]+' || true; } |
