@@ -90,6 +90,15 @@ columns_have_a_meaning() { # of every table that the run of the tutorial left
 readme_is_short() {
   awk 'END { if (NR > 120) print NR " lines" }' README.md | report "README.md may have 120 lines"
   { grep -v '^```' docs/figures/demo_output.md | grep -vxFf README.md || true; } | report "what the demo prints differs in README.md"
+  sed '/^```/,/^```/d; s/\](\([^)]*\))/]/g' README.md | tr '\n' ' ' | { grep -oE '\([^()]*\)' || true; } | awk 'NF > 8' |
+    report "a parenthesis of README.md may have 8 words"
+}
+# shellcheck disable=SC2016 # Markdown
+tutorials_have_a_folder_each() { # so that they can be typed one after another
+  for page in docs/tutorials/*.md; do
+    sed -n '/^```\(sh\|console\)$/,/^```$/p' "$page" | { grep -oE '(-o|mkdir -p|>) ?my/[a-z_]+' || true; } |
+      sed "s|.*my/|$page: my/|" | sort -u
+  done | sort | awk -F': ' '{ if (++of[$1] > 1 || ++pages[$2] > 1) print }' | report "a tutorial writes into another folder, or into another one's"
 }
 validation_pages_are_short() { # one question a page
   for page in docs/validation/*.md; do

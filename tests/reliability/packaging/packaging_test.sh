@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# packaging_test.sh installed|copied_clone|deb|recipes BUILD: one case. Exit status 0 passed, 1 failed, 77 skipped.
+# packaging_test.sh installed|copied_clone|deb BUILD: one case. Exit status 0 passed, 1 failed, 77 skipped.
 set -euo pipefail
 case=$1 build=$2
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
@@ -51,19 +51,4 @@ case $case in
     [ ! -e "$work/root/usr/bin/liggghts" ] || fail "usr/bin/liggghts belongs to Debian's package of that name"
     ! grep -q -e -march=native "$top/build/package/compile_commands.json" || fail "the package is tuned for this machine"
     runs_from "$work/root/usr" ;;
-  recipes)
-    grep -ho '/calendem/tools[^ ]*make[^ ]*' "$packaging/calendem.def" "$packaging/Dockerfile" |
-      while read -r f; do [ -x "$top${f#/calendem}" ] || fail "$f is called, which is not there"; done
-    sed -n '/^%\(post\|runscript\|test\)/,/^$/{/^ /p}' "$packaging/calendem.def" | bash -n
-    sed -n '/^%files$/,/^$/{s/^ *\([^ ]*\) .*/\1/p}' "$packaging/calendem.def" |
-      while read -r f; do [ -e "$top/$f" ] || fail "calendem.def copies $f, which is not there"; done
-    has python3 || { echo "skipped: no python3 to read the Spack recipe"; exit 77; }
-    python3 -c 'import ast, sys; ast.parse(open(sys.argv[1]).read())' "$packaging/spack/packages/calendem/package.py"
-    if has spack; then
-      export SPACK_USER_CONFIG_PATH=$work
-      spack repo add "$packaging/spack" && spack info calendem
-    fi
-    if has docker && docker buildx version >/dev/null 2>&1 && docker info >/dev/null 2>&1; then
-      docker build --check -f "$packaging/Dockerfile" "$top"
-    fi ;;
 esac

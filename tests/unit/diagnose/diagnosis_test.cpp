@@ -107,6 +107,28 @@ TEST(Diagnosis, ProposesMeasurementsThatWereNotMade) {
   }
 }
 
+// Three readings of a curve that are all 1 too high, with errors of 0.1 each and of 2 in common; a curve beside it.
+TEST(Diagnosis, CurvesAreDrawnWithTheFirstContactThatFits) {
+  Diagnosis d;
+  inference::FittedModel model;
+  model.residual.resize(4);
+  model.residual << 1.0, 1.0, 1.0, 0.0;
+  model.covariance = 0.01 * inference::Matrix::Identity(4, 4);
+  model.covariance.topLeftCorner(3, 3).array() += 4.0;
+  model.covariance(3, 3) += 4.0;
+  for (const int k : {0, 1, 2, 3}) {
+    Reading r;
+    r.condition = k < 3 ? "a" : "b";
+    r.observable.by_zero = 2.0;
+    d.measured.readings.push_back(r);
+    d.readings.push_back(k);
+  }
+  const inference::Vector zero = fitted_zeros(d, model);
+  EXPECT_NEAR(zero[0], 3.0 * 4.0 / (0.01 + 3.0 * 4.0), 1e-12); // ridge regression on a constant
+  EXPECT_NEAR(zero[2], zero[0], 1e-12);
+  EXPECT_EQ(zero[3], 0.0);
+}
+
 TEST(Diagnosis, ItsJsonSaysTheSame) {
   const nlohmann::ordered_json gap = to_json(of_collapsing_pores(), made_film_bank());
   EXPECT_EQ(gap["which"]["claim"], "cbd_collapse");

@@ -3,6 +3,7 @@
 #include "base/provenance.h"
 #include "base/run_folder.h"
 #include "support/test_folder.h"
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace {
@@ -80,6 +81,15 @@ TEST_F(ARunFolder, ACutSummaryIsNoFinishedRun) {
 }
 
 // Mistakes of several files stay together file by file, in the order of their lines.
+// Two releases of one run are no line between them.
+TEST(Picked, ALineEndsWhereRowsAreLeftOut) {
+  const Column of = picked({1.0, 2.0, 3.0, 4.0, 5.0}, {0, 1, 3, 4}, 10.0);
+  ASSERT_EQ(of.size(), 5u);
+  EXPECT_EQ(of[1], 20.0);
+  EXPECT_TRUE(std::isnan(of[2]));
+  EXPECT_EQ(of[3], 40.0);
+}
+
 TEST(MistakesOfFiles, AreListedFileByFile) {
   Mistakes one("a.toml", 1), all;
   one.add(0, "last.");

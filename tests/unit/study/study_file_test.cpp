@@ -126,7 +126,7 @@ TEST(StudyFile, ACombinationThatContradictsItselfIsNamed) {
                {"run 2", "cohesion would collapse the packing"});
   expect_parts(
       refusal(kHead + "[[vary]]\nkeys = [\"recipe.particles.min_um\"]\nvalues = [2, 15]\n"),
-      {"run 2", "no particle fits: the smallest is 15 um"});
+      {"run 2", "no particle fits: particles.min_um is 15"});
 }
 
 } // namespace

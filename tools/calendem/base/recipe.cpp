@@ -187,10 +187,11 @@ void check_cell(const Settings &s, const Recipe &r, Mistakes &mistakes) {
   if (s.sound({"particles.min_um", "particles.max_um", "particles.max_width_fraction"}) &&
       r.min_diameter >= r.largest_body())
     mistakes.add(
-        line, fmt::format("no particle fits: the smallest is {} um, the largest that this cell "
-                          "allows {:.4g} um. Make the cell larger, lower particles.min_um or raise "
-                          "particles.max_um.",
-                          r.min_diameter, r.largest_body()));
+        std::max({s.line("particles.min_um"), s.line("particles.max_um"), line}),
+        fmt::format("no particle fits: particles.min_um is {:g}, and the largest that "
+                    "particles.max_um and this cell allow {:.4g} um. Make the cell larger, lower "
+                    "particles.min_um or raise particles.max_um.",
+                    r.min_diameter, r.largest_body()));
 }
 
 } // namespace

@@ -92,8 +92,12 @@ double worst_imbalance(const Curve &curve, double threshold_MPa) {
 
 Column picked(const Column &values, const std::vector<std::size_t> &rows, double factor) {
   Column out;
-  for (const std::size_t i : rows)
-    out.push_back(values[i] * factor);
+  out.reserve(rows.size());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (k > 0 && rows[k] != rows[k - 1] + 1)
+      out.push_back(kNaN);
+    out.push_back(factor * values[rows[k]]);
+  }
   return out;
 }
 

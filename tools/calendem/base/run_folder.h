@@ -53,6 +53,7 @@ Column imbalance(const Curve &curve);
 /// The largest of them over rows with P_top above `threshold_MPa`; NaN if none.
 double worst_imbalance(const Curve &curve, double threshold_MPa);
 
+/// The values of these rows, with NaN where rows between them are left out: a line ends there.
 Column picked(const Column &values, const std::vector<std::size_t> &rows, double factor = 1);
 
 class RunFolder {

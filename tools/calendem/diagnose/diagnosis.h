@@ -65,6 +65,10 @@ std::vector<FurtherMeasurement> further_measurements(const Experiment &experimen
                                                      MeasuredFilms &with,
                                                      std::vector<std::vector<int>> &places);
 
+/// By how much the error of a curve's first contact shifts each reading of the film, as a model's
+/// errors and residuals let it be expected. All readings of a condition's curve share the error.
+inference::Vector fitted_zeros(const Diagnosis &diagnosis, const inference::FittedModel &model);
+
 /// gap.json without hashes of files (docs/reference/gap.md).
 nlohmann::ordered_json to_json(const Diagnosis &diagnosis, const FilmBank &bank);
 

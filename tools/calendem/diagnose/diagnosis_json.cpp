@@ -188,6 +188,8 @@ Json parameters_json(const Diagnosis &d) {
 }
 
 Json predictions_json(const Diagnosis &d) {
+  const inference::Vector zero = fitted_zeros(d, d.model),
+                          zero_explained = fitted_zeros(d, d.explained);
   Json out = Json::array();
   for (std::size_t k = 0; k < d.readings.size(); ++k) {
     const Index at = first_datum(d) + Index(k);
@@ -202,12 +204,28 @@ Json predictions_json(const Diagnosis &d) {
                    {"measured", o.measured},
                    {"sd", std::sqrt(d.model.covariance(at, at))},
                    {"model", o.measured - d.model.residual[at]},
-                   {"explained", o.measured - d.explained.residual[at]}});
+                   {"explained", o.measured - d.explained.residual[at]},
+                   {"zero_sd", o.by_zero},
+                   {"zero", zero[Index(k)]},
+                   {"zero_explained", zero_explained[Index(k)]}});
   }
   return out;
 }
 
 } // namespace
+
+inference::Vector fitted_zeros(const Diagnosis &d, const inference::FittedModel &m) {
+  const inference::Vector weights = m.covariance.ldlt().solve(m.residual);
+  const auto count = Index(d.readings.size()), first = first_datum(d);
+  inference::Vector out = inference::Vector::Zero(count);
+  for (Index k = 0; k < count; ++k)
+    for (Index j = 0; j < count; ++j) {
+      const Reading &to = reading_of(d, int(first + k)), &from = reading_of(d, int(first + j));
+      if (to.condition == from.condition)
+        out[k] += to.observable.by_zero * from.observable.by_zero * weights[first + j];
+    }
+  return out;
+}
 
 Json to_json(const Diagnosis &d, const FilmBank &bank) {
   Json out = new_gap(d.experiment, where_json(d), d.where.threshold, -1.0);

@@ -5,6 +5,7 @@
 #include "compare/gap.h"
 #include "diagnose/diagnosis.h"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace calendem {
@@ -63,7 +64,7 @@ json set_rows(const Json &which) {
 json measurement_rows(const Json &which) {
   json out = json::array();
   for (const Json &m : which["measurements"])
-    out.push_back({{"what", fmt::format("{} after {:g} MPa", m["observable"].get<std::string>(),
+    out.push_back({{"what", fmt::format("{} after {:.3g} MPa", m["observable"].get<std::string>(),
                                         m["pressure_MPa"].get<double>())},
                    {"sd", fmt::format("{:.2g} {}", m["sd"].get<double>(),
                                       shown_unit(m["unit"].get<std::string>()))},
@@ -99,6 +100,41 @@ json reading_rows(const Json &gap) {
   return out;
 }
 
+report::Chart empty_chart(const std::string &title, const std::string &unit, std::size_t number) {
+  report::Chart c;
+  c.id = fmt::format("curve_{}", number);
+  c.title = title;
+  c.x_label = "Pressure (MPa)";
+  c.y_label = fmt::format("Displacement{}", unit == "um" ? " (µm)" : " / solid thickness");
+  c.from_zero = false;
+  c.note =
+      "Points of the loading, and of the release from the same pressure. Both models are shifted "
+      "by the error of the first contact that fits best; error bars: one standard deviation of "
+      "all other errors.";
+  const char *const names[] = {"measured", "model, recalibrated", "with the leading explanation"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    report::Series s;
+    s.name = names[k];
+    s.mark = report::Mark::points;
+    s.symbol = report::kSeriesSymbols[k];
+    s.colour = report::kSeriesColours[k];
+    c.series.push_back(s);
+  }
+  return c;
+}
+
+void add_reading(const Json &p, report::Chart &chart) {
+  const auto value = [&](const char *key) { return p[key].get<double>(); };
+  const double y[] = {value("measured"), value("model") + value("zero"),
+                      value("explained") + value("zero_explained")};
+  for (std::size_t k = 0; k < 3; ++k) {
+    chart.series[k].x.push_back(p["pressure_MPa"]);
+    chart.series[k].y.push_back(y[k]);
+  }
+  const double sd = value("sd"), zero = value("zero_sd");
+  chart.series[0].y_error.push_back(std::sqrt(std::max(0.0, sd * sd - zero * zero)));
+}
+
 /// A condition's curve: measured, and as both models have it.
 std::vector<report::Chart> curve_charts(const Json &gap) {
   std::vector<report::Chart> out;
@@ -109,33 +145,9 @@ std::vector<report::Chart> curve_charts(const Json &gap) {
                                           p["observable"].get<std::string>());
     auto chart = std::find_if(out.begin(), out.end(),
                               [&](const report::Chart &c) { return c.title == title; });
-    if (chart == out.end()) {
-      report::Chart c;
-      c.id = fmt::format("curve_{}", out.size() + 1);
-      c.title = title;
-      c.x_label = "Pressure (MPa)";
-      c.y_label = fmt::format("Displacement{}", p["unit"] == "um" ? " (µm)" : " / solid thickness");
-      c.from_zero = false;
-      c.note = "Points of the loading, and of the release from the same pressure; error bars: one "
-               "standard deviation of all errors.";
-      const char *const names[] = {"measured", "model, recalibrated",
-                                   "with the leading explanation"};
-      for (int k = 0; k < 3; ++k) {
-        report::Series s;
-        s.name = names[k];
-        s.mark = report::Mark::points;
-        s.symbol = report::kSeriesSymbols[std::size_t(k)];
-        s.colour = report::kSeriesColours[std::size_t(k)];
-        c.series.push_back(s);
-      }
-      chart = out.insert(out.end(), c);
-    }
-    const char *const keys[] = {"measured", "model", "explained"};
-    for (int k = 0; k < 3; ++k) {
-      chart->series[std::size_t(k)].x.push_back(p["pressure_MPa"]);
-      chart->series[std::size_t(k)].y.push_back(p[keys[k]]);
-    }
-    chart->series[0].y_error.push_back(p["sd"]);
+    if (chart == out.end())
+      chart = out.insert(out.end(), empty_chart(title, p["unit"], out.size() + 1));
+    add_reading(p, *chart);
   }
   return out;
 }

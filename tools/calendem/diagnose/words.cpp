@@ -74,8 +74,9 @@ std::string step_of(const Json &change) {
 }
 
 std::string measurement_in_words(const Json &m) {
-  return fmt::format("{} after {:g} MPa", m["observable"].get<std::string>(),
-                     m["pressure_MPa"].get<double>());
+  const std::string what = m["observable"];
+  return fmt::format("{} {} {:.3g} MPa", what == "curve" ? "the curve" : what,
+                     what == "curve" ? "up to" : "after", m["pressure_MPa"].get<double>());
 }
 
 /// The measurement that tells most, if it tells anything.

@@ -37,7 +37,7 @@ bool are_alike(const std::array<double, 3> &a, const std::array<double, 3> &b, d
 }
 
 /// As far as the bank's cell shows it, and roughly in the whole film.
-bool has_like_particles(Recipe film, const Recipe &bank) {
+bool has_particles_of(Recipe film, const Recipe &bank) {
   if (!are_alike(sizes_by_volume(film, film.max_diameter), sizes_by_volume(bank, bank.max_diameter),
                  kSameInFilm))
     return false;
@@ -118,7 +118,7 @@ std::vector<std::string> FilmBank::differences(const Recipe &recipe) const {
   if (spec_.nanoporosity_within > 0.0)
     any("cbd.nanoporosity_percent");
   const bool packed = !recipe.structure.given() && !bank.structure.given(),
-             alike = has_like_particles(recipe, bank);
+             alike = has_particles_of(recipe, bank);
   if (alike)
     for (const char *key : {"particles.median_um", "particles.sigma_ln"})
       any(key);

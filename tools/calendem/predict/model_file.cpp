@@ -95,6 +95,15 @@ Json spread_of(std::vector<double> values) {
   return {{"median", at(0.5)}, {"low90", at(0.05)}, {"high90", at(0.95)}};
 }
 
+/// What the bank's parameter of that name is.
+std::string meaning_of(const FilmBank &bank, const std::string &parameter) {
+  for (const bank::Input &input : bank.spec().design.inputs)
+    for (const Key &key : case_keys())
+      if (input.name == parameter && input.keys.front() == "case." + key.name)
+        return key.meaning.substr(0, key.meaning.find(", eq."));
+  return "nanoporosity of carbon and binder, above the recipe's";
+}
+
 Json parameters_of(const FilmBank &bank, const Calibration &c) {
   Json out = Json::array();
   for (std::size_t m = 0; m < c.materials.size(); ++m)
@@ -103,24 +112,29 @@ Json parameters_of(const FilmBank &bank, const Calibration &c) {
       for (const Draw &d : c.draws)
         values.push_back(d.materials[m].parameters[k]);
       Json row = {{"parameter", bank.material()[k].name + of_material(c, m)},
+                  {"meaning", meaning_of(bank, bank.material()[k].name)},
                   {"prior_low", bank.material()[k].prior.a},
                   {"prior_high", bank.material()[k].prior.b}};
       row.update(spread_of(values));
       out.push_back(row);
     }
-  const auto add = [&](const char *name, double low, double high, const auto &value) {
+  const auto add = [&](const char *name, const char *meaning, double low, double high,
+                       const auto &value) {
     std::vector<double> values;
     for (const Draw &d : c.draws)
       values.push_back(value(d));
-    Json row = {{"parameter", name}, {"prior_low", low}, {"prior_high", high}};
+    Json row = {
+        {"parameter", name}, {"meaning", meaning}, {"prior_low", low}, {"prior_high", high}};
     row.update(spread_of(values));
     out.push_back(row);
   };
-  add("missed_points", 100.0 * c.error.low, 100.0 * c.error.high,
-      [](const Draw &d) { return 100.0 * d.missed.sd; });
-  add("missed_shared", 0.0, 1.0, [](const Draw &d) { return d.missed.shared; });
+  add("missed_points", "model error: its standard deviation in points of porosity",
+      100.0 * c.error.low, 100.0 * c.error.high, [](const Draw &d) { return 100.0 * d.missed.sd; });
+  add("missed_shared", "part of its variance that all films of one material share", 0.0, 1.0,
+      [](const Draw &d) { return d.missed.shared; });
   if (c.materials.size() > 1)
-    add("materials_alike", 0.0, 1.0, [](const Draw &d) { return d.alike; });
+    add("materials_alike", "correlation between the materials", 0.0, 1.0,
+        [](const Draw &d) { return d.alike; });
   return out;
 }
 

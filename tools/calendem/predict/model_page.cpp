@@ -25,21 +25,44 @@ json percent_row(const Json &row, std::initializer_list<const char *> keys) {
   return out;
 }
 
+/// Intervals of films left out that hold as many measured values are taken at their word: 90 % of
+/// them should, and of a dozen one or two more may miss.
+constexpr double kReliable = 0.75;
+
+std::string median_in_points(std::vector<double> v) {
+  std::sort(v.begin(), v.end());
+  const std::size_t n = v.size();
+  return n == 0 ? "–" : fmt::format("{:.1f}", kPercent * 0.5 * (v[(n - 1) / 2] + v[n / 2]));
+}
+
+/// How far porosities of films left out are off, by the model and by the rules of thumb.
+struct LeftOutErrors {
+  std::vector<double> off, heckel, meyer, width;
+  int in50 = 0, in90 = 0;
+
+  void add(const Json &r) {
+    const double measured = r["measured"];
+    in90 += measured >= r["low90"] && measured <= r["high90"];
+    in50 += measured >= r["low50"] && measured <= r["high50"];
+    width.push_back(r["high90"].get<double>() - r["low90"].get<double>());
+    off.push_back(std::fabs(r["median"].get<double>() - measured));
+    heckel.push_back(std::fabs(r["rules"]["Heckel"].get<double>() - measured));
+    meyer.push_back(std::fabs(r["rules"]["Meyer"].get<double>() - measured));
+  }
+};
+
 /// Films left out, with what the rules of thumb say, and how far each is off.
 json left_out_part(const Json &model) {
   const Json &rows = model.at("left_out");
   if (rows.empty())
     return nullptr;
-  json table = json::array();
-  std::vector<double> off, heckel, meyer;
-  int in50 = 0, in90 = 0;
-  json others = json::array();
+  json table = json::array(), others = json::array();
+  LeftOutErrors errors;
   for (const Json &r : rows) {
     json row = percent_row(r, {"measured", "median", "low90", "high90"});
-    const double measured = r["measured"];
     row["film"] = r["film"];
     row["pressure"] = shown(r["pressure_MPa"], "{:.0f}");
-    row["inside"] = measured >= r["low90"] && measured <= r["high90"] ? "yes" : "no";
+    row["inside"] = r["measured"] >= r["low90"] && r["measured"] <= r["high90"] ? "yes" : "no";
     if (r["rules"].empty()) {
       row["number"] = reading_in_words(r["number"]);
       others.push_back(row);
@@ -47,28 +70,30 @@ json left_out_part(const Json &model) {
     }
     row["heckel"] = fmt::format("{:.1f}", kPercent * r["rules"]["Heckel"].get<double>());
     row["meyer"] = fmt::format("{:.1f}", kPercent * r["rules"]["Meyer"].get<double>());
-    in90 += row["inside"] == "yes";
-    in50 += measured >= r["low50"] && measured <= r["high50"];
-    off.push_back(std::fabs(r["median"].get<double>() - measured));
-    heckel.push_back(std::fabs(r["rules"]["Heckel"].get<double>() - measured));
-    meyer.push_back(std::fabs(r["rules"]["Meyer"].get<double>() - measured));
+    errors.add(r);
     table.push_back(row);
   }
-  const auto median = [](std::vector<double> v) -> std::string {
-    std::sort(v.begin(), v.end());
-    const std::size_t n = v.size();
-    if (n == 0)
-      return "–";
-    return fmt::format("{:.1f}", kPercent * 0.5 * (v[(n - 1) / 2] + v[n / 2]));
-  };
   return {{"rows", table},
           {"others", others},
           {"any_others", !others.empty()},
-          {"in90", fmt::format("{} of {}", in90, table.size())},
-          {"in50", fmt::format("{} of {}", in50, table.size())},
-          {"off", median(off)},
-          {"heckel_off", median(heckel)},
-          {"meyer_off", median(meyer)}};
+          {"in90", fmt::format("{} of {}", errors.in90, table.size())},
+          {"in50", fmt::format("{} of {}", errors.in50, table.size())},
+          {"off", median_in_points(errors.off)},
+          {"width", median_in_points(errors.width)},
+          {"reliable", errors.in90 >= kReliable * double(table.size())},
+          {"heckel_off", median_in_points(errors.heckel)},
+          {"meyer_off", median_in_points(errors.meyer)}};
+}
+
+/// The films that the bank covers.
+std::string films_in_words(const FilmBank &bank) {
+  std::string out;
+  for (const bank::Input &input : bank.film()) {
+    const NameAndUnit in = in_words(input.name);
+    out += fmt::format("{} {:g} to {:g}{}, ", in.name, input.low, input.high, in.unit);
+  }
+  return out + fmt::format("pressed to {:g} to {:g} MPa", bank.pressures().front(),
+                           bank.pressures().back());
 }
 
 json confirmed_part(const Json &model) {
@@ -148,6 +173,7 @@ json parameters_part(const Json &model) {
     const auto text = shown_alike({p["median"], p["low90"], p["high90"]});
     rows.push_back(
         {{"name", p["parameter"]},
+         {"meaning", p["meaning"]},
          {"prior", shown(p["prior_low"], "{:g}") + " to " + shown(p["prior_high"], "{:g}")},
          {"median", text[0]},
          {"low", text[1]},
@@ -253,6 +279,8 @@ std::string model_page(const FilmBank &bank, const Calibration &c, const Json &m
                  {"any_crushing", !model.at("crushing").empty()},
                  {"emulators_rows", emulators_part(model)},
                  {"bank_name", bank.spec().name},
+                 {"films", films_in_words(bank)},
+                 {"material", bank.recipe().material.name},
                  {"provenance_rows", provenance_of(model)}};
   return report::to_html(page);
 }

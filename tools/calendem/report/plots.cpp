@@ -199,15 +199,15 @@ Chart quasi_static_check(const std::vector<Run> &runs) {
     const Curve &c = runs[i].curve;
     const Column difference = imbalance(c);
     const auto add = [&](const char *what, const Rows &rows, const char *colour, const char *dash) {
-      Column x, y;
+      Rows loaded;
       for (const std::size_t row : rows)
         if (c["pressure_MPa"][row] > kThreshold) {
-          x.push_back(c["pressure_MPa"][row]);
-          y.push_back(kPercent * difference[row]);
-          chart.y_top = std::max(chart.y_top, std::min(y.back(), kPercent));
+          loaded.push_back(row);
+          chart.y_top = std::max(chart.y_top, std::min(kPercent * difference[row], kPercent));
         }
-      chart.series.push_back(
-          line(prefix(runs, runs[i]) + what, x, y, colour, dash, look_of(runs, i)));
+      chart.series.push_back(line(prefix(runs, runs[i]) + what, picked(c["pressure_MPa"], loaded),
+                                  picked(difference, loaded, kPercent), colour, dash,
+                                  look_of(runs, i)));
     };
     add("compression", c.compression(), kBlue, "");
     if (!c.relaxation().empty())

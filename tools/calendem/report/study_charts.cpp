@@ -171,6 +171,13 @@ Chart against(const StudyTable &table, const std::string &setting, const std::st
   return chart;
 }
 
+/// Some value differs from zero.
+bool shows_anything(const Chart &chart) {
+  return std::any_of(chart.series.begin(), chart.series.end(), [](const Series &s) {
+    return std::any_of(s.y.begin(), s.y.end(), [](double y) { return y != 0.0; });
+  });
+}
+
 std::vector<Chart> charts_of_setting(const StudyTable &table, const std::string &setting) {
   std::vector<Chart> out;
   const auto published = report::paper_breaks();
@@ -180,7 +187,8 @@ std::vector<Chart> charts_of_setting(const StudyTable &table, const std::string 
     for (const report::PublishedBreaks &b : published)
       if (std::fabs(b.pressure_MPa - p) < 0.5)
         chart.limits.push_back({b.broken_percent, "paper"});
-    out.push_back(chart);
+    if (shows_anything(chart))
+      out.push_back(chart);
   }
   if (setting != kMaxPressure)
     out.push_back(against(table, setting, "porosity_after_relaxation",
