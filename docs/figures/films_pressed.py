@@ -1,0 +1,135 @@
+#!/usr/bin/python3
+# Figure and table of the index of the validation pages, measured against simulated: four films pressed of the reference
+# material, and the numbers behind them, from the study as far as it is finished:
+#   docs/figures/films_pressed.py build/films_pressed
+# Without a folder they are made again from the numbers (docs/validation/films_pressed.csv).
+import csv
+import html
+import json
+import math
+import pathlib
+import statistics
+import sys
+import tomllib
+
+here = pathlib.Path(__file__).resolve().parent
+cases, numbers = here.parent.parent / "input_scripts/cases", here.parent / "validation/films_pressed.csv"
+films = {"Table 1": "paper", "ARTISTIC 42 %": "real/artistic_96", "BLB 90:6:4": "real/blb_nmc111_90", "Zhang 42.4 %": "real/zhang_nmc111_96"}
+shown = ["Table 1", "ARTISTIC, 42 %", "BLB, 90 : 6 : 4", "Zhang, 96 : 2 : 2"]
+colours = ["#0060ad", "#c04020", "#1a8050", "#8040a0"]
+ONE_PACKING = 1.0  # points: standard deviation of one packing's porosity, where there are not two
+
+
+def between(points, x):
+    """Linear in ln x between points, level beyond them."""
+    if x <= points[0][0] or len(points) == 1:
+        return points[0][1]
+    for (x0, y0), (x1, y1) in zip(points, points[1:]):
+        if x <= x1:
+            return y0 + (y1 - y0) * math.log(x / x0) / math.log(x1 / x0)
+    return points[-1][1]
+
+
+def under_load(folder, pressure):
+    """Porosity where the film is first loaded that far."""
+    before = None
+    with open(folder / "curve.csv") as file:
+        for row in csv.DictReader(line for line in file if not line.startswith("#")):
+            now = float(row["pressure_MPa"]), float(row["porosity_total"])
+            if now[0] >= pressure and before:
+                return before[1] + (now[1] - before[1]) * (pressure - before[0]) / (now[0] - before[0])
+            before = now
+    return before[1]  # the platen stops a little below its target
+
+
+def conditions(film):
+    with open(cases / films[film] / "experiment.toml", "rb") as file:
+        return [c for c in tomllib.load(file)["condition"] if "porosity_after_percent" in c and "max_pressure_MPa" in c]
+
+
+def read(study):
+    """Rows of the table of numbers: what lies between the presses has the springback of its neighbours."""
+    rows = []
+    for run in csv.DictReader(open(study / "study.csv")):
+        folder = study / "runs" / run["run"]
+        if run["status"] != "done":
+            continue
+        presses = json.load(open(folder / "summary.json"))["presses"]
+        back = [(p["pressure_MPa"], p["porosity_released"] - p["porosity_loaded"]) for p in presses]
+        cracked = [(p["pressure_MPa"], p["cracked_fraction"]) for p in presses]
+        for condition in conditions(run["recipe.name"]):
+            at = condition["max_pressure_MPa"]["value"]
+            press = min(presses, key=lambda p: abs(math.log(p["pressure_MPa"] / at)))
+            met = abs(press["pressure_MPa"] / at - 1) < 0.02
+            loaded = press["porosity_loaded"] if met else under_load(folder, at)
+            after = press["porosity_released"] if met else loaded + between(back, at)
+            rows.append([run["recipe.name"], run["recipe.seed"], at] + [round(100 * v, 2) for v in (loaded, after, between(cracked, at))])
+    return sorted(rows, key=lambda r: (list(films).index(r[0]), r[2], r[1]))
+
+
+header = ["film", "seed", "pressure_MPa", "porosity_under_load_percent", "porosity_after_percent", "cracked_percent"]
+if len(sys.argv) > 1:
+    with open(numbers, "w", newline="") as file:
+        out = csv.writer(file, lineterminator="\n")
+        out.writerow(header)
+        out.writerows(read(pathlib.Path(sys.argv[1])))
+runs = list(csv.DictReader(open(numbers)))
+
+# Each reading: film, pressure, measured, simulated, number of packings, cracked; errors of all of them together.
+readings, scatters = [], []
+for n, film in enumerate(films):
+    for condition in conditions(film):
+        at = condition["max_pressure_MPa"]
+        same = [r for r in runs if r["film"] == film and float(r["pressure_MPa"]) == at["value"]]
+        if not same:
+            continue
+        after, cracked, loaded = ([float(r[key]) for r in same] for key in (header[4], header[5], header[3]))
+        if len(after) > 1:
+            scatters.append((statistics.variance(after), len(after) - 1))
+        measured = condition["porosity_after_percent"]
+        readings.append({"film": n, "at": at["value"], "pressure": at["sd_relative"], "measured": measured["value"], "sd": measured["sd"],
+                         "after": statistics.mean(after), "loaded": statistics.mean(loaded), "cracked": statistics.mean(cracked), "packings": len(after)})
+packing = math.sqrt(sum(v * n for v, n in scatters) / sum(n for _, n in scatters)) if scatters else ONE_PACKING
+for r in readings:
+    curve = [q for q in readings if q["film"] == r["film"]]
+    k = curve.index(r)
+    low, high = curve[max(k - 1, 0)], curve[min(k + 1, len(curve) - 1)]
+    slope = (high["after"] - low["after"]) / math.log(high["at"] / low["at"]) if high is not low else 0
+    r["own"] = math.hypot(slope * r["pressure"], packing / math.sqrt(r["packings"]))
+    r["z"] = (r["after"] - r["measured"]) / math.hypot(r["own"], r["sd"])
+
+lines = ["| film | MPa | measured, % | simulated, % | difference, points | in standard deviations | cracked particles, % |", "|---|---|---|---|---|---|---|"]
+for r in readings:
+    off = r["after"] - r["measured"]
+    lines.append(f'| {shown[r["film"]]} | {r["at"]:.3g} | {r["measured"]:.1f} ± {r["sd"]:.1f} | {r["after"]:.1f} ± {packing / math.sqrt(r["packings"]):.1f} '
+                 f'| {off:+.1f} | {r["z"]:+.1f} | {r["cracked"]:.0f} |'.replace("-", "−").replace("|−−−", "|---"))
+offs = sorted(abs(r["after"] - r["measured"]) for r in readings)
+lines += ["", f'{len(readings)} readings, {sum(r["packings"] for r in readings)} of packings: median error {statistics.median(offs):.1f} points, '
+          f'{sum(abs(r["z"]) <= 2 for r in readings)} within two standard deviations.', ""]
+(here / "films_pressed.md").write_text("\n".join(lines))
+
+width, height, left, right, top, bottom, least, most = 560, 480, 56, 12, 16, 48, 10, 45
+x = lambda porosity: left + (width - left - right) * (porosity - least) / (most - least)
+y = lambda porosity: height - bottom - (height - top - bottom) * (porosity - least) / (most - least)
+svg = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" '
+       'font-family="DejaVu Sans, Verdana, sans-serif" font-size="13">\n<rect width="100%" height="100%" fill="#fff"/>']
+for at in range(least, most + 1, 5):
+    svg.append(f'<path d="M{x(at):.1f} {top}V{height - bottom}M{left} {y(at):.1f}H{width - right}" stroke="#e4e6ea"/>')
+    if at % 10 == 0:
+        svg.append(f'<text x="{x(at):.1f}" y="{height - bottom + 18}" text-anchor="middle">{at}</text>'
+                   f'<text x="{left - 8}" y="{y(at) + 4:.1f}" text-anchor="end">{at}</text>')
+svg.append(f'<path d="M{x(least)} {y(least)}L{x(most)} {y(most)}" stroke="#888"/>'
+           f'<text x="{(left + width) / 2}" y="{height - 8}" text-anchor="middle">Porosity after release, measured (%)</text>'
+           f'<text transform="translate(16 {(top + height - bottom) / 2}) rotate(-90)" text-anchor="middle">Simulated (%)</text>')
+for n, film in enumerate(shown):
+    svg.append(f'<circle cx="{left + 16}" cy="{top + 16 + 18 * n}" r="5" fill="{colours[n]}"/>'
+               f'<text x="{left + 28}" y="{top + 20 + 18 * n}">{html.escape(film)}</text>')
+for n in range(len(shown)):
+    points = " ".join(f'{x(r["measured"]):.1f},{y(r["after"]):.1f}' for r in readings if r["film"] == n)
+    svg.append(f'<polyline points="{points}" fill="none" stroke="{colours[n]}" stroke-dasharray="4 4"/>')
+for r in readings:
+    a, b, sd, own = r["measured"], r["after"], r["sd"], r["own"]
+    svg.append(f'<g stroke="{colours[r["film"]]}" fill="{colours[r["film"]]}"><path d="M{x(a - sd):.1f} {y(b):.1f}H{x(a + sd):.1f}'
+               f'M{x(a):.1f} {y(b - own):.1f}V{y(b + own):.1f}"/><circle cx="{x(a):.1f}" cy="{y(b):.1f}" r="4"/></g>'
+               f'<text x="{x(a) + 7:.1f}" y="{y(b) - 6:.1f}" font-size="11" fill="{colours[r["film"]]}">{r["at"]:.3g}</text>')
+(here / "films_pressed.svg").write_text("\n".join(svg + ["</svg>", ""]))
