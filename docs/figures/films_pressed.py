@@ -22,25 +22,21 @@ ONE_PACKING, ENOUGH = 1.0, 8  # points: standard deviation of one packing's poro
 
 
 def between(points, x):
-    """Linear in ln x between points, level beyond them."""
-    if x <= points[0][0] or len(points) == 1:
-        return points[0][1]
-    for (x0, y0), (x1, y1) in zip(points, points[1:]):
-        if x <= x1:
-            return y0 + (y1 - y0) * math.log(x / x0) / math.log(x1 / x0)
-    return points[-1][1]
+    """Linear between the first point and the last, level beyond them."""
+    (x0, y0), (x1, y1) = points[0], points[-1]
+    return y0 + (y1 - y0) * min(max((x - x0) / (x1 - x0), 0), 1)
 
 
-def under_load(folder, pressure):
-    """Porosity where the film is first loaded that far."""
+def first_met(file, pressure, column):
+    """Value of a column where the film is first loaded that far; the platen stops a little below its target."""
     before = None
-    with open(folder / "curve.csv") as file:
-        for row in csv.DictReader(line for line in file if not line.startswith("#")):
-            now = float(row["pressure_MPa"]), float(row["porosity_total"])
-            if now[0] >= pressure and before:
-                return before[1] + (now[1] - before[1]) * (pressure - before[0]) / (now[0] - before[0])
-            before = now
-    return before[1]  # the platen stops a little below its target
+    for row in csv.DictReader(line for line in open(file) if not line.startswith("#")):
+        now = float(row["pressure_MPa"]), float(row[column])
+        if now[0] >= 0.995 * pressure:
+            part = min((pressure - before[0]) / (now[0] - before[0]), 1)
+            return before[1] + (now[1] - before[1]) * part
+        before = now
+    raise SystemExit(f"{file}: {pressure} MPa were not reached")
 
 
 def conditions(film):
@@ -49,7 +45,7 @@ def conditions(film):
 
 
 def read(study):
-    """Rows of the table of numbers: what lies between the presses has the springback of its neighbours."""
+    """Rows of the table of numbers. A film springs back linearly in the pressure between its two presses."""
     rows = []
     for run in csv.DictReader(open(study / "study.csv")):
         folder = study / "runs" / run["run"]
@@ -57,14 +53,14 @@ def read(study):
             continue
         presses = json.load(open(folder / "summary.json"))["presses"]
         back = [(p["pressure_MPa"], p["porosity_released"] - p["porosity_loaded"]) for p in presses]
-        cracked = [(p["pressure_MPa"], p["cracked_fraction"]) for p in presses]
         for condition in conditions(run["recipe.name"]):
             at = condition["max_pressure_MPa"]["value"]
             press = min(presses, key=lambda p: abs(math.log(p["pressure_MPa"] / at)))
             met = abs(press["pressure_MPa"] / at - 1) < 0.02
-            loaded = press["porosity_loaded"] if met else under_load(folder, at)
+            loaded = press["porosity_loaded"] if met else first_met(folder / "curve.csv", at, "porosity_total")
             after = press["porosity_released"] if met else loaded + between(back, at)
-            rows.append([run["recipe.name"], run["recipe.seed"], at] + [round(100 * v, 2) for v in (loaded, after, between(cracked, at))])
+            cracked = first_met(folder / "cracks.csv", at, "cracked_fraction")
+            rows.append([run["recipe.name"], run["recipe.seed"], at] + [round(100 * v, 2) for v in (loaded, after, cracked)])
     return sorted(rows, key=lambda r: (list(films).index(r[0]), r[2], r[1]))
 
 
