@@ -72,7 +72,7 @@ if len(sys.argv) > 1:
         out.writerows(read(pathlib.Path(sys.argv[1])))
 runs = list(csv.DictReader(open(numbers)))
 
-# Each reading: film, pressure, measured, simulated, number of packings, cracked; errors of all of them together.
+# Each reading, and the error of its simulation: of the packings, and of the pressure by the measured film's own slope.
 readings, scatters = [], []
 for n, film in enumerate(films):
     for condition in conditions(film):
@@ -92,7 +92,7 @@ for r in readings:
     curve = [q for q in readings if q["film"] == r["film"]]
     k = curve.index(r)
     low, high = curve[max(k - 1, 0)], curve[min(k + 1, len(curve) - 1)]
-    slope = (high["after"] - low["after"]) / math.log(high["at"] / low["at"]) if high is not low else 0
+    slope = (high["measured"] - low["measured"]) / math.log(high["at"] / low["at"]) if high is not low else 0
     r["own"] = math.hypot(slope * r["pressure"], packing / math.sqrt(r["packings"]))
     r["z"] = (r["after"] - r["measured"]) / math.hypot(r["own"], r["sd"])
 
