@@ -2,6 +2,7 @@
 #include "base/run_folder.h"
 
 #include <cmath>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -43,4 +44,20 @@ TEST(Branches, WorstImbalanceAboveThreshold) {
   EXPECT_DOUBLE_EQ(calendem::worst_imbalance(up_and_down(), 5), 0.1);
   EXPECT_DOUBLE_EQ(calendem::worst_imbalance(up_and_down(), 10), 0.05);
   EXPECT_TRUE(std::isnan(calendem::worst_imbalance(up_and_down(), 100)));
+}
+
+// Requirement: only rows count that load the film farther than the presses before; not a release,
+// nor what follows it up to the largest pressure so far. A fall of the pressure within a press counts.
+TEST(Branches, ImbalanceCountsWhereTheFilmIsFirstLoaded) {
+  Curve curve = up_and_down();
+  for (const auto &[stage, top, bottom] :
+       {std::tuple("compression", 7, 70), std::tuple("compression", 40, 20),
+        std::tuple("compression", 50, 45), std::tuple("compression", 30, 31),
+        std::tuple("compression", 45, 54), std::tuple("relaxation", 44, 0)}) {
+    curve.stage.push_back(stage);
+    curve.columns["pressure_MPa"].push_back(top);
+    curve.columns["pressure_bottom_MPa"].push_back(bottom);
+  }
+  EXPECT_DOUBLE_EQ(calendem::worst_imbalance(curve, 5), 0.2); // at 45 MPa, beyond the first 40
+  EXPECT_DOUBLE_EQ(calendem::worst_imbalance(curve, 46), 0.1);
 }

@@ -81,10 +81,26 @@ Column imbalance(const Curve &curve) {
   return out;
 }
 
+std::vector<std::size_t> first_loading(const Column &pressure, const std::vector<bool> &released) {
+  std::vector<std::size_t> found;
+  double largest = 0.0, borne = 0.0; // so far; before this press
+  for (std::size_t i = 0; i < pressure.size(); ++i) {
+    if (i > 0 && released[i - 1] && !released[i])
+      borne = largest;
+    largest = std::max(largest, pressure[i]);
+    if (!released[i] && pressure[i] > borne)
+      found.push_back(i);
+  }
+  return found;
+}
+
 double worst_imbalance(const Curve &curve, double threshold_MPa) {
   const Column difference = imbalance(curve);
+  std::vector<bool> released;
+  for (const std::string &stage : curve.stage)
+    released.push_back(stage == "relaxation");
   double worst = kNaN;
-  for (std::size_t i = 0; i < curve.rows(); ++i)
+  for (const std::size_t i : first_loading(curve["pressure_MPa"], released))
     if (curve["pressure_MPa"][i] > threshold_MPa)
       worst = std::fmax(worst, difference[i]);
   return worst;

@@ -50,7 +50,12 @@ double at_first_crossing(const Curve &curve, double pressure_MPa, const std::str
 /// over a longer window than a row, or else from the row's own pressures.
 Column imbalance(const Curve &curve);
 
-/// The largest of them over rows with P_top above `threshold_MPa`; NaN if none.
+/// Rows that press the film, and farther than any press before: below the largest pressure that it
+/// was released from it loads elastically, as in a release. Of each row its pressure, and whether it
+/// is of a release.
+std::vector<std::size_t> first_loading(const Column &pressure, const std::vector<bool> &released);
+
+/// The largest imbalance over rows of first loading with P_top above `threshold_MPa`; NaN if none.
 double worst_imbalance(const Curve &curve, double threshold_MPa);
 
 /// The values of these rows, with NaN where rows between them are left out: a line ends there.

@@ -193,8 +193,10 @@ Chart quasi_static_check(const std::vector<Run> &runs) {
   chart.y_label = "|P top − P bottom| / P top (%)";
   chart.limits = {{kImbalanceLimit, "limit 5 % above 5 MPa"}};
   chart.y_top = 2 * kImbalanceLimit;
-  chart.note = "Both pressures are averaged over 0.5 µs, or over the curve's own window if that is "
-               "longer; stress waves after a burst of breaks are shorter.";
+  chart.note =
+      "Both pressures are averaged over 0.5 µs, or over the curve's own window if that is "
+      "longer; stress waves after a burst of breaks are shorter. The limit is for loads that the "
+      "film has not borne before: neither a release nor the way back to its pressure.";
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const Curve &c = runs[i].curve;
     const Column difference = imbalance(c);

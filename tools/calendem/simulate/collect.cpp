@@ -74,10 +74,16 @@ std::string curve(const std::vector<RawRow> &rows, const ElectrodeFacts &e,
 
 nlohmann::json quasi_static(const std::vector<RawRow> &rows, double average) {
   const std::vector<double> averaged = imbalance(rows, average);
+  Column pressure;
+  std::vector<bool> released;
+  for (const RawRow &r : rows) {
+    pressure.push_back(r.p_top);
+    released.push_back(r.stage > 2.5);
+  }
   double worst = 0.0, worst_row = 0.0, sum = 0.0;
   int n = 0, over = 0;
-  for (size_t i = 0; i < rows.size(); ++i)
-    if (rows[i].stage < 2.5 && rows[i].p_top > 5.0) {
+  for (const size_t i : first_loading(pressure, released))
+    if (pressure[i] > 5.0) {
       worst = std::max(worst, averaged[i]);
       worst_row = std::max(worst_row, std::fabs(1.0 - rows[i].p_bottom / rows[i].p_top));
       sum += averaged[i];
