@@ -77,21 +77,21 @@ PhaseImage read(const Experiment &e, const std::string &file) {
   const PhaseImage image =
       phases_of(read_label_image(file, e.labels_voxel_um), e.labels_pore, e.labels_cbd);
   if (phase_fractions(image).pore == 0.0)
-    throw Failure(kBadInput, fmt::format("{}: no voxel has the label labels_pore = {}. Correct it.",
-                                         file, e.labels_pore));
+    throw Failure(kBadInput, "{}: no voxel has the label labels_pore = {}. Correct it.", file,
+                  e.labels_pore);
   if (e.labels_cbd && phase_fractions(image).cbd == 0.0)
-    throw Failure(kBadInput, fmt::format("{}: no voxel has the label labels_cbd = {}. Correct it, "
-                                         "or leave it out if the image shows no CBD.",
-                                         file, *e.labels_cbd));
+    throw Failure(kBadInput,
+                  "{}: no voxel has the label labels_cbd = {}. Correct it, or leave it out if the "
+                  "image shows no CBD.",
+                  file, *e.labels_cbd);
   const int stride =
       std::max(1, static_cast<int>(std::ceil(kFinest / image.voxel.maxCoeff() - 1e-9)));
   if (*std::min_element(image.n.begin(), image.n.end()) < kFewest * stride)
     throw Failure(kBadInput,
-                  fmt::format("{}: {} x {} x {} voxels of {:g} um are too few to be "
-                              "compared with a run; {} along each axis are wanted{}. "
-                              "Give an image of the whole thickness.",
-                              file, image.n[0], image.n[1], image.n[2], image.voxel.maxCoeff(),
-                              kFewest * stride, stride > 1 ? " of voxels so small" : ""));
+                  "{}: {} x {} x {} voxels of {:g} um are too few to be compared with a run; {} "
+                  "along each axis are wanted{}. Give an image of the whole thickness.",
+                  file, image.n[0], image.n[1], image.n[2], image.voxel.maxCoeff(),
+                  kFewest * stride, stride > 1 ? " of voxels so small" : "");
   return stride > 1 ? every_nth(image, stride) : image;
 }
 

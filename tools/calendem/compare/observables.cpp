@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compare/observables.h"
 #include "compare/measured_curve.h"
-#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 

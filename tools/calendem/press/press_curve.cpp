@@ -16,12 +16,10 @@ std::size_t first_contact(const std::string &file, const std::vector<double> &p,
     if (std::all_of(p.begin() + long(k), p.begin() + long(k + kRows),
                     [&](double v) { return v > contact; }))
       return k;
-  throw Failure(
-      kBadInput,
-      fmt::format("{}: the pressure never stays above {:g} MPa, where contact is taken to "
-                  "begin; its highest is {:.4g}. Are force, unit and diameter right? Else "
-                  "give --contact-MPa.",
-                  file, contact, *std::max_element(p.begin(), p.end())));
+  throw Failure(kBadInput,
+                "{}: the pressure never stays above {:g} MPa, where contact is taken to begin; its "
+                "highest is {:.4g}. Are force, unit and diameter right? Else give --contact-MPa.",
+                file, contact, *std::max_element(p.begin(), p.end()));
 }
 
 /// Loading up to each maximum of the pressure behind which the platen goes back, unloading down to
@@ -119,10 +117,9 @@ void subtract_machine(PressCurve &curve, const PressCurve &blank) {
   const double most = blank.highest();
   if (most < kShort * curve.highest())
     throw Failure(kBadInput,
-                  fmt::format("the blank run ends at {:.4g} MPa, the curve at {:.4g}: "
-                              "what the press gives way above is unknown. Press the blank "
-                              "as far.",
-                              most, curve.highest()));
+                  "the blank run ends at {:.4g} MPa, the curve at {:.4g}: what the press gives way "
+                  "above is unknown. Press the blank as far.",
+                  most, curve.highest());
   const double first = blank.pressure.front();
   const auto way = [&](double p) { // below the blank's first contact as steep as just above
     return p < first ? blank.displacement_at(2.0 * first) * (p - first) / first
