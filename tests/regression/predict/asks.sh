@@ -111,7 +111,7 @@ done <asks.txt
 outcome() { # NAME CONTROL KEY UNIT LOG
   while read -r k material _ _ _ _ pc cc target; do
     read -r at stated assured < <(sed -n \
-      -e "s/^film c: \([0-9.]*\) $4 meets the target with \([0-9]*\) % (assured: \([0-9]*\) %).*/\1 \2 \3/p" \
+      -e "s/^film c: \([0-9.]*\) $4 meets the target with \([0-9]*\) % (with \([0-9]*\) % or more for .*/\1 \2 \3/p" \
       -e "s/^film c: no .* meets the target (less than 1 %); at \([0-9.]*\) $4: .*/\1 0 0/p" "ask$k/$5") ||
       fail "ask $k: design says nothing"
     for seed in 1 2 3; do

@@ -24,7 +24,7 @@ awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
     if (last <= $at["porosity_after_percent_low90"] + 0 || last >= $at["porosity_after_percent_high90"] + 0) exit 2 }' \
   <(sed 's/^"[^"]*"/film/' prediction/prediction.csv) || fail "prediction.csv: order $?"
 calendem design model/model.json film.toml --porosity 30 --cracked-below 60 -o design | tee design.log
-grep -q "MPa meets the target with .* % (assured: .* %)" design.log || fail "no pressure is proposed"
+grep -q "MPa meets the target with .* % (with .* % or more for four of five materials" design.log || fail "no pressure is proposed"
 # A film of another powder, whose particles and densities differ little: taken with a remark, and predicted from the others.
 calendem calibrate "${films[@]}" "$cases/real/blb_nmc111_90/experiment.toml" -o three --bank "$cases/films/bank.toml" >three.log
 grep -q "1.09 times the bank's: counted as an error of 0.6 points" three.log || fail "its particles are not remarked on"
@@ -98,6 +98,8 @@ sed 's/"hash": "[0-9a-f]*"/"hash": "0"/' model/model.json >changed.json
 refuses "--material is needed; the model has 'ARTISTIC NMC111', 'BLB NMC111'" predict three/model.json film.toml
 refuses "--material is 'ARTISTIC'; the model has" predict three/model.json film.toml --material ARTISTIC
 refuses "has changed since the model was calibrated" design changed.json film.toml --porosity 30
+# A model can be mailed: it names the bank that ships without the folders of the machine that made it.
+grep -q '"file": "cases/films/bank.toml"' model/model.json || fail "the model does not name its bank as input_scripts/ has it"
 
 # The blind predictions are what their page's commands make: four digits, the last of which another processor may round.
 calendem predict model/model.json "$cases/films/film.toml" --vary carbon_and_binder_each_percent=3,2.5,2 \

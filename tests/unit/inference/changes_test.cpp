@@ -100,6 +100,21 @@ TEST(Verdict, NamesAGroupOfWhichOneActs) {
   EXPECT_EQ(verdict_of(made_changes(1024, any, 0.5), 0.5, false).kind, Verdict::nothing_seen);
 }
 
+// Two changes that chance on in the same draws as often as apart are no group: neither stands for the other, though
+// one of them is so in 91 % of the draws.
+TEST(Verdict, ChangesThatDoNotExcludeEachOtherAreNoGroup) {
+  const std::vector<int> first = range(0, 70);
+  std::vector<int> second = range(21, 70);
+  for (const int d : range(70, 91))
+    second.push_back(d);
+  const Changes both = made_changes(100, {first, second, range(0, 20)});
+  const Verdict v = verdict_of(both, 0.5, false);
+  EXPECT_EQ(v.kind, Verdict::one_of);
+  EXPECT_EQ(v.changes.size(), 3u) << "all that the sets have, not a group of two";
+  const Changes apart = made_changes(100, {range(0, 60), range(55, 91), range(0, 20)});
+  EXPECT_EQ(verdict_of(apart, 0.5, false).changes, (std::vector<int>{0, 1}));
+}
+
 TEST(Verdict, ASignificantGapWithoutANameListsWhatIsLeft) {
   const Changes open = made_changes(20, {range(0, 5), range(3, 8), range(19, 20)});
   EXPECT_EQ(verdict_of(open, 0.5, false).kind, Verdict::nothing_seen);

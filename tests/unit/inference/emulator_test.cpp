@@ -134,6 +134,36 @@ TEST(Emulator, PredictsPackingsThatWereLeftOut) {
   EXPECT_NEAR(emulator.predict(at, {0}).mean(0, 0), left_out.predicted(0, 26), 0.02);
 }
 
+// Errors of 400 runs in their deviations: outputs 0 and 1 go together by -0.8, 2 stands alone, 3 is known of no run.
+// The standard error of a correlation r is (1 - r^2) / sqrt(400): 0.018 and 0.05.
+TEST(Emulator, ErrorsOfPackingsThatWereLeftOutTellWhichGoTogether) {
+  constexpr int kRuns = 400;
+  Random random(7, 3);
+  LeftOut left_out{Matrix::Constant(4, kRuns, 5.0), Matrix::Constant(4, kRuns, 0.3)};
+  Matrix values = left_out.predicted;
+  for (int r = 0; r < kRuns; ++r) {
+    const double first = random.normal();
+    values(0, r) += 0.3 * first;
+    values(1, r) += 0.3 * (-0.8 * first + 0.6 * random.normal());
+    values(2, r) += 0.3 * random.normal();
+  }
+  values.row(3).setConstant(std::nan(""));
+  Matrix expected = Matrix::Identity(4, 4);
+  expected(0, 1) = expected(1, 0) = expected(0, 3) = expected(3, 0) = 0.5;
+  const Matrix c = error_correlation(left_out, values, expected);
+  EXPECT_NEAR(c(0, 1), -0.8, 3.0 * 0.018);
+  EXPECT_NEAR(c(0, 2), 0.0, 3.0 * 0.05);
+  EXPECT_NEAR(c(0, 3), 0.5, 0.02) << "as expected where no run tells";
+  EXPECT_NEAR(c.diagonal().minCoeff(), 1.0, 1e-12);
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix>(c).eigenvalues().minCoeff(), 0.0);
+  // Ten runs that differ from what is expected by less than chance change nothing.
+  LeftOut few{left_out.predicted.leftCols(10), left_out.deviation.leftCols(10)};
+  Matrix near = values.leftCols(10);
+  expected.setIdentity();
+  const Matrix of_few = error_correlation(few, near, expected);
+  EXPECT_LT(std::fabs(of_few(0, 2)), 0.5);
+}
+
 TEST(Emulator, FarFromAllRunsTheVarianceIsThePriors) {
   Points at = points(10, 13);
   const Expectation near = learnt().predict(at, {0});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "physics/ductile_contact.h"
 #include "physics/kept_volume.h"
+#include "physics/plastic_contact.h"
 
 #include <gtest/gtest.h>
 
@@ -103,6 +104,30 @@ TEST(DuctileContact, EndsAsADisc) {
   EXPECT_LT(area, disc);
   EXPECT_NEAR(area / disc, 1.0, 0.08);
   EXPECT_NEAR(sphere.force() / area / (1e-3 * E / 2.75), 1.0, 0.15);
+}
+
+// Requirement: the other law that yields, with the hardness as its limit and nothing elastic to
+// speak of, has the force of such a sphere to the percentages of its head comment, up to its range.
+TEST(PlasticContact, IsComparedUpToItsRange) {
+  const double percent[] = {-35.0, -19.0, -6.0, 2.0, 4.0}, flattened[] = {-33.0, -11.0, 13.0};
+  PlasticContact::Params params;
+  params.yield_pressure = 1e-4 * E;
+  params.flattening = 1.0;
+  Crushed sphere(params.yield_pressure);
+  for (int k = 0; k < 5; ++k) {
+    const double depth = 0.1 * (k + 1) * R;
+    sphere.go(2, depth);
+    const auto off = [&](const ContactSurfaces &s) { // in %
+      const double force = PlasticContact(s, params).force(depth * R / s.R_eff, {0.0});
+      return 100.0 * (force / sphere.force() - 1.0);
+    };
+    EXPECT_NEAR(off(pair), percent[k], 1.0) << depth;
+    if (k < 3) {
+      EXPECT_NEAR(off(wall), flattened[k], 1.0) << depth;
+    }
+  }
+  EXPECT_DOUBLE_EQ(PlasticContact::range(pair), 2 * 0.4);
+  EXPECT_DOUBLE_EQ(PlasticContact::range(wall), 0.3);
 }
 
 // Requirement: in a cell that closes from all sides it fills it, and no more than 1 + p/K of it.

@@ -50,7 +50,9 @@ struct OnDisk {
     settings.samples = 256;
     settings.draws = 50;
     calibrate(bank, settings, calibration);
-    write_file(file, to_json(bank, calibration, left_out(bank, calibration, settings)).dump(1));
+    write_file(
+        file,
+        to_json(bank, calibration, left_out(bank, calibration, settings), folder.string()).dump(1));
   }
 };
 
@@ -74,6 +76,17 @@ TEST(ModelFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(m.json["left_out"].size(), 3u);
 }
 
+TEST(ModelFile, MovesWithItsBank) {
+  namespace fs = std::filesystem;
+  const OnDisk d;
+  const fs::path moved = d.folder / "moved";
+  fs::create_directory(moved);
+  fs::rename(d.folder / "films", moved / "films");
+  EXPECT_NE(refusal(d.file).find("films/bank.toml is not there"), std::string::npos);
+  fs::rename(d.file, moved / "model.json");
+  EXPECT_EQ(refusal((moved / "model.json").string()), "");
+}
+
 TEST(ModelFile, EveryMaterialIsReadBackAndHasItsCase) {
   OnDisk d;
   d.calibration.materials = {"first", "second"};
@@ -82,7 +95,7 @@ TEST(ModelFile, EveryMaterialIsReadBackAndHasItsCase) {
   settings.samples = 256;
   settings.draws = 50;
   calibrate(d.bank, settings, d.calibration);
-  write_file(d.file, to_json(d.bank, d.calibration, {}).dump(1));
+  write_file(d.file, to_json(d.bank, d.calibration, {}, d.folder.string()).dump(1));
   const Model m = read_model(d.file);
   EXPECT_EQ(m.calibration.materials, d.calibration.materials);
   EXPECT_EQ(m.calibration.films[1].material, 1);

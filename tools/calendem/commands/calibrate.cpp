@@ -130,7 +130,7 @@ void run_calibrate(const CalibrateOptions &o) {
   for (const std::string &text : warnings_of(bank, c))
     not_said.push_back(text);
   const std::vector<LeftOut> rows = left_out(bank, c, o.settings);
-  nlohmann::ordered_json model = to_json(bank, c, rows);
+  nlohmann::ordered_json model = to_json(bank, c, rows, o.folder);
   for (const std::string &file : o.experiments)
     model["provenance"]["experiments"].push_back({{"file", file}, {"hash", hash_of_file(file)}});
   model["not_said"] = not_said;

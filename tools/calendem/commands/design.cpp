@@ -103,9 +103,10 @@ void say(const Design &d, SetBy by, const Target &target) {
                d.film.name, gap ? "gap" : "pressure", d.chances.front().at, d.chances.back().at,
                unit, best.at, decimals, there);
   else
-    fmt::print("{}: {:.{}f} {} meets the target with {:.0f} % (assured: {:.0f} %): {}\n",
-               d.film.name, best.at, decimals, unit, kPercent * best.all, kPercent * best.assured,
-               there);
+    fmt::print(
+        "{}: {:.{}f} {} meets the target with {:.0f} % (with {:.0f} % or more for four of five "
+        "materials that fit the data): {}\n",
+        d.film.name, best.at, decimals, unit, kPercent * best.all, kPercent * best.assured, there);
   if (target.cracked_below < 1.0)
     fmt::print("  the porosity with {:.0f} %, the cracked particles with {:.0f} %\n",
                kPercent * best.porosity, kPercent * best.cracked);

@@ -172,10 +172,13 @@ Json parameters_json(const Diagnosis &d) {
   Json out = Json::array();
   const int material = d.measured.films[std::size_t(d.film)].material;
   for (std::size_t p = 0; p < d.of.parameters.size(); ++p) {
-    const auto value = [&](double score) { return d.of.parameters[p].prior.value(score); };
-    const auto of = [&](const inference::Posterior &posterior) -> Json {
-      const inference::CredibleRange r = inference::parameter_range(posterior, int(p), material);
-      return {{"value", value(r.median)}, {"low90", value(r.low90)}, {"high90", value(r.high90)}};
+    const auto of = [&](const inference::Posterior &posterior) {
+      std::vector<double> values, weights;
+      for (const inference::Draw &draw : posterior.draws) {
+        values.push_back(d.of.parameters[p].prior.value(draw.scores(Index(p), material)));
+        weights.push_back(draw.weight);
+      }
+      return range_json(values, weights);
     };
     out.push_back({{"parameter", d.of.parameters[p].name},
                    {"model", of(d.model.posterior)},

@@ -71,7 +71,7 @@ std::vector<int> outputs_of_runs(const FilmBank &bank) {
 EmulatedRun::EmulatedRun(const FilmBank &bank, const Film &film, double pressure)
     : pressure_(pressure), porosity_before_(porosity_before(bank, film)),
       solid_column_(bank.solid_column(film)), presses_(bank.pressures().size()),
-      by_press_(cubic_weights(logs(bank.pressures()), std::log(pressure))) {
+      by_press_(bank.weights_at(pressure)) {
   for (double p = bank::loading_pressures().front(); p < kLast * pressure; p *= kRatio)
     loading_.push_back(p);
   loading_.push_back(pressure);
@@ -129,38 +129,6 @@ SimulatedRun EmulatedRun::of(const Vector &outputs) const {
   out.release_pressure = release_;
   for (const double r : recovered)
     out.release_displacement.push_back(out.displacement.back() - r * out.thickness_at_max);
-  return out;
-}
-
-double alike_at(double pressure, double other) {
-  return std::exp(-0.5 * std::pow(std::log(pressure / other), 2));
-}
-
-Matrix output_correlation(const FilmBank &bank) {
-  const std::vector<int> outputs = outputs_of_runs(bank);
-  const auto n = Eigen::Index(outputs.size());
-  const std::size_t presses = bank.pressures().size();
-  std::vector<int> kind;
-  std::vector<double> pressure;
-  for (const int o : outputs) {
-    if (o < bank::loading_output(0, presses)) {
-      kind.push_back(o / int(presses));
-      pressure.push_back(bank.pressures()[std::size_t(o) % presses]);
-    } else if (o < bank::release_output(0, 0, presses)) {
-      kind.push_back(kFilmNumbers);
-      pressure.push_back(
-          bank::loading_pressures()[std::size_t(o - bank::loading_output(0, presses))]);
-    } else {
-      const auto of_release = std::size_t(o - bank::release_output(0, 0, presses));
-      kind.push_back(kFilmNumbers + 1);
-      pressure.push_back(bank.pressures()[of_release / bank::kReleases.size()]);
-    }
-  }
-  Matrix out = Matrix::Identity(n, n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < n; ++j)
-      if (i != j && kind[std::size_t(i)] == kind[std::size_t(j)])
-        out(i, j) = alike_at(pressure[std::size_t(i)], pressure[std::size_t(j)]);
   return out;
 }
 

@@ -13,13 +13,6 @@ namespace calendem {
 /// load, releases.
 std::vector<int> outputs_of_runs(const FilmBank &bank);
 
-/// Errors of model and emulator change over a factor e of pressure.
-double alike_at(double pressure, double other);
-
-/// Correlation of the emulator's errors between these outputs: of one kind they are alike at like
-/// pressures.
-inference::Matrix output_correlation(const FilmBank &bank);
-
 /// Makes runs of one film to one pressure. Between the bank's presses by `cubic_weights` in the
 /// logarithm of the pressure.
 class EmulatedRun {

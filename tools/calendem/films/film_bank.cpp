@@ -115,6 +115,11 @@ double FilmBank::larger_share(const Film &film) const {
              : 0.0;
 }
 
+inference::Points FilmBank::no_points(Eigen::Index count) const {
+  return {inference::Matrix(Eigen::Index(space_.priors.size()), count),
+          inference::Matrix::Zero(Eigen::Index(space_.amplitudes.size()) + 1, count)};
+}
+
 void FilmBank::place(const Material &material, const Alike &as, Eigen::Index column,
                      inference::Points &at) const {
   std::size_t of_recipe = 0, of_case = 0;
@@ -154,8 +159,7 @@ inference::Expectation FilmBank::emulated(const Film &film,
                                           const std::vector<const Material *> &materials,
                                           const std::vector<int> &outputs) const {
   const auto n = Eigen::Index(materials.size());
-  inference::Points at = {inference::Matrix(Eigen::Index(space_.priors.size()), n),
-                          inference::Matrix::Zero(Eigen::Index(space_.amplitudes.size()) + 1, n)};
+  inference::Points at = no_points(n);
   std::vector<Alike> as;
   for (Eigen::Index m = 0; m < n; ++m) {
     const Material &material = *materials[std::size_t(m)];
@@ -219,23 +223,93 @@ inference::Vector cubic_weights(const std::vector<double> &x, double at) {
   return out;
 }
 
-MeanVariance FilmBank::at(const std::vector<MeanVariance> &curve, double pressure) const {
+inference::Vector FilmBank::weights_at(double pressure) const {
   std::vector<double> x;
   for (const double p : pressures_)
     x.push_back(std::log(p));
-  const double at = std::clamp(std::log(pressure), x.front(), x.back());
-  const double beyond = kBeyond * (std::log(pressure) - at);
-  const inference::Vector weights = cubic_weights(x, at);
+  return cubic_weights(x, std::log(pressure));
+}
+
+MeanVariance FilmBank::at(const std::vector<MeanVariance> &curve, double pressure) const {
+  const double at = std::clamp(pressure, pressures_.front(), pressures_.back());
+  const double beyond = kBeyond * std::log(pressure / at);
+  const inference::Vector weights = weights_at(at);
   MeanVariance out{0.0, beyond * beyond};
   std::size_t right = 1;
-  while (right + 1 < x.size() && x[right] < at)
+  while (right + 1 < pressures_.size() && pressures_[right] < at)
     ++right;
-  const double share = (at - x[right - 1]) / (x[right] - x[right - 1]);
+  const double share =
+      std::log(at / pressures_[right - 1]) / std::log(pressures_[right] / pressures_[right - 1]);
   out.variance +=
       curve[right - 1].variance + share * (curve[right].variance - curve[right - 1].variance);
   for (std::size_t k = 0; k < curve.size(); ++k)
     out.mean += weights[Eigen::Index(k)] * curve[k].mean;
   return out;
+}
+
+double alike_at(double pressure, double other) {
+  return std::exp(-0.5 * std::pow(std::log(pressure / other), 2));
+}
+
+namespace {
+
+/// Correlation before any run was left out: outputs of one kind are alike at like pressures.
+inference::Matrix expected_correlation(const std::vector<double> &pressures) {
+  const std::size_t presses = pressures.size();
+  const int n = bank::count_of_outputs(presses);
+  std::vector<int> kind;
+  std::vector<double> pressure;
+  for (int o = 0; o < n; ++o) {
+    if (o < bank::loading_output(0, presses)) {
+      kind.push_back(o / int(presses));
+      pressure.push_back(pressures[std::size_t(o) % presses]);
+    } else if (o < bank::release_output(0, 0, presses)) {
+      kind.push_back(kFilmNumbers);
+      pressure.push_back(
+          bank::loading_pressures()[std::size_t(o - bank::loading_output(0, presses))]);
+    } else {
+      const auto of_release = std::size_t(o - bank::release_output(0, 0, presses));
+      kind.push_back(kFilmNumbers + 1);
+      pressure.push_back(pressures[of_release / bank::kReleases.size()]);
+    }
+  }
+  inference::Matrix out = inference::Matrix::Identity(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j)
+      if (i != j && kind[std::size_t(i)] == kind[std::size_t(j)])
+        out(i, j) = alike_at(pressure[std::size_t(i)], pressure[std::size_t(j)]);
+  return out;
+}
+
+} // namespace
+
+const inference::Matrix &FilmBank::error_correlation() const {
+  if (!error_correlation_)
+    error_correlation_ = inference::error_correlation(emulator_.left_out(), emulator_.runs().values,
+                                                      expected_correlation(pressures_));
+  return *error_correlation_;
+}
+
+inference::Matrix FilmBank::films_alike(const std::vector<Film> &films,
+                                        const std::vector<const Material *> &materials) const {
+  inference::Points at = no_points(Eigen::Index(films.size()));
+  for (std::size_t f = 0; f < films.size(); ++f)
+    place(*materials[f], alike(films[f], nanoporosity(films[f], *materials[f])), Eigen::Index(f),
+          at);
+  return emulator_.correlation(
+      at, bank::output_of(FilmNumber::PorosityAfter, pressures_.size() / 2, pressures_.size()));
+}
+
+double FilmBank::error_correlation(FilmNumber a, double at_a, FilmNumber b, double at_b) const {
+  const auto size = Eigen::Index(pressures_.size());
+  const auto between = [&](FilmNumber i, double at_i, FilmNumber j, double at_j) {
+    const inference::Matrix of =
+        error_correlation().block(bank::output_of(i, 0, pressures_.size()),
+                                  bank::output_of(j, 0, pressures_.size()), size, size);
+    return weights_at(at_i).dot(inference::Vector(of * weights_at(at_j)));
+  };
+  return between(a, at_a, b, at_b) /
+         std::sqrt(between(a, at_a, a, at_a) * between(b, at_b, b, at_b));
 }
 
 std::vector<inference::Accuracy> FilmBank::accuracy(FilmNumber number) const {

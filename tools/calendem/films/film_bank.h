@@ -92,12 +92,22 @@ public:
   inference::Expectation emulated(const Film &film, const std::vector<const Material *> &materials,
                                   const std::vector<int> &outputs) const;
 
+  /// Correlation of the emulator's errors between all its outputs, as packings that were left out show it.
+  const inference::Matrix &error_correlation() const;
+  /// Also between numbers of one film at any two pressures [MPa].
+  double error_correlation(FilmNumber a, double at_a, FilmNumber b, double at_b) const;
+
   /// At each of the bank's pressures, of one material or of several.
   std::vector<MeanVariance> at_pressures(FilmNumber number, const Film &film,
                                          const Material &material) const;
   std::vector<std::vector<MeanVariance>>
   at_pressures(FilmNumber number, const Film &film,
                const std::vector<const Material *> &materials) const;
+  /// Correlation of the emulator's errors between films, each of its material: films x films.
+  inference::Matrix films_alike(const std::vector<Film> &films,
+                                const std::vector<const Material *> &materials) const;
+  /// Weights of the values at the bank's pressures that give the one at `pressure` (cubic_weights).
+  inference::Vector weights_at(double pressure) const;
   /// Between them by the cubic through the four nearest, in the pressure's logarithm; beyond them
   /// the last value and a variance that grows.
   MeanVariance at(const std::vector<MeanVariance> &curve, double pressure) const;
@@ -129,6 +139,8 @@ private:
     double collapse = 1.0; ///< volume that the nanopores can lose, the other's per its own
   };
 
+  mutable std::optional<inference::Matrix> error_correlation_; ///< once it was asked for
+
   double carbon_and_binder(const Film &film) const;
   Alike alike(const Film &film, double nanoporosity) const;
   void check_nanoporosity() const;
@@ -136,9 +148,13 @@ private:
   void note_effects();
   void scale_collapse(const inference::Points &at, const std::vector<Alike> &as,
                       const std::vector<int> &outputs, inference::Matrix &mean) const;
+  inference::Points no_points(Eigen::Index count) const;
   void place(const Material &material, const Alike &as, Eigen::Index column,
              inference::Points &at) const;
 };
+
+/// Errors of the model change over a factor e of pressure.
+double alike_at(double pressure, double other);
 
 /// How porosity may depend on the particles' median size by volume: standard deviation for a factor
 /// of e. Studies of the cell's size (docs/validation/studies.md): from 9 to 21 um, where the median

@@ -4,7 +4,7 @@
 #ifndef CALENDEM_INFERENCE_CHANGES_H
 #define CALENDEM_INFERENCE_CHANGES_H
 
-#include "inference/active_effects.h"
+#include "inference/local_model.h"
 
 namespace calendem::inference {
 

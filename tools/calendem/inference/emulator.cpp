@@ -8,9 +8,10 @@
 namespace calendem::inference {
 namespace {
 
-constexpr double kScaleDegrees = 10.0; // of the prior of an output's scale
-constexpr int kMostToFit = 500;        // runs that the hyperparameters are fitted to
-constexpr Eigen::Index kBatch = 64;    // points at a time: their covariances stay in the cache
+constexpr double kScaleDegrees = 10.0;    // of the prior of an output's scale
+constexpr int kMostToFit = 500;           // runs that the hyperparameters are fitted to
+constexpr double kLeastEigenvalue = 1e-3; // of a correlation: pairs of outputs have other runs
+constexpr Eigen::Index kBatch = 64;       // points at a time: their covariances stay in the cache
 
 Points chosen(const Points &from, const std::vector<int> &places) {
   return {from.inputs(Eigen::all, places), from.amplitudes(Eigen::all, places)};
@@ -214,6 +215,22 @@ Emulator::Batch Emulator::predict_batch(std::size_t place, const Points &at,
   return out;
 }
 
+Matrix Emulator::correlation(const Points &at, int output) const {
+  const auto knows = [&](const Factor &f) {
+    return std::find(f.outputs.begin(), f.outputs.end(), output) != f.outputs.end();
+  };
+  const auto factor = std::find_if(factors_.begin(), factors_.end(), knows);
+  if (factor == factors_.end())
+    return Matrix::Identity(at.inputs.cols(), at.inputs.cols());
+  const Kernel &kernel = kernels_[std::size_t(factor->group)];
+  const Matrix known = factor->covariance.matrixL().solve(kernel.expected(factor->at, at));
+  Matrix left = kernel.expected(at, at) - known.transpose() * known;
+  const Vector scale = left.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  left = scale.asDiagonal() * left * scale.asDiagonal();
+  left.diagonal().setOnes();
+  return left;
+}
+
 /// What the factor's outputs miss by where the runs `of` are unknown, and its variance: the residual is
 /// [K^-1]_BB^-1 [K^-1 y]_B for the block B (Rasmussen and Williams eq. 5.12, for more than one run).
 void Emulator::leave_out(const Factor &f, const Matrix &inverse, const std::vector<int> &of,
@@ -244,6 +261,24 @@ LeftOut Emulator::left_out() const {
       leave_out(f, inverse, of, out);
   }
   return out;
+}
+
+Matrix error_correlation(const LeftOut &left_out, const Matrix &values, const Matrix &expected) {
+  const Matrix error = (values - left_out.predicted).cwiseQuotient(left_out.deviation);
+  const Matrix known = error.array().isFinite().cast<double>();
+  const Matrix z = (known.array() > 0.0).select(error, 0.0);
+  const Matrix square = z.cwiseAbs2() * known.transpose(), runs = known * known.transpose();
+  const Matrix sd = square.cwiseProduct(square.transpose()).cwiseSqrt();
+  const Matrix sample = (sd.array() > 0.0).select((z * z.transpose()).cwiseQuotient(sd), expected);
+  const Eigen::ArrayXXd off = (sample - expected).array(),
+                        doubt = (1.0 - sample.array().square()).square() / runs.array().max(1.0),
+                        kept = (1.0 - doubt / off.square().max(1e-300)).max(0.0);
+  const Eigen::SelfAdjointEigenSolver<Matrix> parts(Matrix(expected.array() + kept * off));
+  const Matrix out = parts.eigenvectors() *
+                     parts.eigenvalues().cwiseMax(kLeastEigenvalue).asDiagonal() *
+                     parts.eigenvectors().transpose();
+  const Vector scale = out.diagonal().cwiseSqrt().cwiseInverse();
+  return scale.asDiagonal() * out * scale.asDiagonal();
 }
 
 std::vector<Accuracy> accuracy_of(const LeftOut &left_out, const Matrix &values) {

@@ -59,6 +59,8 @@ public:
   Expectation predict(const Points &at, const std::vector<int> &outputs,
                       bool with_variance = true) const;
   LeftOut left_out() const;
+  /// Between points, of what the emulator does not know of an output's expectation.
+  Matrix correlation(const Points &at, int output) const;
 
 private:
   /// Outputs of a group that the same runs have.
@@ -89,6 +91,11 @@ private:
   void leave_out(const Factor &factor, const Matrix &inverse, const std::vector<int> &of,
                  LeftOut &out) const;
 };
+
+/// Correlation between outputs of the errors of packings that were left out, in their predicted standard
+/// deviations. Where it differs from `expected`, a correlation matrix, by less than chance would have it,
+/// it is that; else the difference is shrunk by its own variance (the positive part of James and Stein).
+Matrix error_correlation(const LeftOut &left_out, const Matrix &values, const Matrix &expected);
 
 /// For each output; NaN where no run has it.
 std::vector<Accuracy> accuracy_of(const LeftOut &left_out, const Matrix &values);

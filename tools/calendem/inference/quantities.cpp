@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <numeric>
 
 namespace calendem::inference {
 
@@ -89,6 +90,23 @@ void check(const Parameter &p) {
   if (p.amplitude && !(p.prior.upper() > 0.0))
     throw Failure(kBadInput, fmt::format("{}: an amplitude that reaches {:g}; it must go above 0",
                                          p.name, p.prior.upper()));
+}
+
+CredibleRange credible_range(const std::vector<double> &values,
+                             const std::vector<double> &weights) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  const auto at = [&](double share) {
+    double passed = 0.0;
+    for (const std::size_t k : order)
+      if ((passed += weights[k]) >= share * total)
+        return values[k];
+    return std::nan("");
+  };
+  return {at(0.5), at(0.05), at(0.95)};
 }
 
 } // namespace calendem::inference

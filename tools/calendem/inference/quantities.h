@@ -65,6 +65,12 @@ struct Parameter {
 /// Throws Failure(2) if the bounds are in the wrong order, or a spread is not positive.
 void check(const Parameter &parameter);
 
+/// Quantiles of weighted draws.
+struct CredibleRange {
+  double median = 0.0, low90 = 0.0, high90 = 0.0;
+};
+CredibleRange credible_range(const std::vector<double> &values, const std::vector<double> &weights);
+
 } // namespace calendem::inference
 
 #endif

@@ -150,18 +150,46 @@ Predicted predicted_data(const FilmBank &bank, const Calibration &c, const Draw 
   return out;
 }
 
-/// Covariance of measured - predicted.
-Matrix covariance_of(const Calibration &c, const Predicted &p, const Draw &draw) {
+/// Correlation of the emulator's errors of the data with those at spots, as if all were of one film.
+Matrix output_correlation(const FilmBank &bank, const Calibration &c,
+                          const std::vector<Spot> &spots) {
+  Matrix out(Eigen::Index(c.data.size()), Eigen::Index(spots.size()));
+  for (Eigen::Index i = 0; i < out.rows(); ++i)
+    for (Eigen::Index j = 0; j < out.cols(); ++j) {
+      const Datum &a = c.data[std::size_t(i)];
+      const Spot &b = spots[std::size_t(j)];
+      out(i, j) = bank.error_correlation(a.number, a.pressure, b.number, b.pressure);
+    }
+  return out;
+}
+
+std::vector<Spot> spots_of(const Calibration &c) {
+  std::vector<Spot> out;
+  for (const Datum &d : c.data)
+    out.push_back(spot_of(c, d));
+  return out;
+}
+
+Matrix films_alike(const FilmBank &bank, const std::vector<Film> &films, const Draw &draw) {
+  std::vector<const Material *> materials;
+  for (const Film &film : films)
+    materials.push_back(&draw.of(film));
+  return bank.films_alike(films, materials);
+}
+
+/// Covariance of measured - predicted. `alike`: of films; `correlation`: of outputs.
+Matrix covariance_of(const Calibration &c, const Predicted &p, const Draw &draw,
+                     const Matrix &alike, const Matrix &correlation) {
   const auto n = Eigen::Index(c.data.size());
   Matrix out(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) {
       const Datum &a = c.data[std::size_t(i)], &b = c.data[std::size_t(j)];
-      out(i, j) = error_covariance(c.error, draw, spot_of(c, a), spot_of(c, b));
+      out(i, j) =
+          error_covariance(c.error, draw, spot_of(c, a), spot_of(c, b)) +
+          std::sqrt(p.variance[i] * p.variance[j]) * alike(a.film, b.film) * correlation(i, j);
       if (a.film == b.film)
         out(i, j) += p.by_pressure[i] * p.by_pressure[j];
-      if (a.number == b.number && a.film == b.film)
-        out(i, j) += std::sqrt(p.variance[i] * p.variance[j]) * alike_at(a.pressure, b.pressure);
       if (i == j)
         out(i, j) += a.sd * a.sd;
     }
@@ -181,7 +209,9 @@ std::vector<MeanVariance> each_from_the_others(const FilmBank &bank, const Calib
                                                const Draw &draw) {
   const Predicted p = predicted_data(bank, c, draw);
   const auto n = Eigen::Index(c.data.size());
-  const Matrix precision = Cholesky(covariance_of(c, p, draw)).solve(Matrix::Identity(n, n));
+  const Matrix covariance = covariance_of(c, p, draw, films_alike(bank, c.films, draw),
+                                          output_correlation(bank, c, spots_of(c)));
+  const Matrix precision = Cholesky(covariance).solve(Matrix::Identity(n, n));
   const Vector measured = measured_of(c), pull = precision * (measured - p.mean);
   std::vector<MeanVariance> out;
   for (Eigen::Index k = 0; k < n; ++k)
@@ -250,42 +280,90 @@ bool is_same_film(const Film &a, const Film &b) {
          std::fabs(a.loading - b.loading) <= 1e-9 * b.loading;
 }
 
-std::vector<MeanVariance> missed_given_data(const FilmBank &bank, const Calibration &c,
-                                            const Draw &draw, const Query &query, bool by_bank) {
-  const auto known = std::find_if(c.films.begin(), c.films.end(),
-                                  [&](const Film &f) { return is_same_film(f, query.film); });
-  const int film = known == c.films.end() ? -1 : int(known - c.films.begin());
-  const auto n = Eigen::Index(c.data.size());
-  const Predicted p = predicted_data(bank, c, draw);
-  const Cholesky chol(covariance_of(c, p, draw));
-  const Vector weights = chol.solve(measured_of(c) - p.mean);
-  std::vector<MeanVariance> out;
-  for (const double pressure : query.pressures) {
-    // runs have the film's own particles
-    const Spot here = {film, query.film.material, query.number, pressure,
-                       by_bank ? query.film.sizes : 0.0};
-    Vector with(n);
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const Datum &d = c.data[std::size_t(k)];
-      with[k] = error_covariance(c.error, draw, spot_of(c, d), here);
+namespace {
+
+/// Adds to the model's own error what is predicted at a query's pressures without data, and its
+/// covariance with them.
+using Addition = std::function<void(const Draw &draw, const Predicted &data, const Matrix &alike,
+                                    std::vector<MeanVariance> &at, Matrix &with)>;
+
+/// Normals at spots under each draw, given the data.
+Predictions conditioned(const FilmBank &bank, const Calibration &c, const std::vector<Draw> &draws,
+                        const std::vector<Spot> &spots, const std::vector<Film> &films,
+                        const Addition &add) {
+  const std::vector<Spot> data = spots_of(c);
+  const Matrix correlation = output_correlation(bank, c, data);
+  Predictions out;
+  for (const Draw &draw : draws) {
+    const Predicted p = predicted_data(bank, c, draw);
+    const Matrix alike = films_alike(bank, films, draw);
+    const Cholesky chol(covariance_of(c, p, draw, alike, correlation));
+    const Vector weights = chol.solve(measured_of(c) - p.mean);
+    Matrix with(Eigen::Index(data.size()), Eigen::Index(spots.size()));
+    std::vector<MeanVariance> at;
+    for (std::size_t k = 0; k < spots.size(); ++k) {
+      at.push_back({0.0, error_covariance(c.error, draw, spots[k], spots[k])});
+      for (std::size_t i = 0; i < data.size(); ++i)
+        with(Eigen::Index(i), Eigen::Index(k)) = error_covariance(c.error, draw, data[i], spots[k]);
     }
-    const double left =
-        error_covariance(c.error, draw, here, here) - with.dot(Vector(chol.solve(with)));
-    out.push_back({with.dot(weights), std::max(0.0, left)});
+    add(draw, p, alike, at, with);
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      const Vector column = with.col(Eigen::Index(k));
+      at[k].mean += column.dot(weights);
+      at[k].variance = std::max(0.0, at[k].variance - column.dot(Vector(chol.solve(column))));
+    }
+    out.push_back(at);
   }
   return out;
 }
 
-std::vector<MeanVariance> given_data(const FilmBank &bank, const Calibration &c, const Draw &draw,
-                                     const Query &query) {
-  const std::vector<MeanVariance> curve =
-      bank.at_pressures(query.number, query.film, draw.of(query.film));
-  std::vector<MeanVariance> out = missed_given_data(bank, c, draw, query, true);
-  for (std::size_t k = 0; k < out.size(); ++k) {
-    const MeanVariance g = bank.at(curve, query.pressures[k]);
-    out[k] = {g.mean + out[k].mean, g.variance + out[k].variance};
-  }
+/// Place of a film among those of the data; behind them if it is none of them.
+int place_of_film(const Calibration &c, const Film &film) {
+  return int(std::find_if(c.films.begin(), c.films.end(),
+                          [&](const Film &f) { return is_same_film(f, film); }) -
+             c.films.begin());
+}
+
+std::vector<Spot> spots_of(const Calibration &c, const Query &query, double sizes) {
+  std::vector<Spot> out;
+  for (const double pressure : query.pressures)
+    out.push_back(
+        {place_of_film(c, query.film), query.film.material, query.number, pressure, sizes});
   return out;
+}
+
+} // namespace
+
+Predictions missed_given_data(const FilmBank &bank, const Calibration &c,
+                              const std::vector<Draw> &draws, const Query &query) {
+  return conditioned(bank, c, draws, spots_of(c, query, 0.0), c.films,
+                     [](const Draw &, const Predicted &, const Matrix &,
+                        std::vector<MeanVariance> &, Matrix &) {});
+}
+
+Predictions given_data(const FilmBank &bank, const Calibration &c, const std::vector<Draw> &draws,
+                       const Query &query) {
+  const std::vector<Spot> spots = spots_of(c, query, query.film.sizes);
+  std::vector<Film> films = c.films;
+  if (place_of_film(c, query.film) == int(films.size()))
+    films.push_back(query.film);
+  const Matrix correlation = output_correlation(bank, c, spots);
+  return conditioned(bank, c, draws, spots, films,
+                     [&](const Draw &draw, const Predicted &data, const Matrix &alike,
+                         std::vector<MeanVariance> &at, Matrix &with) {
+                       const std::vector<MeanVariance> curve =
+                           bank.at_pressures(query.number, query.film, draw.of(query.film));
+                       for (std::size_t k = 0; k < at.size(); ++k) {
+                         const MeanVariance g = bank.at(curve, spots[k].pressure);
+                         at[k].mean += g.mean;
+                         at[k].variance += g.variance;
+                         for (Eigen::Index i = 0; i < with.rows(); ++i)
+                           with(i, Eigen::Index(k)) +=
+                               std::sqrt(data.variance[i] * g.variance) *
+                               alike(c.data[std::size_t(i)].film, spots[k].film) *
+                               correlation(i, Eigen::Index(k));
+                       }
+                     });
 }
 
 } // namespace calendem

@@ -110,15 +110,17 @@ struct Query {
   std::vector<double> pressures; ///< [MPa]
 };
 
-/// What the model misses of a film, given the data: mean and variance at each wanted pressure.
-/// `by_bank`: of the bank's emulators, with the error of their change to the full cell; else of runs.
-std::vector<MeanVariance> missed_given_data(const FilmBank &bank, const Calibration &calibration,
-                                            const Draw &draw, const Query &query, bool by_bank);
+/// By draws, then pressures; none of a number that is not known.
+using Predictions = std::vector<std::vector<MeanVariance>>;
+
+/// What the model misses of a film's runs, given the data: mean and variance at each wanted pressure.
+Predictions missed_given_data(const FilmBank &bank, const Calibration &calibration,
+                              const std::vector<Draw> &draws, const Query &query);
 
 /// Given the data, at each wanted pressure: mean and variance of emulators and model error, not of a
-/// press.
-std::vector<MeanVariance> given_data(const FilmBank &bank, const Calibration &calibration,
-                                     const Draw &draw, const Query &query);
+/// press. Errors of the emulator are in part common to films that are alike.
+Predictions given_data(const FilmBank &bank, const Calibration &calibration,
+                       const std::vector<Draw> &draws, const Query &query);
 
 } // namespace calendem
 

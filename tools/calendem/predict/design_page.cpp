@@ -113,11 +113,12 @@ json row_of(const Design &d, const Setting &set) {
   return row;
 }
 
-/// The probability of meeting the target, and what is assured of it.
+/// The probability of meeting the target: its mean, and what four of five materials reach.
 Chart chance_chart(const std::vector<Design> &designs, const Setting &set) {
   Chart chart =
       chart_of("chance", "Probability of meeting the target", "Probability (%)", set.axis);
-  chart.note = fmt::format("Dashed: assured, by which the {} is chosen.", set.name);
+  chart.note = fmt::format("Dashed: what four of five materials reach, by which the {} is chosen.",
+                           set.name);
   for (std::size_t k = 0; k < designs.size(); ++k) {
     std::vector<double> at, both, assured;
     for (const Chance &c : designs[k].chances) {

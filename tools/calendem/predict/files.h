@@ -11,9 +11,9 @@
 
 namespace calendem {
 
-/// model.json of the bank's files; `left_out` may be empty.
+/// model.json, to be written into `folder`; `left_out` may be empty.
 nlohmann::ordered_json to_json(const FilmBank &bank, const Calibration &calibration,
-                               const std::vector<LeftOut> &left_out);
+                               const std::vector<LeftOut> &left_out, const std::string &folder);
 
 /// In model.json.
 const char *name_of(FilmNumber number);

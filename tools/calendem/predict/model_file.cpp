@@ -241,17 +241,33 @@ std::vector<std::string> files_beside(const bank::Bank &spec) {
   return out;
 }
 
-Json to_json(const FilmBank &bank, const Calibration &c, const std::vector<LeftOut> &rows) {
-  const std::string &file = bank.spec().file;
+namespace {
+
+/// The bank's files, so that a model can be moved: relative to input_scripts/ of any installation
+/// where the bank ships with it, otherwise to the model's folder.
+Json bank_json(const bank::Bank &spec, const std::string &folder) {
+  namespace fs = std::filesystem;
+  const fs::path file = fs::weakly_canonical(spec.file);
+  const fs::path shipped = file.lexically_relative(input_scripts());
+  const bool ships = !shipped.empty() && *shipped.begin() != "..";
   Json beside = Json::array();
-  for (const std::string &other : files_beside(bank.spec()))
-    beside.push_back({{"file", std::filesystem::absolute(other).lexically_normal().string()},
-                      {"hash", hash_of_file(other)}});
-  return {{"bank",
-           {{"file", std::filesystem::absolute(file).string()},
-            {"hash", hash_of_file(file)},
-            {"table_hash", hash_of_file(bank::table_of(bank.spec()))},
-            {"beside", beside}}},
+  for (const std::string &other : files_beside(spec))
+    beside.push_back(
+        {{"file",
+          fs::absolute(other).lexically_normal().lexically_relative(file.parent_path()).string()},
+         {"hash", hash_of_file(other)}});
+  const fs::path from = fs::absolute(folder).lexically_normal();
+  return {{"file", (ships ? shipped : file.lexically_relative(from)).string()},
+          {"hash", hash_of_file(spec.file)},
+          {"table_hash", hash_of_file(bank::table_of(spec))},
+          {"beside", beside}};
+}
+
+} // namespace
+
+Json to_json(const FilmBank &bank, const Calibration &c, const std::vector<LeftOut> &rows,
+             const std::string &folder) {
+  return {{"bank", bank_json(bank.spec(), folder)},
           {"materials", c.materials},
           {"films", films_of(bank, c)},
           {"data", data_of(c)},

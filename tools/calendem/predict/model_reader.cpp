@@ -131,18 +131,24 @@ Json parsed(const std::string &file) {
 
 /// The bank that the model was made from, there and unchanged.
 FilmBank bank_of(const std::string &file, const Json &json) {
-  const std::string bank = json.at("bank").at("file");
-  const auto unchanged = [&](const std::string &of, const Json &hash) {
-    if (hash_of_file(of) != hash.get<std::string>())
+  namespace fs = std::filesystem;
+  const Json &of = json.at("bank");
+  const auto unchanged = [&](const fs::path &there, const Json &hash) {
+    if (hash_of_file(there.string()) != hash.get<std::string>())
       throw Failure(kBadInput, fmt::format("{}: {} is not there or has changed since the model was "
                                            "calibrated on it. Calibrate again.",
-                                           file, of));
+                                           file, there.string()));
   };
-  unchanged(bank, json.at("bank").at("hash"));
-  unchanged(bank::table_of(bank::read_bank(bank)), json.at("bank").at("table_hash"));
-  for (const Json &other : json.at("bank").at("beside"))
-    unchanged(other.at("file"), other.at("hash"));
-  return FilmBank(bank);
+  const std::string name = of.at("file");
+  fs::path bank = (fs::path(input_scripts()) / name).lexically_normal();
+  if (!fs::exists(bank))
+    bank = (fs::absolute(file).parent_path() / name).lexically_normal();
+  unchanged(bank, of.at("hash"));
+  unchanged(bank::table_of(bank::read_bank(bank.string())), of.at("table_hash"));
+  for (const Json &other : of.at("beside"))
+    unchanged((bank.parent_path() / other.at("file").get<std::string>()).lexically_normal(),
+              other.at("hash"));
+  return FilmBank(bank.string());
 }
 
 } // namespace

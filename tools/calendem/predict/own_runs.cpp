@@ -209,14 +209,10 @@ ByRuns by_runs(const FilmBank &bank, const Calibration &c, const Recipe &recipe,
   std::map<FilmNumber, Predictions> all;
   for (int n = 0; n < kFilmNumbers; ++n) {
     const auto number = FilmNumber(n);
-    all[number] = {};
-    for (std::size_t d = 0; d < own.draws.size(); ++d) {
-      std::vector<MeanVariance> row =
-          missed_given_data(bank, c, own.draws[d], {film, number, pressures}, false);
+    all[number] = missed_given_data(bank, c, own.draws, {film, number, pressures});
+    for (std::size_t d = 0; d < own.draws.size(); ++d)
       for (std::size_t k = 0; k < pressures.size(); ++k)
-        row[k].mean += bank::value_of(number, own.runs[d][k]);
-      all[number].push_back(row);
-    }
+        all[number][d][k].mean += bank::value_of(number, own.runs[d][k]);
     if (!known(all[number]))
       all[number].clear();
   }
@@ -253,15 +249,14 @@ double emulated_load(const FilmBank &bank, const Draw &draw, const Film &film, d
 /// Emulated means with the model error of runs.
 Predictions emulated_and_missed(const FilmBank &bank, const Calibration &c,
                                 const std::vector<Draw> &draws, const Query &query) {
-  Predictions out;
   if (!bank.knows(query.number))
-    return out;
-  for (const Draw &draw : draws) {
+    return {};
+  Predictions out = missed_given_data(bank, c, draws, query);
+  for (std::size_t d = 0; d < draws.size(); ++d) {
     const std::vector<MeanVariance> curve =
-        bank.at_pressures(query.number, query.film, draw.of(query.film));
-    out.push_back(missed_given_data(bank, c, draw, query, false));
+        bank.at_pressures(query.number, query.film, draws[d].of(query.film));
     for (std::size_t k = 0; k < query.pressures.size(); ++k)
-      out.back()[k].mean += bank.at(curve, query.pressures[k]).mean;
+      out[d][k].mean += bank.at(curve, query.pressures[k]).mean;
   }
   return out;
 }

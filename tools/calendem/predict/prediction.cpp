@@ -43,8 +43,7 @@ Predictions under_draws(const FilmBank &bank, const Calibration &c, const Query 
     around.pressures.insert(around.pressures.end(), {below, p, above});
   }
   Predictions out;
-  for (const Draw &draw : c.draws) {
-    const std::vector<MeanVariance> all = given_data(bank, c, draw, around);
+  for (const std::vector<MeanVariance> &all : given_data(bank, c, c.draws, around)) {
     out.emplace_back();
     for (std::size_t k = 0; k < all.size(); k += 3) {
       MeanVariance g = all[k + 1];

@@ -43,8 +43,6 @@ struct PredictedFilm {
 /// Tortuosity from the band of its inverse.
 Band tortuosity_of(const Band &inverse);
 
-/// By draws, then pressures; none of a number that is not known.
-using Predictions = std::vector<std::vector<MeanVariance>>;
 /// Normals of a number under each draw.
 using PredictionsOf = std::function<Predictions(FilmNumber)>;
 PredictedFilm predicted_from(const Film &film, const std::vector<double> &pressures,
