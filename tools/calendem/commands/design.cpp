@@ -63,17 +63,15 @@ Design design_by_runs(const AskedFilms &a, const FilmOptions &o, std::size_t rec
 }
 
 void say_confirmed(const Confirmation &c) {
-  const Band &after = c.predicted.after[0], &cracked = c.predicted.cracked[0];
   const std::string passes = c.passes == 0 ? ""
                                            : fmt::format(" in {} pass{} under the roll", c.passes,
                                                          c.passes == 1 ? "" : "es");
   fmt::print(
       "  run {} times{}, each with another draw of the material on another packing: it meets "
-      "the target with {:.0f} %: porosity {:.1f} % ({:.1f} to {:.1f}), cracked particles "
-      "{:.0f} % ({:.0f} to {:.0f})\n",
-      c.predicted.runs, passes, kPercent * c.chance.all, kPercent * after.median,
-      kPercent * after.low90, kPercent * after.high90, kPercent * cracked.median,
-      kPercent * cracked.low90, kPercent * cracked.high90);
+      "the target with {:.0f} %: porosity {}, cracked particles {}\n",
+      c.predicted.runs, passes, kPercent * c.chance.all,
+      in_percent(c.predicted.after[0], "{:.1f} % ({:.1f} to {:.1f})"),
+      in_percent(c.predicted.cracked[0], "{:.0f} % ({:.0f} to {:.0f})"));
 }
 
 /// Pressing makes no film more porous.
@@ -92,11 +90,9 @@ void say(const Design &d, SetBy by, const Target &target) {
   const char *unit = gap ? "um" : "MPa";
   const int decimals = gap ? 1 : 0;
   const Chance &best = d.chances[d.best];
-  const Band &after = d.predicted.after[d.best], &cracked = d.predicted.cracked[d.best];
-  const std::string there = fmt::format(
-      "porosity {:.1f} % (90 %: {:.1f} to {:.1f}), cracked particles {:.0f} % ({:.0f} to {:.0f})",
-      kPercent * after.median, kPercent * after.low90, kPercent * after.high90,
-      kPercent * cracked.median, kPercent * cracked.low90, kPercent * cracked.high90);
+  const std::string there =
+      in_percent(d.predicted.after[d.best], "porosity {:.1f} % (90 %: {:.1f} to {:.1f})") +
+      in_percent(d.predicted.cracked[d.best], ", cracked particles {:.0f} % ({:.0f} to {:.0f})");
   if (kPercent * best.all < 1.0)
     fmt::print("{0}: no {1} from {2:.{6}f} to {3:.{6}f} {4} meets the target (less than 1 %); at "
                "{5:.{6}f} {4}: {7}\n",

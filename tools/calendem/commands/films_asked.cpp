@@ -72,12 +72,10 @@ std::vector<Film> varied(std::vector<Film> films, const std::vector<std::string>
     if (!seen.insert(name).second)
       throw Failure(kBadInput, "--vary has {} twice; give all its values at once: {}=VALUE,VALUE.",
                     name, name);
-    std::size_t place = 0;
     std::vector<std::string> names;
     for (const bank::Input &p : bank.film())
       names.push_back(p.name);
-    while (place < names.size() && names[place] != name)
-      ++place;
+    const auto place = std::size_t(std::find(names.begin(), names.end(), name) - names.begin());
     if (equals == std::string::npos || place == names.size())
       throw Failure(kBadInput,
                     "--vary is '{}'; give NAME=VALUE,VALUE with a name of the bank's films: {}.",
@@ -124,6 +122,11 @@ Recipe recipe_to_answer_for(const std::string &file) {
 }
 
 } // namespace
+
+std::string in_percent(const Band &band, const char *format) {
+  return fmt::format(fmt::runtime(format), kPercent * band.median, kPercent * band.low90,
+                     kPercent * band.high90);
+}
 
 AskedFilms of_model(const FilmOptions &o) {
   AskedFilms out = {read_model(o.model), 0, {}, {}};
