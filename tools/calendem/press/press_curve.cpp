@@ -29,11 +29,9 @@ void find_stages(PressCurve &c) {
   bool loading = true;
   std::size_t extreme = 0;
   c.stage.assign(c.pressure.size(), "loading");
-  c.cycle.assign(c.pressure.size(), 1);
   for (std::size_t k = 1; k < c.pressure.size(); ++k) {
     const double beyond = (loading ? 1.0 : -1.0) * (c.pressure[k] - c.pressure[extreme]);
     c.stage[k] = c.stage[k - 1];
-    c.cycle[k] = c.cycle[k - 1];
     if (beyond > 0.0)
       extreme = k;
     const bool back = (c.displacement[k] < c.displacement[extreme]) == loading;
@@ -42,8 +40,6 @@ void find_stages(PressCurve &c) {
     loading = !loading;
     std::fill(c.stage.begin() + long(extreme) + 1, c.stage.begin() + long(k) + 1,
               loading ? "loading" : "unloading");
-    std::fill(c.cycle.begin() + long(extreme) + 1, c.cycle.begin() + long(k) + 1,
-              c.cycle[extreme] + loading);
     extreme = k;
   }
   for (std::size_t k = extreme + 1; k < c.pressure.size() && loading; ++k) // less than a turn
@@ -96,8 +92,7 @@ PressCurve make_press_curve(const std::string &file, const PressExport &from, do
     d = sign * (d - zero) + 0.0; // no -0
   if (c.stage.empty())
     find_stages(c);
-  else
-    count_cycles(c);
+  count_cycles(c);
   c.said.push_back(
       fmt::format("first contact in row {} at {:.3g} MPa{}; the displacement counts {}",
                   c.contact + 1, c.pressure.front(),
