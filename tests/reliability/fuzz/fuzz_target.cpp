@@ -52,7 +52,7 @@ void csv(const std::string &text) {
     for (const std::string &column : table.header())
       if (table.has(column))
         demand(table.numbers(column).size() == table.rows() &&
-               calendem::printable(table.ambiguous() + table.guess()).find('\r') == text.npos);
+               (table.ambiguous() + table.guess()).find('\r') == text.npos);
 }
 
 // The first byte says how the data file is to be read; the file follows.

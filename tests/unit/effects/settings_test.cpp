@@ -127,7 +127,7 @@ TEST(Settings, LimitsOfContactLawsCountCohesion) {
 
 // Requirement: a law acts on a pair of types either way round, and on no other.
 TEST(Settings, ContactLawsInTheScriptAreSymmetric) {
-  std::istringstream script(generated_files()[2].text);
+  std::istringstream script(generated_files(CALENDEM_SOURCE_DIR)[2].text);
   const std::string begin = "peratomtypepair 4 ";
   std::string line;
   std::size_t properties = 0;
@@ -154,7 +154,7 @@ TEST(Settings, ContactLawsInTheScriptAreSymmetric) {
 
 // Requirement: every setting of a script is defined and written down by it.
 TEST(Settings, ScriptsHaveEverySetting) {
-  const std::vector<GeneratedFile> files = generated_files();
+  const std::vector<GeneratedFile> files = generated_files(CALENDEM_SOURCE_DIR);
   for (const Key &key : case_keys())
     if (!key.variable.empty()) {
       EXPECT_NE(files[0].text.find("variable " + key.variable + " "), std::string::npos);

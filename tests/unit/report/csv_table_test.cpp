@@ -107,7 +107,6 @@ TEST(CsvTable, NamesWhatIsNoText) {
   EXPECT_NE(CsvTable::parse("\x1f\x8b\x08 ...").ambiguous().find("gzip"), std::string::npos);
   EXPECT_NE(CsvTable::parse("PK\3\4").ambiguous().find(".xlsx"), std::string::npos);
   EXPECT_NE(CsvTable::parse("a,b\n1,\2\n").ambiguous().find("is no text"), std::string::npos);
-  EXPECT_EQ(calendem::printable("\x1b[31m\xB5m \xC2\xB5m\n"), "?[31m?m \xC2\xB5m\n");
 }
 
 // Requirement: lines above the header and units below it are those of a press's program.

@@ -9,6 +9,7 @@
 
 #include "report/pictures.h"
 #include "support/make_run.h"
+#include "support/test_folder.h"
 
 namespace fs = std::filesystem;
 using namespace calendem::report;
@@ -20,11 +21,6 @@ namespace {
 
 class FracturePart : public ::testing::Test {
 protected:
-  void SetUp() override {
-    const auto *test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / ("calendem_fracture_part_" + std::string(test->name()));
-    fs::remove_all(folder_);
-  }
   void TearDown() override { fs::remove_all(folder_); }
 
   ReportRun made(double max_pressure, bool frames) const {
@@ -44,7 +40,7 @@ protected:
   }
   void write(const char *name, const char *text) const { std::ofstream(folder_ / name) << text; }
 
-  fs::path folder_;
+  const fs::path folder_ = calendem_test::test_folder();
 };
 
 const char *const kCracks = "time_us,stage,pressure_MPa,bodies_with_bonds,bodies_apart,"

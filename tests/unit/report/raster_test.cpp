@@ -71,6 +71,5 @@ TEST(Raster, FadeForgetsDepth) {
 // Requirement: the picture is a PNG.
 TEST(Raster, WritesPng) {
   const Camera camera = front(2);
-  EXPECT_EQ(png_base64(Raster(camera).pixels(), camera.width(), camera.height()).substr(0, 10),
-            "iVBORw0KGg");
+  EXPECT_EQ(png_of(Raster(camera), camera).substr(0, 10), "iVBORw0KGg");
 }

@@ -8,6 +8,7 @@
 
 #include "base/provenance.h"
 #include "support/make_run.h"
+#include "support/test_folder.h"
 
 namespace fs = std::filesystem;
 using namespace calendem::report;
@@ -20,9 +21,6 @@ namespace {
 class StructurePart : public ::testing::Test {
 protected:
   void SetUp() override {
-    const auto *test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / ("calendem_structure_part_" + std::string(test->name()));
-    fs::remove_all(folder_);
     calendem::tests::MadeRun small;
     small.bodies = 3;
     small.rows = 40;
@@ -62,7 +60,7 @@ protected:
     return text;
   }
 
-  fs::path folder_;
+  const fs::path folder_ = calendem_test::test_folder();
 };
 
 } // namespace

@@ -15,6 +15,7 @@
 #include "base/messages.h"
 #include "support/make_run.h"
 #include "support/page.h"
+#include "support/test_folder.h"
 
 namespace fs = std::filesystem;
 using calendem::report::write_report;
@@ -31,10 +32,6 @@ std::string contents(const fs::path &file) {
 class WriteReport : public ::testing::Test {
 protected:
   void SetUp() override {
-    const auto *test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / ("calendem_report_" + std::string(test->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
     small_.bodies = 4;
     small_.rows = 60;
   }
@@ -57,7 +54,7 @@ protected:
     return "";
   }
 
-  fs::path folder_;
+  const fs::path folder_ = calendem_test::test_folder();
   MadeRun small_;
 };
 

@@ -68,47 +68,40 @@ public:
     out.faults = texts(t, "faults");
     for (const std::string &name : out.faults)
       if (const Effect *e = effect(name, *t.get("faults")); e && !e->shown)
-        mistakes_.add(line_of(*t.get("faults")),
-                      fmt::format("'{}' changes the film, not what the press shows: it needs runs. "
-                                  "Give it a table [[effect]].",
-                                  name));
+        refuse(*t.get("faults"),
+               "'{}' changes the film, not what the press shows: it needs runs. Give it a table "
+               "[[effect]].",
+               name);
   }
 
-  void read_input(const toml::node &node, Bank &out) {
-    const toml::table *t = node.as_table();
-    if (!t)
-      return mistakes_.add(line_of(node), "write an input as a table: [[input]].");
-    report_unknown(*t, {"name", "keys", "low", "high", "prior"});
+  void read_input(const toml::table &t, Bank &out) {
+    report_unknown(t, {"name", "keys", "low", "high", "prior"});
     Input input;
-    input.name = text(*t, {"name", "", "", 0, 0, "", "of the input", "", true});
-    input.keys = texts(*t, "keys");
-    input.low = number(*t, {"low", "", "", -1e300, 1e300, "", "end of the range"});
-    input.high = number(*t, {"high", "", "", -1e300, 1e300, "", "end of the range"});
-    if (text(*t, {"prior", "", "uniform", 0, 0, "", "", "uniform|log-uniform"}) == "log-uniform")
+    input.name = text(t, {"name", "", "", 0, 0, "", "of the input", "", true});
+    input.keys = texts(t, "keys");
+    input.low = number(t, {"low", "", "", -1e300, 1e300, "", "end of the range"});
+    input.high = number(t, {"high", "", "", -1e300, 1e300, "", "end of the range"});
+    if (text(t, {"prior", "", "uniform", 0, 0, "", "", "uniform|log-uniform"}) == "log-uniform")
       input.spread = Spread::LogUniform;
     if (input.keys.empty())
-      mistakes_.add(line_of(node),
-                    fmt::format("input '{}' needs a list 'keys' of texts.", input.name));
-    add(node, input, out);
+      refuse(t, "input '{}' needs a list 'keys' of texts.", input.name);
+    add(t, input, out);
   }
 
-  void read_effect(const toml::node &node, Bank &out) {
-    const toml::table *t = node.as_table();
-    if (!t)
-      return mistakes_.add(line_of(node), "write an effect as a table: [[effect]].");
-    report_unknown(*t, {"name", "share", "low", "high"});
+  void read_effect(const toml::table &t, Bank &out) {
+    report_unknown(t, {"name", "share", "low", "high"});
     Input input;
-    input.name = text(*t, {"name", "", "", 0, 0, "", "of the effect", "", true});
-    input.share = number(*t, {"share", "", "", 0.01, 0.99, "", "of the points where it acts"});
-    const Effect *e = effect(input.name, node);
+    input.name = text(t, {"name", "", "", 0, 0, "", "of the effect", "", true});
+    input.share = number(t, {"share", "", "", 0.01, 0.99, "", "of the points where it acts"});
+    const Effect *e = effect(input.name, t);
     if (!e)
       return;
     const EffectParameter &p = e->parameter, most = at_most(p);
     for (const std::string &key : p.keys)
       input.keys.push_back(e->column(key));
-    input.low = number(*t, {"low", "", fmt::format("{}", p.low), most.low, most.high, "", "of it"});
+    input.low = number(t, {"low", "", fmt::format("{}", p.low), most.low, most.high, "", "of it"});
     input.high =
-        number(*t, {"high", "", fmt::format("{}", p.high), most.low, most.high, "", "of it"});
+        number(t, {"high", "", fmt::format("{}", p.high), most.low, most.high, "", "of it"});
     input.spread = p.spread;
     input.off = p.off;
     for (const Input &before : out.design.inputs)
@@ -116,7 +109,13 @@ public:
         if (const Effect &other = find_effect(before.name);
             have_one_law(*e, other) || are_not_both(*e, other))
           input.excludes.push_back(before.name);
-    add(node, input, out);
+    add(t, input, out);
+  }
+
+  void read_lists(const toml::table &root, Bank &out) {
+    each_table(root, "input", [&](const toml::table &t) { read_input(t, out); });
+    each_table(root, "effect", [&](const toml::table &t) { read_effect(t, out); });
+    each_table(root, "numerics", [&](const toml::table &t) { read_numerics(t, out); });
   }
 
   void read_larger_cell(const toml::table &t, Bank &out) {
@@ -124,20 +123,17 @@ public:
     out.design.larger.share = number(t, {"share", "", "", 0.001, 0.5, "", "of the points"});
     const toml::table *recipe = t["recipe"].as_table();
     if (!recipe || recipe->empty())
-      return mistakes_.add(line_of(t), "[larger_cell] needs recipe = { \"cell.x_um\" = 12 }.");
+      return refuse(t, "[larger_cell] needs recipe = {{ \"cell.x_um\" = 12 }}.");
     for (const auto &[key, value] : *recipe)
       if (const auto v = number(value, {"recipe", "", "", -1e300, 1e300, "", "a key's value"}))
         out.design.larger.recipe[std::string(key.str())] = fmt::format("{}", *v);
   }
 
-  void read_numerics(const toml::node &node, Bank &out) {
-    const toml::table *t = node.as_table();
-    if (!t)
-      return mistakes_.add(line_of(node), "write an error of the runs as a table: [[numerics]].");
-    report_unknown(*t, {"name", "porosity_points"});
+  void read_numerics(const toml::table &t, Bank &out) {
+    report_unknown(t, {"name", "porosity_points"});
     out.numerics.push_back(
-        {text(*t, {"name", "", "", 0, 0, "", "of the error", "", true}),
-         number(*t, {"porosity_points", "", "", 0, 20, "%", "of the porosity under pressure"})});
+        {text(t, {"name", "", "", 0, 0, "", "of the error", "", true}),
+         number(t, {"porosity_points", "", "", 0, 20, "%", "of the porosity under pressure"})});
   }
 
 private:
@@ -145,19 +141,20 @@ private:
     try {
       return name.empty() ? nullptr : &find_effect(name);
     } catch (const Failure &e) {
-      mistakes_.add(line_of(at), e.what());
+      refuse(at, "{}", e.what());
       return nullptr;
     }
   }
 
   void add(const toml::node &node, const Input &input, Bank &out) {
     if (input.low >= input.high || (input.spread == Spread::LogUniform && input.low <= 0.0))
-      mistakes_.add(line_of(node), fmt::format("'{}' goes from {} to {}; low must be below high, "
-                                               "and above 0 for a log-uniform prior.",
-                                               input.name, input.low, input.high));
+      refuse(
+          node,
+          "'{}' goes from {} to {}; low must be below high, and above 0 for a log-uniform prior.",
+          input.name, input.low, input.high);
     for (const Input &other : out.design.inputs)
       if (other.name == input.name)
-        mistakes_.add(line_of(node), fmt::format("two inputs are called '{}'.", input.name));
+        refuse(node, "two inputs are called '{}'.", input.name);
     out.design.inputs.push_back(input);
   }
 };
@@ -170,28 +167,20 @@ Bank read_bank(const std::string &file) {
   out.file = file;
   const TomlFile parsed = parse_toml(file, FileKind::Bank, mistakes);
   Reader reader(file, parsed.whole, mistakes);
-  using Read = void (Reader::*)(const toml::node &, Bank &);
-  const auto read_all = [&](const char *name, Read read) {
-    if (const toml::array *all = parsed.root[name].as_array())
-      for (const toml::node &node : *all)
-        (reader.*read)(node, out);
-  };
   if (const toml::table *head = parsed.root["bank"].as_table())
     reader.read_head(*head, out);
   else if (parsed.whole)
     mistakes.add(0, "has no table [bank].");
-  read_all("input", &Reader::read_input);
-  read_all("effect", &Reader::read_effect);
-  read_all("numerics", &Reader::read_numerics);
+  reader.read_lists(parsed.root, out);
   if (const toml::table *larger = parsed.root["larger_cell"].as_table())
     reader.read_larger_cell(*larger, out);
   const std::set<std::string> known = {"bank", "input", "effect", "numerics", "larger_cell"};
   for (const auto &[key, node] : parsed.root)
     if (known.count(std::string(key.str())) == 0)
       mistakes.add(line_of(node),
-                   fmt::format("unknown '{}'; a bank has tables [bank], [larger_cell], [[input]], "
-                               "[[effect]] and [[numerics]].",
-                               key.str()));
+                   "unknown '{}'; a bank has tables [bank], [larger_cell], [[input]], [[effect]] "
+                   "and [[numerics]].",
+                   key.str());
   if (out.design.inputs.empty() && parsed.whole)
     mistakes.add(0, "has no [[input]]: its points would not differ.");
   mistakes.stop_if_any();

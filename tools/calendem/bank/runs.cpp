@@ -3,7 +3,7 @@
 #include "base/csv_table.h"
 #include "base/provenance.h"
 #include "base/run_folder.h"
-#include <algorithm>
+#include "base/shown.h"
 #include <fmt/format.h>
 
 namespace calendem::bank {
@@ -34,11 +34,6 @@ std::string cell(double v, const char *form = "{:.6g}") {
 std::string curve_column(double pressure) { return fmt::format("um_at_{:.4g}_MPa", pressure); }
 std::string release_column(double share) { return fmt::format("um_released_to_{:g}", share); }
 
-double number_in(const nlohmann::json &object, const std::string &key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_number() ? found->get<double>() : NAN;
-}
-
 /// Displacement where the pressure falls to `pressure`, linear between rows; NaN: it does not.
 double released_to(const Curve &c, const Press &press, double pressure) {
   const Column &p = c["pressure_shown_MPa"], &d = c["displacement_shown_um"];
@@ -59,18 +54,6 @@ std::vector<double> loading_of(const Curve &c) {
       out[next] =
           d[k - 1] + (d[k] - d[k - 1]) * (curve_pressures()[next] - p[k - 1]) / (p[k] - p[k - 1]);
   return out;
-}
-
-/// The end of the k-th of `count` releases.
-double inverse_tortuosity(const nlohmann::json &structure, std::size_t k, std::size_t count) {
-  const std::string wanted = k + 1 == count ? "after" : fmt::format("press_{}", k + 1);
-  for (const auto &moment : structure.value("moments", nlohmann::json::array()))
-    if (moment.value("moment", "") == wanted) {
-      const auto through =
-          moment.value("/tortuosity/through_plane"_json_pointer, nlohmann::json::object());
-      return number_in(through, "effective_diffusivity") / number_in(through, "porosity");
-    }
-  return NAN;
 }
 
 } // namespace
@@ -94,9 +77,7 @@ Run read_run_of(const Point &point, const std::string &path) {
                                    mistakes, mistakes);
   mistakes.stop_if_any();
   const nlohmann::json &summary = folder.object("summary.json");
-  const nlohmann::json presses = summary.value("presses", nlohmann::json::array()),
-                       structure = folder.has("structure.json") ? folder.object("structure.json")
-                                                                : nlohmann::json::object();
+  const nlohmann::json presses = summary.value("presses", nlohmann::json::array());
   const std::vector<Press> rows = curve.presses();
   Run run;
   run.point = point;
@@ -107,7 +88,8 @@ Run read_run_of(const Point &point, const std::string &path) {
     for (const Number &n : kNumbers)
       if (n.in_summary)
         film.*(n.field) = number_in(presses[k], n.in_summary);
-    film.inverse_tortuosity = inverse_tortuosity(structure, k, presses.size());
+    film.inverse_tortuosity = folder.inverse_tortuosity(
+        k + 1 == presses.size() ? "after" : fmt::format("press_{}", k + 1));
     for (const double share : kReleasedTo)
       film.release.push_back(released_to(curve, rows.at(k), share * film.pressure));
     run.presses.push_back(film);
@@ -162,8 +144,7 @@ public:
       : table_(table), mistakes_(file, 20), points_(points_of(bank.design)) {
     for (const std::string &column : header_of(bank)) {
       if (!table.has(column))
-        mistakes_.add(
-            1, fmt::format("column '{}' is missing. Is this the table of {}?", column, bank.file));
+        mistakes_.add(1, "column '{}' is missing. Is this the table of {}?", column, bank.file);
       if (column != "failed")
         columns_[column] = table.numbers(column);
     }
@@ -207,9 +188,8 @@ private:
     }
     if (!same)
       mistakes_.add(table_.line_of(k),
-                    fmt::format("point {:g} has other inputs than that of {}: it is the table of "
-                                "another bank.",
-                                number, out_.bank.file));
+                    "point {:g} has other inputs than that of {}: it is the table of another bank.",
+                    number, out_.bank.file);
     return same ? point : nullptr;
   }
 

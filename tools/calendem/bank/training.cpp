@@ -88,10 +88,9 @@ std::vector<double> pressures_of(const Bank &bank) {
                last = s.number("platen.max_pressure_MPa"), presses = s.number("platen.presses");
   if (presses < double(kFewestPresses) || first <= 0.0)
     throw Failure(kBadInput,
-                  fmt::format("{}: the platen goes to {:g} pressures; a bank's runs stop "
-                              "at {} or more. Set platen.presses and "
-                              "platen.first_pressure_MPa.",
-                              bank.case_file, first > 0.0 ? presses : 1.0, kFewestPresses));
+                  "{}: the platen goes to {:g} pressures; a bank's runs stop at {} or more. Set "
+                  "platen.presses and platen.first_pressure_MPa.",
+                  bank.case_file, first > 0.0 ? presses : 1.0, kFewestPresses);
   const bool by_ratio = s.text("platen.spacing") == "ratio";
   std::vector<double> out;
   for (double k = 0.0; k < presses; ++k) {
@@ -130,8 +129,8 @@ inference::TrainingRuns training_of(const Runs &runs) {
     if (!run.presses.empty())
       used.push_back(&run);
   if (used.size() < kFewestRuns)
-    throw Failure(kBadInput, fmt::format("{}: the table has {} runs; at least {} are needed.",
-                                         runs.bank.file, used.size(), kFewestRuns));
+    throw Failure(kBadInput, "{}: the table has {} runs; at least {} are needed.", runs.bank.file,
+                  used.size(), kFewestRuns);
   const auto n = Eigen::Index(used.size()),
              outputs = Eigen::Index(count_of_outputs(pressures.size()));
   inference::TrainingRuns out;

@@ -67,18 +67,17 @@ void check_collapse(const Settings &s, Phase first, Phase second, double limit,
   const PhasePair pair = pair_of(s, first, second);
   const double overlap = sjkr_equilibrium_overlap(pair.cohesion, pair.modulus, 0.5);
   if (overlap > limit)
-    mistakes.add(
-        std::max(s.line(at_a + "ced_J_m3"), s.line(at_b + "ced_J_m3")),
-        fmt::format("cohesion would collapse the packing: it pulls {} spheres into each other by "
-                    "{:.3g} of their radius, at most {} is allowed. The overlap scales as "
-                    "(CED/E)^2: lower ced_J_m3 ({}) or raise youngs_modulus_GPa ({}).{}",
-                    a == b ? a : a + " and " + b, overlap, limit,
-                    a == b ? s.text(at_a + "ced_J_m3")
-                           : s.text(at_a + "ced_J_m3") + " and " + s.text(at_b + "ced_J_m3"),
-                    a == b ? s.text(at_a + "youngs_modulus_GPa")
-                           : s.text(at_a + "youngs_modulus_GPa") + " and " +
-                                 s.text(at_b + "youngs_modulus_GPa"),
-                    at_temperature(s)));
+    mistakes.add(std::max(s.line(at_a + "ced_J_m3"), s.line(at_b + "ced_J_m3")),
+                 "cohesion would collapse the packing: it pulls {} spheres into each other by "
+                 "{:.3g} of their radius, at most {} is allowed. The overlap scales as (CED/E)^2: "
+                 "lower ced_J_m3 ({}) or raise youngs_modulus_GPa ({}).{}",
+                 a == b ? a : a + " and " + b, overlap, limit,
+                 a == b ? s.text(at_a + "ced_J_m3")
+                        : s.text(at_a + "ced_J_m3") + " and " + s.text(at_b + "ced_J_m3"),
+                 a == b ? s.text(at_a + "youngs_modulus_GPa")
+                        : s.text(at_a + "youngs_modulus_GPa") + " and " +
+                              s.text(at_b + "youngs_modulus_GPa"),
+                 at_temperature(s));
 }
 
 // What cohesion and modulus of the phases leave to the strength of a contact law between them.
@@ -102,12 +101,10 @@ void check_contact(const Settings &s, const Effect &e, Phase a, Phase b, Mistake
   const bool low = value < limits.least;
   const std::string unit = key.unit == "fraction" ? "" : " " + key.unit;
   mistakes.add(s.line(key.name),
-               fmt::format("{} is {}{}, too {} for {} and {} spheres: {}. Give 0 (off) or {} "
-                           "{:.3g}{}.{}",
-                           key.name, s.text(key.name), unit, low ? "low" : "high",
-                           name_of(std::min(a, b)), name_of(std::max(a, b)), limits.why,
-                           low ? "at least" : "at most",
-                           (low ? limits.least : limits.most) / factor, unit, at_temperature(s)));
+               "{} is {}{}, too {} for {} and {} spheres: {}. Give 0 (off) or {} {:.3g}{}.{}",
+               key.name, s.text(key.name), unit, low ? "low" : "high", name_of(std::min(a, b)),
+               name_of(std::max(a, b)), limits.why, low ? "at least" : "at most",
+               (low ? limits.least : limits.most) / factor, unit, at_temperature(s));
 }
 
 // A property that may be only some part of the effective modulus.
@@ -121,18 +118,13 @@ void check_part_of_modulus(const Settings &s, const Effect &e, Phase a, Phase b,
     const double most = part * pair_of(s, a, b).modulus / script_units(key.unit);
     if (s.number(key.name) > most)
       mistakes.add(s.line(key.name),
-                   fmt::format("{} is {} {}: between {} and {} spheres at most {} of the effective "
-                               "modulus is allowed. Give at most {:.3g}.",
-                               key.name, s.text(key.name), key.unit, name_of(a), name_of(b), part,
-                               most));
+                   "{} is {} {}: between {} and {} spheres at most {} of the effective modulus is "
+                   "allowed. Give at most {:.3g}.",
+                   key.name, s.text(key.name), key.unit, name_of(a), name_of(b), part, most);
   }
 }
 
-double units_of(const std::string &name) {
-  const auto &keys = case_keys();
-  return script_units(
-      std::find_if(keys.begin(), keys.end(), [&](const Key &k) { return k.name == name; })->unit);
-}
+double units_of(const std::string &name) { return script_units(find_key(case_keys(), name)->unit); }
 
 void check_relation(const Settings &s, const Relation &r, Mistakes &mistakes) {
   if (!s.sound({r.key, r.other}))
@@ -140,17 +132,15 @@ void check_relation(const Settings &s, const Relation &r, Mistakes &mistakes) {
   const double value = s.number(r.key), other = s.number(r.other);
   const double most = r.part * other * units_of(r.other) / units_of(r.key);
   if (r.is == Relation::Is::AtMost && value > most)
-    mistakes.add(s.line(r.key),
-                 fmt::format("{} is {}, above {}{} = {}: {}. Give at most {:g}.", r.key,
-                             s.text(r.key), r.part == 1.0 ? "" : fmt::format("{:g} of ", r.part),
-                             r.other, s.text(r.other), r.why, most));
+    mistakes.add(s.line(r.key), "{} is {}, above {}{} = {}: {}. Give at most {:g}.", r.key,
+                 s.text(r.key), r.part == 1.0 ? "" : fmt::format("{:g} of ", r.part), r.other,
+                 s.text(r.other), r.why, most);
   if (r.is == Relation::Is::NotBoth && value > 0.0 && other > 0.0)
-    mistakes.add(s.line(r.key), fmt::format("{} is {} and {} is {}: {}. Set one of them to 0.",
-                                            r.key, s.text(r.key), r.other, s.text(r.other), r.why));
+    mistakes.add(s.line(r.key), "{} is {} and {} is {}: {}. Set one of them to 0.", r.key,
+                 s.text(r.key), r.other, s.text(r.other), r.why);
   if (r.is == Relation::Is::Needs && value > 0.0 && other <= 0.0)
-    mistakes.add(s.line(r.key),
-                 fmt::format("{} is {} and {} is {}: {}. Give that a value above 0, or this 0.",
-                             r.key, s.text(r.key), r.other, s.text(r.other), r.why));
+    mistakes.add(s.line(r.key), "{} is {} and {} is {}: {}. Give that a value above 0, or this 0.",
+                 r.key, s.text(r.key), r.other, s.text(r.other), r.why);
 }
 
 // A contact follows one law.
@@ -183,8 +173,7 @@ void check_least(const Settings &s, Mistakes &mistakes) {
   for (const auto &[key, least] :
        {std::pair("bond.weibull_modulus", 1.0), std::pair("numerics.timestep_us", 1e-6)})
     if (s.sound({key}) && s.number(key) > 0.0 && s.number(key) < least)
-      mistakes.add(s.line(key),
-                   fmt::format("{} is {}; give 0 or at least {:g}.", key, s.text(key), least));
+      mistakes.add(s.line(key), "{} is {}; give 0 or at least {:g}.", key, s.text(key), least);
 }
 
 /// A target of another control than the case's would not be reached.
@@ -196,9 +185,9 @@ void check_other_targets(const Settings &s, Mistakes &mistakes) {
     const std::string key = "platen." + other + "_um";
     if (other != control && s.sound({key}) && s.number(key) > 0.0)
       mistakes.add(s.line(key),
-                   fmt::format("{} is {} but platen.control is \"{}\": the platen would not stop "
-                               "there. Give control = \"{}\", or leave {} out.",
-                               key, s.text(key), control, other, key));
+                   "{} is {} but platen.control is \"{}\": the platen would not stop there. Give "
+                   "control = \"{}\", or leave {} out.",
+                   key, s.text(key), control, other, key);
   }
 }
 
@@ -209,8 +198,8 @@ void check_target(const Settings &s, Mistakes &mistakes) {
   const std::string key = "platen." + control + "_um";
   if (s.number(key) <= 0.0)
     mistakes.add(s.line("platen.control"),
-                 fmt::format("platen.control is \"{}\" but {} is {}; give a value > 0 um.", control,
-                             key, s.number(key)));
+                 "platen.control is \"{}\" but {} is {}; give a value > 0 um.", control, key,
+                 s.number(key));
 }
 
 /// Settings a roll does not support or takes under another key.
@@ -223,27 +212,26 @@ void check_roll(const Settings &s, Mistakes &mistakes) {
           std::tuple("roll.elongation_percent", 0, "the web elongates under a roll only"),
           std::tuple("roll.passes", 1, "a platen goes down platen.presses times")})
       if (s.sound({key}) && s.number(key) > none)
-        mistakes.add(s.line(key),
-                     fmt::format("{} is {} and platen.control is \"{}\": {}. "
-                                 "Give control = \"roll_gap\", or {}.",
-                                 key, s.text(key), s.text("platen.control"), why, none));
+        mistakes.add(
+            s.line(key),
+            "{} is {} and platen.control is \"{}\": {}. Give control = \"roll_gap\", or {}.", key,
+            s.text(key), s.text("platen.control"), why, none);
     return;
   }
   const std::string first = "roll.first_gap_um", gap = "platen.roll_gap_um";
   if (s.sound({first, gap}) && s.number(first) > 0.0 && s.number(first) < s.number(gap))
     mistakes.add(s.line(first),
-                 fmt::format("{} is {}, below {} = {}: passes go from a wider gap to a narrower "
-                             "one. Give at least that, or 0: the same gap in all passes.",
-                             first, s.text(first), gap, s.text(gap)));
+                 "{} is {}, below {} = {}: passes go from a wider gap to a narrower one. Give at "
+                 "least that, or 0: the same gap in all passes.",
+                 first, s.text(first), gap, s.text(gap));
   for (const auto &[key, none, why] :
        {std::tuple("platen.dwell_us", 0, "a roll does not stand still in the nip"),
         std::tuple("platen.presses", 1, "a roll goes over the film roll.passes times"),
         std::tuple("effects.machine_compliance.um_per_MPa", 0,
                    "platen.roll_gap_um is the gap of the loaded rolls, frame and all")})
     if (s.sound({key}) && s.number(key) > none)
-      mistakes.add(s.line(key), fmt::format("{} is {} and platen.control is \"roll_gap\": {}. "
-                                            "Give {}.",
-                                            key, s.text(key), why, none));
+      mistakes.add(s.line(key), "{} is {} and platen.control is \"roll_gap\": {}. Give {}.", key,
+                   s.text(key), why, none);
 }
 
 void check_presses(const Settings &s, Mistakes &mistakes) {
@@ -253,14 +241,14 @@ void check_presses(const Settings &s, Mistakes &mistakes) {
   if (s.text("platen.control") != "pressure" || s.number("platen.presses") < 2.0)
     mistakes.add(
         s.line(first),
-        fmt::format("{} is {}, but the platen does not go to several pressures: control "
-                    "is \"{}\", presses is {}. Give control = \"pressure\" and presses = 2 "
-                    "or more, or leave it out.",
-                    first, s.text(first), s.text("platen.control"), s.text("platen.presses")));
+        "{} is {}, but the platen does not go to several pressures: control is \"{}\", presses is "
+        "{}. Give control = \"pressure\" and presses = 2 or more, or leave it out.",
+        first, s.text(first), s.text("platen.control"), s.text("platen.presses"));
   else if (s.number(first) > s.number(last))
-    mistakes.add(s.line(first), fmt::format("{} is {}, above {} = {}: presses go from a lower "
-                                            "pressure to a higher one. Give at most that.",
-                                            first, s.text(first), last, s.text(last)));
+    mistakes.add(s.line(first),
+                 "{} is {}, above {} = {}: presses go from a lower pressure to a higher one. Give "
+                 "at most that.",
+                 first, s.text(first), last, s.text(last));
 }
 
 const char *const kSpeeds[] = {"platen.speed_m_s", "platen.touch_speed_m_s",
@@ -280,12 +268,11 @@ void check_window(const Settings &s, Mistakes &mistakes) {
   const double travel = s.number(key) * s.number(speed);
   if (travel > kAverageTravel * (1.0 + 1e-9))
     mistakes.add(s.line(key),
-                 fmt::format("{} is {}: in that time the platen moves {:.3g} um at {} = {} m/s, at "
-                             "most {} um is allowed, or pressure and gap are averaged over a bend "
-                             "of the curve. Give at most {:.3g} us, or 0, which is just that; or "
-                             "lower the speed.",
-                             key, s.text(key), travel, speed, s.text(speed), kAverageTravel,
-                             kAverageTravel / s.number(speed)));
+                 "{} is {}: in that time the platen moves {:.3g} um at {} = {} m/s, at most {} um "
+                 "is allowed, or pressure and gap are averaged over a bend of the curve. Give at "
+                 "most {:.3g} us, or 0, which is just that; or lower the speed.",
+                 key, s.text(key), travel, speed, s.text(speed), kAverageTravel,
+                 kAverageTravel / s.number(speed));
 }
 
 } // namespace

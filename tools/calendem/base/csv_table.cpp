@@ -4,7 +4,6 @@
 #include "base/plain_text.h"
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <limits>

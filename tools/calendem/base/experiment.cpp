@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/experiment.h"
 #include "base/csv_table.h"
+#include "base/provenance.h"
 #include "physics/pi.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 
 namespace calendem {
 
@@ -171,10 +170,10 @@ void check_mass(double loading, const Measured &mass, const std::string &who, in
                 Mistakes &mistakes) {
   const Key &allowed = range_of(&Condition::loading_mg_cm2);
   if (loading < allowed.low || loading > allowed.high)
-    mistakes.add(line, fmt::format("{}: mass_mg = {:g} is a loading of {:.3g} mg/cm2; allowed is "
-                                   "{:g} to {:g}. Is the mass in mg, and sample_diameter_mm that "
-                                   "of the disc that was weighed?",
-                                   who, mass.value, loading, allowed.low, allowed.high));
+    mistakes.add(line,
+                 "{}: mass_mg = {:g} is a loading of {:.3g} mg/cm2; allowed is {:g} to {:g}. Is "
+                 "the mass in mg, and sample_diameter_mm that of the disc that was weighed?",
+                 who, mass.value, loading, allowed.low, allowed.high);
 }
 
 } // namespace
@@ -213,9 +212,10 @@ void check_thickness(const Experiment &e, const Condition &c, const std::string 
                           ? " (was the foil measured too? then say includes_foil = true)"
                           : "");
     if (!wrong.empty())
-      mistakes.add(line, fmt::format("{}: {} is {:g} um of coating, {}, at a loading of {:.4g} "
-                                     "mg/cm2. Correct the thickness, the loading or the recipe.",
-                                     who, range_of(field).name, coating, wrong, loading.value));
+      mistakes.add(line,
+                   "{}: {} is {:g} um of coating, {}, at a loading of {:.4g} mg/cm2. Correct the "
+                   "thickness, the loading or the recipe.",
+                   who, range_of(field).name, coating, wrong, loading.value);
   }
 }
 
@@ -231,173 +231,182 @@ void check_foil(const Experiment &e, const Condition &c, const std::string &who,
   if (on_mass && e.foil_density_g_cm3 == 0.0)
     missing.push_back("foil_density_g_cm3");
   if (!missing.empty()) {
-    mistakes.add(line, fmt::format("{} gives a mass, or a thickness with foil: [experiment] must "
-                                   "have {}.",
-                                   who, fmt::join(missing, ", ")));
+    mistakes.add(line, "{} gives a mass, or a thickness with foil: [experiment] must have {}.", who,
+                 fmt::join(missing, ", "));
     return;
   }
   if (on_thickness && coating_thickness_um(e, *c.thickness_after_um) <= 0.0)
-    mistakes.add(line, fmt::format("{}: thickness_after_um = {} includes a foil of {} um: nothing "
-                                   "is left for the coating.",
-                                   who, c.thickness_after_um->value, e.foil_thickness_um));
+    mistakes.add(
+        line,
+        "{}: thickness_after_um = {} includes a foil of {} um: nothing is left for the coating.",
+        who, c.thickness_after_um->value, e.foil_thickness_um);
   if (on_mass && coating_loading_mg_cm2(e, *c.mass_mg) <= 0.0)
-    mistakes.add(line, fmt::format("{}: mass_mg = {} is less than that of the foil ({:.2f} mg).",
-                                   who, c.mass_mg->value, foil_mg_cm2(e) * sample_area_cm2(e)));
+    mistakes.add(line, "{}: mass_mg = {} is less than that of the foil ({:.2f} mg).", who,
+                 c.mass_mg->value, foil_mg_cm2(e) * sample_area_cm2(e));
   else if (c.mass_mg)
     check_mass(coating_loading_mg_cm2(e, *c.mass_mg), *c.mass_mg, who, line, mistakes);
 }
 
 namespace {
 
-/// Columns and numbers; false if the rest cannot be checked.
-bool check_columns(const std::string &path, const CsvTable &table, int line, Mistakes &mistakes) {
-  const int before = mistakes.count();
-  const std::string first = fmt::format("{}", fmt::join(table.header(), ","));
-  if (const std::string wrong = table.ambiguous({"displacement_um", "pressure_MPa", "stage"});
-      !wrong.empty())
-    mistakes.add(line, fmt::format("'{}' {}", path, wrong));
-  if (table.header().empty())
-    return false;
-  for (const char *column : {"displacement_um", "pressure_MPa"}) {
-    if (!table.has(column)) {
-      mistakes.add(
-          line, fmt::format("'{}' has no column '{}' in its first line: {}. calendem press makes a "
-                            "curve of a press's own export: columns of other names and units.",
-                            path, column, first));
-      continue;
+/// The curve of a condition, as its file has it.
+class CurveCheck {
+public:
+  CurveCheck(const std::string &path, int line, Mistakes &mistakes)
+      : path_(path), line_(line), mistakes_(mistakes), table_(CsvTable::parse(text_of_file(path))) {
+  }
+
+  void check(const Experiment &e, const Condition &c) {
+    if (!check_columns())
+      return;
+    if (const std::string guess = table_.guess(); !guess.empty())
+      fmt::print(stderr, "note: {}: read with {}.\n", path_, guess);
+    check_order();
+    check_stages();
+    check_units(e, c);
+  }
+
+private:
+  const std::string &path_;
+  int line_;
+  Mistakes &mistakes_;
+  CsvTable table_;
+
+  template <class... Values> void refuse(fmt::format_string<Values...> what, Values &&...values) {
+    mistakes_.add(line_, "'{}'{}", path_, fmt::format(what, std::forward<Values>(values)...));
+  }
+
+  /// Columns and numbers; false if the rest cannot be checked.
+  bool check_columns() {
+    const int before = mistakes_.count();
+    const std::string first = fmt::format("{}", fmt::join(table_.header(), ","));
+    if (const std::string wrong = table_.ambiguous({"displacement_um", "pressure_MPa", "stage"});
+        !wrong.empty())
+      refuse(" {}", wrong);
+    if (table_.header().empty())
+      return false;
+    for (const char *column : {"displacement_um", "pressure_MPa"}) {
+      if (!table_.has(column)) {
+        refuse(" has no column '{}' in its first line: {}. calendem press makes a curve of a "
+               "press's own export: columns of other names and units.",
+               column, first);
+        continue;
+      }
+      const std::vector<double> values = table_.numbers(column);
+      const auto wrong =
+          std::find_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
+      if (wrong != values.end())
+        refuse(": {} of row {} is not a finite number. Correct or remove the row.", column,
+               wrong - values.begin() + 1);
     }
-    const std::vector<double> values = table.numbers(column);
-    const auto wrong =
-        std::find_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
-    if (wrong != values.end())
-      mistakes.add(
-          line, fmt::format("'{}': {} of row {} is not a finite number. Correct or remove the row.",
-                            path, column, wrong - values.begin() + 1));
+    if (!table_.bad_lines().empty())
+      refuse(": line {} has another number of columns than the first line. Correct the line, or "
+             "copy the file again if it is cut. Numbers with decimal commas need other separators: "
+             "semicolons.",
+             table_.bad_lines().front());
+    if (table_.rows() < 2)
+      refuse(" has {} rows below its first line; a curve has at least 2.", table_.rows());
+    return mistakes_.count() == before;
   }
-  if (!table.bad_lines().empty())
-    mistakes.add(line, fmt::format("'{}': line {} has another number of columns than the first "
-                                   "line. Correct the line, or copy the file again if it is cut. "
-                                   "Numbers with decimal commas need other separators: semicolons.",
-                                   path, table.bad_lines().front()));
-  if (table.rows() < 2)
-    mistakes.add(line, fmt::format("'{}' has {} rows below its first line; a curve has at least 2.",
-                                   path, table.rows()));
-  return mistakes.count() == before;
-}
 
-/// Rows that a noisy reading moved to the release would be lost without a word.
-void check_loading(const std::string &path, const CsvTable &table,
-                   const std::vector<std::string> &stages, int line, Mistakes &mistakes) {
-  constexpr double kReached = 0.9; // of the highest pressure; a dwell may add the rest
-  const std::vector<double> p = table.numbers("pressure_MPa");
-  double loaded = 0.0, highest = 0.0;
-  for (std::size_t k = 0; k < p.size(); ++k) {
-    highest = std::max(highest, p[k]);
-    if (stages[k] == "loading" || stages[k] == "compression")
-      loaded = std::max(loaded, p[k]);
+  /// Rows that a noisy reading moved to the release would be lost without a word.
+  void check_loading(const std::vector<std::string> &stages) {
+    constexpr double kReached = 0.9; // of the highest pressure; a dwell may add the rest
+    const std::vector<double> p = table_.numbers("pressure_MPa");
+    double loaded = 0.0, highest = 0.0;
+    for (std::size_t k = 0; k < p.size(); ++k) {
+      highest = std::max(highest, p[k]);
+      if (stages[k] == "loading" || stages[k] == "compression")
+        loaded = std::max(loaded, p[k]);
+    }
+    if (loaded < kReached * highest)
+      refuse(": rows of the stage loading reach {:g} MPa, the curve {:g}. Rows up to the highest "
+             "pressure are loading, those after it unloading.",
+             loaded, highest);
   }
-  if (loaded < kReached * highest)
-    mistakes.add(line,
-                 fmt::format("'{}': rows of the stage loading reach {:g} MPa, the curve {:g}. "
-                             "Rows up to the highest pressure are loading, those after it "
-                             "unloading.",
-                             path, loaded, highest));
-}
 
-/// Rows from the newest to the oldest, or sorted by another column, turn loading into release.
-void check_order(const std::string &path, const CsvTable &table, int line, Mistakes &mistakes) {
-  constexpr double kBegun = 0.5;    // of the highest pressure
-  constexpr double kMostBack = 0.3; // of the rows up to the highest pressure
-  const std::vector<double> p = table.numbers("pressure_MPa"), d = table.numbers("displacement_um");
-  const auto top = std::max_element(p.begin(), p.end()) - p.begin();
-  if (p.front() > kBegun * p[std::size_t(top)]) {
-    mistakes.add(line, fmt::format("'{}' begins at {:g} MPa, its highest pressure is {:g}. Rows go "
-                                   "in the order of time, from the first touch on.",
-                                   path, p.front(), p[std::size_t(top)]));
-    return;
+  /// Rows from the newest to the oldest, or sorted by another column, turn loading into release.
+  void check_order() {
+    constexpr double kBegun = 0.5;    // of the highest pressure
+    constexpr double kMostBack = 0.3; // of the rows up to the highest pressure
+    const std::vector<double> p = table_.numbers("pressure_MPa"),
+                              d = table_.numbers("displacement_um");
+    const auto top = std::max_element(p.begin(), p.end()) - p.begin();
+    if (p.front() > kBegun * p[std::size_t(top)]) {
+      refuse(
+          " begins at {:g} MPa, its highest pressure is {:g}. Rows go in the order of time, from "
+          "the first touch on.",
+          p.front(), p[std::size_t(top)]);
+      return;
+    }
+    const double noise = 0.05 * *std::max_element(d.begin(), d.end());
+    int back = 0;
+    for (int k = 1; k <= top; ++k)
+      back += d[std::size_t(k)] < d[std::size_t(k - 1)] - noise;
+    if (back > kMostBack * double(top))
+      refuse(": in {} of {} rows up to the highest pressure the platen goes far back. Rows go in "
+             "the order of time.",
+             back, top);
   }
-  const double noise = 0.05 * *std::max_element(d.begin(), d.end());
-  int back = 0;
-  for (int k = 1; k <= top; ++k)
-    back += d[std::size_t(k)] < d[std::size_t(k - 1)] - noise;
-  if (back > kMostBack * double(top))
-    mistakes.add(line, fmt::format("'{}': in {} of {} rows up to the highest pressure the platen "
-                                   "goes far back. Rows go in the order of time.",
-                                   path, back, top));
-}
 
-void check_stages(const std::string &path, const CsvTable &table, int line, Mistakes &mistakes) {
-  const std::vector<std::string> known = {"loading",   "compression", "dwell",
-                                          "unloading", "relaxation",  "hold"};
-  const std::vector<std::string> stages = table.texts("stage");
-  const auto wrong = std::find_if(stages.begin(), stages.end(), [&](const std::string &s) {
-    return std::find(known.begin(), known.end(), s) == known.end();
-  });
-  const bool loads = std::any_of(stages.begin(), stages.end(), [](const std::string &s) {
-    return s == "loading" || s == "compression";
-  });
-  if (wrong != stages.end())
-    mistakes.add(line,
-                 fmt::format("'{}': stage of row {} is '{}'; allowed are {}. calendem press "
-                             "knows other names.",
-                             path, wrong - stages.begin() + 1, *wrong, fmt::join(known, ", ")));
-  else if (loads && (stages.front() == "unloading" || stages.front() == "relaxation"))
-    mistakes.add(line, fmt::format("'{}': its first row has the stage {}. Rows go in the order of "
-                                   "time, from the first touch on.",
-                                   path, stages.front()));
-  else if (!stages.empty() && !loads)
-    mistakes.add(line, fmt::format("'{}': no row has the stage loading; rows up to the highest "
-                                   "pressure have it.",
-                                   path));
-  else if (!stages.empty())
-    check_loading(path, table, stages, line, mistakes);
-}
+  void check_stages() {
+    const std::vector<std::string> known = {"loading",   "compression", "dwell",
+                                            "unloading", "relaxation",  "hold"};
+    const std::vector<std::string> stages = table_.texts("stage");
+    const auto wrong = std::find_if(stages.begin(), stages.end(), [&](const std::string &s) {
+      return std::find(known.begin(), known.end(), s) == known.end();
+    });
+    const bool loads = std::any_of(stages.begin(), stages.end(), [](const std::string &s) {
+      return s == "loading" || s == "compression";
+    });
+    if (wrong != stages.end())
+      refuse(": stage of row {} is '{}'; allowed are {}. calendem press knows other names.",
+             wrong - stages.begin() + 1, *wrong, fmt::join(known, ", "));
+    else if (loads && (stages.front() == "unloading" || stages.front() == "relaxation"))
+      refuse(": its first row has the stage {}. Rows go in the order of time, from the first touch "
+             "on.",
+             stages.front());
+    else if (!stages.empty() && !loads)
+      refuse(": no row has the stage loading; rows up to the highest pressure have it.");
+    else if (!stages.empty())
+      check_loading(stages);
+  }
 
-/// A curve in another unit is off by a power of ten: far beyond what the rest of the file allows.
-void check_units(const std::string &path, const CsvTable &table, const Experiment &e,
-                 const Condition &c, int line, Mistakes &mistakes) {
-  constexpr double kLeastPressure = 0.1, kMostPressure = 2000.0; // as of max_pressure_MPa
-  constexpr double kOff = 3.0;        // factor between the curve's largest pressure and the stated
-  constexpr double kLeastWay = 0.005; // of the film's thickness
-  constexpr double kMostWay = 10.0;   // a press that gives way moves farther than the film is thick
-  const auto largest = [&](const char *column) {
-    const std::vector<double> v = table.numbers(column);
-    return *std::max_element(v.begin(), v.end());
-  };
-  const double p = largest("pressure_MPa"), d = largest("displacement_um");
-  if (!(p >= kLeastPressure && p <= kMostPressure))
-    mistakes.add(line, fmt::format("'{}': pressure_MPa goes to {:g}; {:g} to {:g} MPa are those of "
-                                   "a press. Is the column in MPa, and compression positive?",
-                                   path, p, kLeastPressure, kMostPressure));
-  if (c.max_pressure_MPa &&
-      (p > kOff * c.max_pressure_MPa->value || p * kOff < c.max_pressure_MPa->value))
-    mistakes.add(line, fmt::format("'{}': pressure_MPa goes to {:g}, max_pressure_MPa is {:g}. Is "
-                                   "the column in MPa, and the curve this condition's?",
-                                   path, p, c.max_pressure_MPa->value));
-  if (e.recipe.file.empty()) // it has mistakes of its own
-    return;
-  const double film = e.recipe.thickness();
-  if (d >= kMostWay * film || d < kLeastWay * film)
-    mistakes.add(line,
-                 fmt::format("'{}': displacement_um goes to {:g}; the film of the recipe is "
-                             "{:.1f} um thick, allowed is {:.3g} to {:.4g}. Is the column in um, "
-                             "counted from first touch?",
-                             path, d, film, kLeastWay * film, kMostWay * film));
-}
+  /// A curve in another unit is off by a power of ten: far beyond what the rest of the file allows.
+  void check_units(const Experiment &e, const Condition &c) {
+    constexpr double kLeastPressure = 0.1, kMostPressure = 2000.0; // as of max_pressure_MPa
+    constexpr double kOff = 3.0; // factor between the curve's largest pressure and the stated
+    constexpr double kLeastWay = 0.005; // of the film's thickness
+    constexpr double kMostWay = 10.0; // a press that gives way moves farther than the film is thick
+    const auto largest = [&](const char *column) {
+      const std::vector<double> v = table_.numbers(column);
+      return *std::max_element(v.begin(), v.end());
+    };
+    const double p = largest("pressure_MPa"), d = largest("displacement_um");
+    if (!(p >= kLeastPressure && p <= kMostPressure))
+      refuse(": pressure_MPa goes to {:g}; {:g} to {:g} MPa are those of a press. Is the column in "
+             "MPa, and compression positive?",
+             p, kLeastPressure, kMostPressure);
+    if (c.max_pressure_MPa &&
+        (p > kOff * c.max_pressure_MPa->value || p * kOff < c.max_pressure_MPa->value))
+      refuse(": pressure_MPa goes to {:g}, max_pressure_MPa is {:g}. Is the column in MPa, and the "
+             "curve this condition's?",
+             p, c.max_pressure_MPa->value);
+    if (e.recipe.file.empty()) // it has mistakes of its own
+      return;
+    const double film = e.recipe.thickness();
+    if (d >= kMostWay * film || d < kLeastWay * film)
+      refuse(
+          ": displacement_um goes to {:g}; the film of the recipe is {:.1f} um thick, allowed is "
+          "{:.3g} to {:.4g}. Is the column in um, counted from first touch?",
+          d, film, kLeastWay * film, kMostWay * film);
+  }
+};
 
 } // namespace
 
 void check_curve(const Experiment &e, const Condition &c, int line, Mistakes &mistakes) {
-  std::ifstream in(c.curve, std::ios::binary);
-  const auto table =
-      CsvTable::parse({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
-  if (!check_columns(c.curve, table, line, mistakes))
-    return;
-  if (const std::string guess = table.guess(); !guess.empty())
-    fmt::print(stderr, "note: {}: read with {}.\n", c.curve, guess);
-  check_order(c.curve, table, line, mistakes);
-  check_stages(c.curve, table, line, mistakes);
-  check_units(c.curve, table, e, c, line, mistakes);
+  CurveCheck(c.curve, line, mistakes).check(e, c);
 }
 
 } // namespace calendem

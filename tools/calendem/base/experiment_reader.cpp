@@ -27,11 +27,8 @@ public:
     const toml::array *list = file.root["condition"].as_array();
     if (!list || list->empty())
       mistakes_.add(0, "there is no [[condition]]: an experiment needs at least one.");
-    else
-      for (const toml::node &node : *list)
-        read_condition(node);
-    if (const toml::node *crushed = file.root.get("crushed_particle"))
-      read_crushed(*crushed);
+    each_table(file.root, "condition", [this](const toml::table &t) { read_condition(t); });
+    each_table(file.root, "crushed_particle", [this](const toml::table &t) { read_crushed(t); });
     if (head && list)
       read_split(*head);
     return e_;
@@ -52,18 +49,15 @@ private:
       if (image && files_of_series(path) != std::vector<std::string>{path})
         return path;
     } catch (const Failure &f) {
-      mistakes_.add(line_of(*t.get(key.name)), fmt::format("{}: {}", key.name, f.what()));
+      refuse(*t.get(key.name), "{}: {}", key.name, f.what());
       return "";
     }
     if (!fs::exists(path, none))
-      mistakes_.add(line_of(*t.get(key.name)),
-                    fmt::format("{} = \"{}\": there is no file '{}'. Paths are relative to this "
-                                "file.",
-                                key.name, name, path));
+      refuse(*t.get(key.name),
+             "{} = \"{}\": there is no file '{}'. Paths are relative to this file.", key.name, name,
+             path);
     else if (fs::is_directory(path, none))
-      mistakes_.add(
-          line_of(*t.get(key.name)),
-          fmt::format("{} = \"{}\" is a folder; give the path of a file.", key.name, name));
+      refuse(*t.get(key.name), "{} = \"{}\" is a folder; give the path of a file.", key.name, name);
     else
       return path;
     return "";
@@ -93,68 +87,56 @@ private:
     e_.specimen_thickness_percent = of_specimen(head, head_keys()[10]);
     e_.material = text(head, head_keys()[11]);
     if (e_.labels_cbd == e_.labels_pore)
-      mistakes_.add(line_of(*head.get("labels_cbd")),
-                    fmt::format("labels_cbd and labels_pore are both {}: the label of CBD is that "
-                                "of its voxels alone. Leave labels_cbd out if the images show no "
-                                "CBD.",
-                                e_.labels_pore));
+      refuse(
+          *head.get("labels_cbd"),
+          "labels_cbd and labels_pore are both {}: the label of CBD is that of its voxels alone. "
+          "Leave labels_cbd out if the images show no CBD.",
+          e_.labels_pore);
     if (!e_.electrode.empty())
       try {
         e_.recipe = read_recipe(e_.electrode);
       } catch (const Failure &f) {
-        mistakes_.add(line_of(*head.get("electrode")),
-                      fmt::format("the recipe has mistakes of its own:\n{}", f.what()));
+        refuse(*head.get("electrode"), "the recipe has mistakes of its own:\n{}", f.what());
       }
   }
 
-  void read_condition(const toml::node &node) {
-    const toml::table *t = node.as_table();
-    if (!t) {
-      mistakes_.add(line_of(node), "write a condition as a table: [[condition]].");
-      return;
-    }
+  void read_condition(const toml::table &t) {
     std::vector<std::string> known;
     for (const Key &key : condition_keys())
       known.push_back(key.name);
     for (const Quantity &q : quantities())
       known.push_back(q.key.name);
-    report_unknown(*t, known, "condition.");
+    report_unknown(t, known, "condition.");
     Condition c;
-    c.id = text(*t, condition_keys()[0]);
-    c.control = text(*t, condition_keys()[1]);
-    c.curve = existing(*t, condition_keys()[2]);
-    c.labels_before = existing(*t, condition_keys()[3]);
-    c.labels_after = existing(*t, condition_keys()[4]);
-    c.dwell_s = number(*t, condition_keys()[5]);
-    c.curve_sd_um = number(*t, condition_keys()[6]);
-    c.curve_drift_um = number(*t, condition_keys()[7]);
-    c.curve_zero_um = number(*t, condition_keys()[8]);
-    c.specimen = text(*t, condition_keys()[9]);
-    c.pressing = text(*t, condition_keys()[10]);
+    c.id = text(t, condition_keys()[0]);
+    c.control = text(t, condition_keys()[1]);
+    c.curve = existing(t, condition_keys()[2]);
+    c.labels_before = existing(t, condition_keys()[3]);
+    c.labels_after = existing(t, condition_keys()[4]);
+    c.dwell_s = number(t, condition_keys()[5]);
+    c.curve_sd_um = number(t, condition_keys()[6]);
+    c.curve_drift_um = number(t, condition_keys()[7]);
+    c.curve_zero_um = number(t, condition_keys()[8]);
+    c.specimen = text(t, condition_keys()[9]);
+    c.pressing = text(t, condition_keys()[10]);
     if (c.specimen.empty())
       c.specimen = c.id;
     for (const Quantity &q : quantities())
-      if (const toml::node *value = t->get(q.key.name))
+      if (const toml::node *value = t.get(q.key.name))
         c.*(q.field) = measured(*value, q.key);
-    check_condition(c, *t);
+    check_condition(c, t);
     e_.conditions.push_back(c);
   }
 
-  void read_crushed(const toml::node &list) {
-    if (!list.is_array_of_tables())
-      return mistakes_.add(line_of(list), "write crushed particles as tables: "
-                                          "[[crushed_particle]].");
-    for (const toml::node &node : *list.as_array()) {
-      const toml::table &t = *node.as_table();
-      report_unknown(t, {crushed_keys()[0].name, crushed_keys()[1].name}, "crushed_particle.");
-      CrushedParticles p;
-      p.diameter_um = number(t, crushed_keys()[0]);
-      if (const toml::node *load = t.get("load_mN"))
-        p.load_mN = measured(*load, crushed_keys()[1]).value_or(Measured());
-      else
-        mistakes_.add(line_of(t), "a crushed particle has no load_mN.");
-      e_.crushed.push_back(p);
-    }
+  void read_crushed(const toml::table &t) {
+    report_unknown(t, {crushed_keys()[0].name, crushed_keys()[1].name}, "crushed_particle.");
+    CrushedParticles p;
+    p.diameter_um = number(t, crushed_keys()[0]);
+    if (const toml::node *load = t.get("load_mN"))
+      p.load_mN = measured(*load, crushed_keys()[1]).value_or(Measured());
+    else
+      refuse(t, "a crushed particle has no load_mN.");
+    e_.crushed.push_back(p);
   }
 
   std::optional<Measured> measured(const toml::node &node, const Key &key) {
@@ -175,7 +157,7 @@ private:
       read_foil(*foil, key, m);
     const toml::node *value = t->get("value");
     if (!value) {
-      mistakes_.add(line_of(*t), fmt::format("{} has no 'value'.", key.name));
+      refuse(*t, "{} has no 'value'.", key.name);
       return std::nullopt;
     }
     const auto read = number(*value, key);
@@ -188,16 +170,13 @@ private:
     if (node.is_boolean())
       m.includes_foil = **node.as_boolean();
     else
-      mistakes_.add(line_of(node), fmt::format("{}.includes_foil must be true or false, not {}.",
-                                               key.name, shown(node)));
+      refuse(node, "{}.includes_foil must be true or false, not {}.", key.name, shown(node));
   }
 
   bool read_sd(const toml::table &t, const Key &key, Measured &m) {
     const toml::node *sd = t.get("sd"), *relative = t.get("sd_relative");
     if (sd && relative) {
-      mistakes_.add(line_of(*sd), fmt::format("{} has both 'sd' and 'sd_relative'; give one of "
-                                              "them.",
-                                              key.name));
+      refuse(*sd, "{} has both 'sd' and 'sd_relative'; give one of them.", key.name);
       return false;
     }
     if (!sd && !relative)
@@ -207,10 +186,10 @@ private:
            : Key{key.name + ".sd_relative", "", "", 0, 1, "fraction", "sd over the value"};
     const auto read = number(sd ? *sd : *relative, rule);
     if (read == 0.0) {
-      mistakes_.add(line_of(sd ? *sd : *relative),
-                    fmt::format("{} is 0: no measurement is without error. Give the standard "
-                                "deviation of repeats, or leave it out if it is not known.",
-                                rule.name));
+      refuse(sd ? *sd : *relative,
+             "{} is 0: no measurement is without error. Give the standard deviation of repeats, or "
+             "leave it out if it is not known.",
+             rule.name);
       return false;
     }
     m.sd = read.value_or(0.0) * (sd ? 1.0 : std::fabs(m.value));
@@ -221,8 +200,7 @@ private:
     const std::string who = c.id.empty() ? "this condition" : "condition \"" + c.id + "\"";
     const auto needs = [&](bool there, const char *key) {
       if (!there && whole_)
-        mistakes_.add(line_of(t),
-                      fmt::format("{} has control = \"{}\" but no {}.", who, c.control, key));
+        refuse(t, "{} has control = \"{}\" but no {}.", who, c.control, key);
     };
     if (c.control == "pressure")
       needs(t.contains("max_pressure_MPa"), "max_pressure_MPa");
@@ -237,16 +215,15 @@ private:
     check_porosity(c, who, line_of(t));
     if (const auto &cracked = c.cracked_bodies_fraction;
         cracked && cracked->value == 0.0 && cracked->sd == 0.0)
-      mistakes_.add(line_of(t), fmt::format("{}: cracked_bodies_fraction is 0 without an sd; give "
-                                            "{{ value = 0, sd = ... }}, 1 over the number of "
-                                            "particles seen, for example.",
-                                            who));
+      refuse(t,
+             "{}: cracked_bodies_fraction is 0 without an sd; give {{ value = 0, sd = ... }}, 1 "
+             "over the number of particles seen, for example.",
+             who);
     if (!c.curve.empty())
       check_curve(e_, c, line_of(*t.get("curve")), mistakes_);
     for (const Condition &other : e_.conditions)
       if (!c.id.empty() && other.id == c.id)
-        mistakes_.add(line_of(t),
-                      fmt::format("the id \"{}\" is taken by another condition.", c.id));
+        refuse(t, "the id \"{}\" is taken by another condition.", c.id);
   }
 
   /// Pressing makes no film more porous: far beyond the errors one of the two is another film's.
@@ -262,10 +239,9 @@ private:
                                                                      : e_.specimen_porosity_points);
     if (after.value > before + kSlip + kFar * sd)
       mistakes_.add(line,
-                    fmt::format("{}: porosity_after_percent is {:g}, the film has {:g} before. "
-                                "A film is not more porous after pressing: correct one of "
-                                "them, or the recipe.",
-                                who, after.value, before));
+                    "{}: porosity_after_percent is {:g}, the film has {:g} before. A film is not "
+                    "more porous after pressing: correct one of them, or the recipe.",
+                    who, after.value, before);
   }
 
   void read_split(const toml::table &head) {
@@ -274,7 +250,7 @@ private:
       return;
     const toml::table *split = node->as_table();
     if (!split) {
-      mistakes_.add(line_of(*node), "split must be { train = [\"id\"], test = [\"id\"] }.");
+      refuse(*node, "split must be {{ train = [\"id\"], test = [\"id\"] }}.");
       return;
     }
     for (const auto &[key, ids] : *split)
@@ -284,15 +260,13 @@ private:
         unknown("split." + std::string(key.str()), line_of(ids), {"train", "test"});
     for (const std::string &id : e_.test)
       if (std::find(e_.train.begin(), e_.train.end(), id) != e_.train.end())
-        mistakes_.add(line_of(*node),
-                      fmt::format("\"{}\" is in both train and test of split.", id));
+        refuse(*node, "\"{}\" is in both train and test of split.", id);
   }
 
   void read_ids(const toml::node &node, const std::string &part, std::vector<std::string> &out) {
     const toml::array *list = node.as_array();
     if (!list) {
-      mistakes_.add(line_of(node), fmt::format("split.{} must be a list of ids in quotes, not {}.",
-                                               part, shown(node)));
+      refuse(node, "split.{} must be a list of ids in quotes, not {}.", part, shown(node));
       return;
     }
     std::vector<std::string> known;
@@ -301,13 +275,10 @@ private:
         known.push_back(c.id);
     for (const toml::node &id : *list)
       if (!id.is_string())
-        mistakes_.add(line_of(id),
-                      fmt::format("split.{} holds {}; ids are texts in quotes.", part, shown(id)));
+        refuse(id, "split.{} holds {}; ids are texts in quotes.", part, shown(id));
       else if (std::find(known.begin(), known.end(), **id.as_string()) == known.end())
-        mistakes_.add(
-            line_of(id),
-            fmt::format("split.{} names \"{}\", which is no [[condition]]; there are: {}.", part,
-                        **id.as_string(), fmt::join(known, ", ")));
+        refuse(id, "split.{} names \"{}\", which is no [[condition]]; there are: {}.", part,
+               **id.as_string(), fmt::join(known, ", "));
       else
         out.push_back(**id.as_string());
   }

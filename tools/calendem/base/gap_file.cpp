@@ -11,11 +11,10 @@ namespace calendem {
 using Json = nlohmann::ordered_json;
 
 Json to_json(const Place &p) {
-  const auto or_null = [](double x) { return std::isfinite(x) ? Json(x) : Json(); };
   return {{"observable", p.observable},  {"stage", p.stage},
           {"condition", p.condition},    {"unit", p.unit},
           {"residual", p.residual},      {"sd", p.sd},
-          {"z", or_null(p.z)},           {"share", p.share},
+          {"z", Json(or_null(p.z))},     {"share", p.share},
           {"significant", p.significant}};
 }
 

@@ -53,15 +53,17 @@ std::vector<std::string> files_of_series(const std::string &file) {
     return before + fmt::format("{:0{}}", k, width_of(hit.str())) + after;
   };
   if (slices.empty())
-    throw Failure(kBadInput, fmt::format("{}: no file has such a name, as {} or {}. Give a pattern "
-                                         "like slice_%04d.tif in a folder that holds the slices.",
-                                         file, name_of(0), name_of(1)));
+    throw Failure(kBadInput,
+                  "{}: no file has such a name, as {} or {}. Give a pattern like slice_%04d.tif in "
+                  "a folder that holds the slices.",
+                  file, name_of(0), name_of(1));
   const long first = slices.begin()->first, last = slices.rbegin()->first;
   for (long k = first; k <= last; ++k)
     if (!slices.count(k))
-      throw Failure(kBadInput, fmt::format("{}: slice {} is missing ({}); there are {} to {}. All "
-                                           "slices in between must be there.",
-                                           file, k, name_of(k), first, last));
+      throw Failure(
+          kBadInput,
+          "{}: slice {} is missing ({}); there are {} to {}. All slices in between must be there.",
+          file, k, name_of(k), first, last);
   std::vector<std::string> out;
   for (const auto &[number, f] : slices)
     out.push_back(f);

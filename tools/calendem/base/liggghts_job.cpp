@@ -115,8 +115,8 @@ pid_t start_child(const ChildProgram &child) {
     close(report[0]);
   }
   if (error != 0)
-    throw Failure(kBadInput, fmt::format("cannot start {}: {}. {}", child.words[0],
-                                         std::strerror(error), child.remedy));
+    throw Failure(kBadInput, "cannot start {}: {}. {}", child.words[0], std::strerror(error),
+                  child.remedy);
   return pid;
 }
 
@@ -176,9 +176,9 @@ std::vector<std::string> command_line(const LiggghtsJob &job) {
   for (const auto &[name, value] : job.variables) {
     if (!value.empty() && value.front() == '-')
       throw Failure(kBadInput,
-                    fmt::format("{} = {}: LIGGGHTS takes a negative value on its command line "
-                                "for a switch; none of these settings may be negative",
-                                name, value));
+                    "{} = {}: LIGGGHTS takes a negative value on its command line for a switch; "
+                    "none of these settings may be negative",
+                    name, value);
     if (const std::string wrong = wrong_path(value); !wrong.empty())
       throw Failure(kBadInput, wrong);
     words.insert(words.end(), {"-var", name, value});
@@ -215,6 +215,10 @@ private:
   std::string path_;
 };
 
+std::string folder_of(const LiggghtsJob &job) {
+  return std::filesystem::path(job.log).parent_path().string();
+}
+
 pid_t start(const LiggghtsJob &job, const std::string &temporary) {
   ChildProgram mpirun;
   if (geteuid() == 0)
@@ -224,7 +228,7 @@ pid_t start(const LiggghtsJob &job, const std::string &temporary) {
   mpirun.words = command_line(job);
   mpirun.output = job.screen;
   // the host writes a forced restart file into its working folder when it is asked to stop
-  mpirun.folder = std::filesystem::path(job.log).parent_path().string();
+  mpirun.folder = folder_of(job);
   mpirun.remedy = "Install OpenMPI (openmpi-bin) or load its module";
   return start_child(mpirun);
 }
@@ -245,10 +249,6 @@ std::string own_error(const std::string &screen) {
   if (!errors.empty())
     return errors;
   return killed.empty() ? last + "\n" : killed;
-}
-
-std::string folder_of(const LiggghtsJob &job) {
-  return std::filesystem::path(job.log).parent_path().string();
 }
 
 /// Why the job must be stopped, empty if it may go on.
@@ -315,12 +315,10 @@ void run_liggghts(const LiggghtsJob &job, const std::function<void()> &tick) {
   if (!stopped.empty())
     throw Failure(kSimulationFailed, stopped);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw Failure(kSimulationFailed,
-                  fmt::format("LIGGGHTS failed ({}):\n{}The whole output is in {}",
-                              WIFSIGNALED(status)
-                                  ? fmt::format("signal {}", WTERMSIG(status))
-                                  : fmt::format("exit status {}", WEXITSTATUS(status)),
-                              own_error(job.screen), job.screen));
+    throw Failure(kSimulationFailed, "LIGGGHTS failed ({}):\n{}The whole output is in {}",
+                  WIFSIGNALED(status) ? fmt::format("signal {}", WTERMSIG(status))
+                                      : fmt::format("exit status {}", WEXITSTATUS(status)),
+                  own_error(job.screen), job.screen);
 }
 
 } // namespace calendem

@@ -67,17 +67,14 @@ private:
     for (const auto &[k, node] : table) {
       const std::string name = prefix + std::string(k.str());
       const toml::table *inner = node.as_table();
-      const auto key =
-          std::find_if(keys_.begin(), keys_.end(), [&](const Key &x) { return x.name == name; });
-      if (key != keys_.end())
+      if (const Key *key = find_key(keys_, name))
         take(*key, node, out);
       else if (inner && !inner->contains("value"))
         walk(name + ".", *inner, out);
       else if (!prefix.empty() || (name != "name" && name != "also_called" &&
                                    name != "calibrated_on" && name != "base"))
-        mistakes_.add(line_of(node), fmt::format("unknown key '{}' of a material. Did you mean "
-                                                 "'{}'?",
-                                                 name, likely_meant(name, keys_)));
+        refuse(node, "unknown key '{}' of a material. Did you mean '{}'?", name,
+               likely_meant(name, keys_));
     }
   }
 
@@ -86,19 +83,19 @@ private:
     const toml::node *value = t ? t->get("value") : nullptr;
     lines_.note(key.name, line_of(node), false);
     if (!value || !t->contains("source"))
-      return mistakes_.add(line_of(node),
-                           fmt::format("{} needs a value and its source: write {{ value = {}, "
-                                       "source = \"doi:...\" }} or source = \"calibrated on ...\".",
-                                       key.name,
-                                       t && value ? shown(*value)
-                                       : t        ? "..."
-                                                  : shown(node)));
+      return refuse(node,
+                    "{} needs a value and its source: write {{ value = {}, source = \"doi:...\" }} "
+                    "or source = \"calibrated on ...\".",
+                    key.name,
+                    t && value ? shown(*value)
+                    : t        ? "..."
+                               : shown(node));
     report_unknown(*t, {"value", "sd", "source"}, key.name + ".");
     MaterialValue v;
     v.source = text(*t, {"source", "", "", 0, 0, "", "of the value", "", true});
     v.sd = number(*t, {"sd", "", "0", 0, 1e12, key.unit, "standard deviation"});
     if (const auto wrong = wrong_value(key, *value))
-      return mistakes_.add(line_of(*value), *wrong);
+      return refuse(*value, "{}", *wrong);
     v.text = value_text(*value);
     out.values[key.name] = v;
   }
@@ -119,9 +116,8 @@ void inherit(const std::string &given, const std::string &file,
              const std::vector<std::string> &above, ReferenceMaterial &out, Mistakes &mistakes) {
   const std::string base = material_path(given, file);
   if (std::find(above.begin(), above.end(), base) != above.end())
-    return mistakes.add(0, fmt::format("base = \"{}\" leads back to this file. Give another base, "
-                                       "or leave it out.",
-                                       given));
+    return mistakes.add(
+        0, "base = \"{}\" leads back to this file. Give another base, or leave it out.", given);
   try {
     const ReferenceMaterial from = read_above(base, above);
     out.values.insert(from.values.begin(), from.values.end());
@@ -139,7 +135,7 @@ ReferenceMaterial read_above(const std::string &file, std::vector<std::string> a
   reader.read(parsed.root, out);
   for (const char *list : {"also_called", "calibrated_on"})
     if (parsed.whole && !parsed.root.empty() && !parsed.root.contains(list))
-      mistakes.add(0, fmt::format("the list '{}' is missing; give [] if there is nothing.", list));
+      mistakes.add(0, "the list '{}' is missing; give [] if there is nothing.", list);
   if (!reader.base().empty())
     inherit(reader.base(), file, above, out, mistakes);
   if (mistakes.empty())
@@ -188,12 +184,11 @@ std::string material_path(const std::string &given, const std::string &file) {
 ReferenceMaterial read_material(const std::string &file) {
   const fs::path path(file);
   if (std::error_code none; !fs::exists(path, none))
-    throw Failure(kBadInput,
-                  fmt::format("there is no material '{}'. Known are {}; or give {}.",
-                              fs::path(input_scripts() + "/materials") == path.parent_path()
-                                  ? path.stem().string()
-                                  : file,
-                              fmt::join(known_materials(), ", "), kOwnFile));
+    throw Failure(kBadInput, "there is no material '{}'. Known are {}; or give {}.",
+                  fs::path(input_scripts() + "/materials") == path.parent_path()
+                      ? path.stem().string()
+                      : file,
+                  fmt::join(known_materials(), ", "), kOwnFile);
   return read_above(file, {});
 }
 

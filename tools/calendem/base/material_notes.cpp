@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/material_notes.h"
-#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
@@ -71,8 +70,8 @@ std::vector<std::string> other_material(const Recipe &r) {
 
 void stop_if_of_other_material(const Recipe &r) {
   if (const auto differs = other_material(r); !differs.empty())
-    throw Failure(kBadInput, fmt::format("{}: the answer would be that of another material: {}. {}",
-                                         r.file, fmt::join(differs, "; "), kWhatToDo));
+    throw Failure(kBadInput, "{}: the answer would be that of another material: {}. {}", r.file,
+                  fmt::join(differs, "; "), kWhatToDo);
 }
 
 std::string not_calibrated(const ReferenceMaterial &m) {

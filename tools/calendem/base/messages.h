@@ -6,6 +6,7 @@
 #define CALENDEM_BASE_MESSAGES_H
 
 #include <climits>
+#include <fmt/core.h>
 #include <functional>
 #include <map>
 #include <stdexcept>
@@ -22,6 +23,13 @@ class Failure : public std::runtime_error {
 public:
   Failure(ExitStatus exit_status, const std::string &message)
       : std::runtime_error(message), exit_status_(exit_status) {}
+  /// With values put into the message, as by fmt::format.
+  template <class First, class... Others>
+  Failure(ExitStatus exit_status, fmt::format_string<First, Others...> message, First &&first,
+          Others &&...others)
+      : Failure(exit_status,
+                fmt::format(message, std::forward<First>(first), std::forward<Others>(others)...)) {
+  }
   ExitStatus exit_status() const { return exit_status_; }
 
 private:
@@ -53,6 +61,11 @@ public:
       : file_(std::move(file)), most_(most) {}
   /// `line` 0: not bound to a line.
   void add(int line, const std::string &what);
+  /// With values put into the text, as by fmt::format.
+  template <class First, class... Others>
+  void add(int line, fmt::format_string<First, Others...> what, First &&first, Others &&...others) {
+    add(line, fmt::format(what, std::forward<First>(first), std::forward<Others>(others)...));
+  }
   void add(const std::string &file, const std::string &what, const std::string &remedy);
   void add(const Mistakes &others);
   /// What a reader of a file has thrown.

@@ -23,18 +23,27 @@ void require_own_file(const std::string &file, const std::string &head);
 /// Throws Failure(2) if `folder` is `input`, a folder that is read.
 void must_not_be(const std::string &folder, const std::string &input, const std::string &what);
 
-/// Keeps others out of a folder as long as this program, and the LIGGGHTS that it started, is
-/// alive.
+/// Keeps others out of a folder as long as this program, and the LIGGGHTS that it started, is alive;
+/// where the file system knows locks.
 class FolderLock {
 public:
   /// Throws Failure(2) if another has it.
-  explicit FolderLock(const std::string &folder);
+  explicit FolderLock(const std::string &folder) : FolderLock(folder + "/.lock", folder) {}
   ~FolderLock();
   FolderLock(const FolderLock &) = delete;
   FolderLock &operator=(const FolderLock &) = delete;
 
+protected:
+  /// Without a folder it waits for the others.
+  FolderLock(const std::string &file, const std::string &folder);
+
 private:
   int file_;
+};
+
+/// Waits until others leave the file, and keeps them out as long as it lives.
+struct WaitingLock : FolderLock {
+  explicit WaitingLock(const std::string &file) : FolderLock(file, "") {}
 };
 
 } // namespace calendem

@@ -69,10 +69,6 @@ std::string contradiction(const Settings &s, const std::vector<Percentile> &p, c
   return "";
 }
 
-const Key &key_named(const std::vector<Key> &keys, const char *name) {
-  return *std::find_if(keys.begin(), keys.end(), [&](const Key &k) { return k.name == name; });
-}
-
 } // namespace
 
 std::vector<Key> volume_percentile_keys() {
@@ -103,7 +99,7 @@ void take_sizes_by_volume(Settings &s, const std::vector<Key> &keys, Mistakes &m
   const double median = std::exp(law.ln_median - 3.0 * law.sigma * law.sigma);
   std::string wrong = contradiction(s, given, law);
   for (const auto &[key, value] : {std::pair(kSigma, law.sigma), std::pair(kMedian, median)})
-    if (const auto out_of_range = wrong_number(key_named(keys, key), value);
+    if (const auto out_of_range = wrong_number(*find_key(keys, key), value);
         wrong.empty() && out_of_range)
       wrong = "gives a law that is not allowed: " +
               out_of_range->substr(0, out_of_range->find(" It looks"));
@@ -116,7 +112,7 @@ void take_sizes_by_volume(Settings &s, const std::vector<Key> &keys, Mistakes &m
                         100.0 * beyond, kLargest, s.text(kLargest), 100.0 * kMostBeyond, kLargest,
                         std::exp(law.ln_median + kNormal90 * law.sigma));
   if (!wrong.empty())
-    return mistakes.add(s.line(last), fmt::format("{} = {} {}", last, s.text(last), wrong));
+    return mistakes.add(s.line(last), "{} = {} {}", last, s.text(last), wrong);
   s.set(kMedian, fmt::format("{:.6g}", median));
   s.set(kSigma, fmt::format("{:.6g}", law.sigma));
   for (const Percentile &p : given)

@@ -115,16 +115,9 @@ PlainText plain_text(const std::string &bytes) {
   return out;
 }
 
-std::string printable(const std::string &text) {
-  std::string out;
-  for (std::size_t at = 0, n = 0; at < text.size(); at += std::max<std::size_t>(n, 1)) {
-    n = length_at(text, at);
-    const auto c = static_cast<unsigned char>(text[at]);
-    const bool control = (c < 32 && c != '\n' && c != '\t') || c == 127 ||
-                         (c == 0xC2 && n == 2 && static_cast<unsigned char>(text[at + 1]) < 0xA0);
-    out += n == 0 || control ? "?" : text.substr(at, n);
-  }
-  return out;
+bool ends(const std::string &text, const std::string &ending) {
+  return text.size() >= ending.size() &&
+         text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
 }
 
 } // namespace calendem

@@ -16,8 +16,7 @@ struct PlainText {
 /// UTF-8 and UTF-16 with or without a mark, else Latin-1; lines that end with LF, CR LF or CR.
 PlainText plain_text(const std::string &bytes);
 
-/// The text as a terminal may show it: '?' for control characters and for what is not UTF-8.
-std::string printable(const std::string &text);
+bool ends(const std::string &text, const std::string &ending);
 
 } // namespace calendem
 

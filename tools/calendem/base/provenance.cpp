@@ -109,14 +109,13 @@ std::string place_of(const std::string &given) {
   const std::string name =
       fs::is_symlink(given, none) ? fs::weakly_canonical(given, none).string() : given;
   if (fs::exists(name, none) && !fs::is_regular_file(name, none))
-    throw Failure(kBadInput, fmt::format("'{}' is not a regular file and cannot be written. Give "
-                                         "another name.",
-                                         given));
+    throw Failure(kBadInput, "'{}' is not a regular file and cannot be written. Give another name.",
+                  given);
   const fs::path folder = fs::path(name).parent_path();
   if (!folder.empty() && !fs::is_directory(folder, none))
-    throw Failure(kBadInput, fmt::format("cannot write '{}': there is no folder '{}'. Make it, or "
-                                         "give another name.",
-                                         given, folder.string()));
+    throw Failure(kBadInput,
+                  "cannot write '{}': there is no folder '{}'. Make it, or give another name.",
+                  given, folder.string());
   return name;
 }
 
@@ -137,9 +136,10 @@ void write_file(const std::string &given, const std::string &content) {
   if (!out || error) {
     std::error_code none;
     fs::remove(part, none);
-    throw Failure(kBadInput, fmt::format("cannot write '{}'. Is the disk full or the folder "
-                                         "read-only? What was there before is kept.",
-                                         name));
+    throw Failure(kBadInput,
+                  "cannot write '{}'. Is the disk full or the folder read-only? What was there "
+                  "before is kept.",
+                  name);
   }
 }
 

@@ -128,32 +128,30 @@ void check_composition(const Settings &s, Mistakes &mistakes) {
   const char *const hint = fractions ? " Carbon and binder look like fractions." : "";
   if (std::fabs(sum - 100.0) > 0.01)
     mistakes.add(s.line(kAmWeight),
-                 fmt::format("[composition] adds up to {:.6g} % (active material {:.6g}, carbon "
-                             "{:.6g}, binder {:.6g}); it must be 100 %.{}",
-                             sum, am, carbon, binder, hint));
+                 "[composition] adds up to {:.6g} % (active material {:.6g}, carbon {:.6g}, binder "
+                 "{:.6g}); it must be 100 %.{}",
+                 sum, am, carbon, binder, hint);
   else if (const int line = std::max(s.line(kCarbonWeight), s.line(kBinderWeight));
            line > 0 && s.line(kAmWeight) == 0 && (am < kLeastAm || fractions))
     mistakes.add(line,
-                 fmt::format("carbon ({:.6g} %) and binder ({:.6g} %) leave {:.6g} % of active "
-                             "material; allowed is {:g} to 100 %.{}",
-                             carbon, binder, am, kLeastAm, hint));
+                 "carbon ({:.6g} %) and binder ({:.6g} %) leave {:.6g} % of active material; "
+                 "allowed is {:g} to 100 %.{}",
+                 carbon, binder, am, kLeastAm, hint);
 }
 
 void check_spheres(const Settings &s, const Recipe &r, Mistakes &mistakes) {
   const double nano = s.number("cbd.nanoporosity_percent");
   if (s.sound({"cbd.nanoporosity_percent"}) && nano > 0.0 && nano < 1.0)
     mistakes.add(s.line("cbd.nanoporosity_percent"),
-                 fmt::format("cbd.nanoporosity_percent is {}, which looks like a fraction; give "
-                             "{:.4g} for {} of the sphere's volume, or 0.",
-                             nano, 100.0 * nano, nano));
+                 "cbd.nanoporosity_percent is {}, which looks like a fraction; give {:.4g} for {} "
+                 "of the sphere's volume, or 0.",
+                 nano, 100.0 * nano, nano);
   if (s.sound({"particles.lattice_um", "particles.primary_diameter_um"}) &&
       (r.lattice >= r.primary_diameter || r.bond_distance() >= std::sqrt(2.0) * r.lattice))
-    mistakes.add(
-        s.line("particles.primary_diameter_um"),
-        fmt::format("particles.primary_diameter_um = {} must lie between 1 and {:.4g} times "
-                    "lattice_um = {}, so that primaries are bonded along the lattice's axes "
-                    "only.",
-                    r.primary_diameter, std::sqrt(2.0) / kBondReach, r.lattice));
+    mistakes.add(s.line("particles.primary_diameter_um"),
+                 "particles.primary_diameter_um = {} must lie between 1 and {:.4g} times "
+                 "lattice_um = {}, so that primaries are bonded along the lattice's axes only.",
+                 r.primary_diameter, std::sqrt(2.0) / kBondReach, r.lattice);
 }
 
 /// The pores inside the CBD are part of the total porosity.
@@ -167,10 +165,10 @@ void check_porosity(const Settings &s, const Recipe &r, Mistakes &mistakes) {
                least = pores / (pores + r.am_column() + r.cbd_solid_column());
   if (r.porosity_total < least)
     mistakes.add(s.line("coating.porosity_total_percent"),
-                 fmt::format("coating.porosity_total_percent is {:g}; the pores inside the CBD "
-                             "alone (cbd.nanoporosity_percent = {:g}) are {:.1f} % of the coating. "
-                             "Raise the one, lower the other, or take less carbon and binder.",
-                             100.0 * r.porosity_total, 100.0 * r.nanoporosity, 100.0 * least));
+                 "coating.porosity_total_percent is {:g}; the pores inside the CBD alone "
+                 "(cbd.nanoporosity_percent = {:g}) are {:.1f} % of the coating. Raise the one, "
+                 "lower the other, or take less carbon and binder.",
+                 100.0 * r.porosity_total, 100.0 * r.nanoporosity, 100.0 * least);
 }
 
 void check_cell(const Settings &s, const Recipe &r, Mistakes &mistakes) {
@@ -180,23 +178,19 @@ void check_cell(const Settings &s, const Recipe &r, Mistakes &mistakes) {
   const double cut_off = neighbour_cut_off(std::max(r.primary_diameter, r.cbd_diameter));
   const int line = s.line(r.cell_x <= r.cell_y ? "cell.x_um" : "cell.y_um");
   if (side < 2.0 * cut_off)
-    mistakes.add(line, fmt::format("a periodic side of {} um is shorter than two cut-offs ({:.2f} "
-                                   "um): a particle would touch two images of another. Make the "
-                                   "cell larger.",
-                                   side, 2.0 * cut_off));
+    mistakes.add(line,
+                 "a periodic side of {} um is shorter than two cut-offs ({:.2f} um): a particle "
+                 "would touch two images of another. Make the cell larger.",
+                 side, 2.0 * cut_off);
   if (s.sound({"particles.min_um", "particles.max_um", "particles.max_width_fraction"}) &&
       r.min_diameter >= r.largest_body())
-    mistakes.add(
-        std::max({s.line("particles.min_um"), s.line("particles.max_um"), line}),
-        fmt::format("no particle fits: particles.min_um is {:g}, and the largest that "
-                    "particles.max_um and this cell allow {:.4g} um. Make the cell larger, lower "
-                    "particles.min_um or raise particles.max_um.",
-                    r.min_diameter, r.largest_body()));
+    mistakes.add(std::max({s.line("particles.min_um"), s.line("particles.max_um"), line}),
+                 "no particle fits: particles.min_um is {:g}, and the largest that "
+                 "particles.max_um and this "
+                 "cell allow {:.4g} um. Make the cell larger, lower particles.min_um or raise "
+                 "particles.max_um.",
+                 r.min_diameter, r.largest_body());
 }
-
-} // namespace
-
-namespace {
 
 PhaseLabels read_phases(const Settings &s, const std::string &image, Mistakes &mistakes) {
   const auto label = [&](const char *phase) {
@@ -206,14 +200,15 @@ PhaseLabels read_phases(const Settings &s, const std::string &image, Mistakes &m
   const auto line = [&](const char *key) { return s.line(std::string("shapes.") + key); };
   const int given = std::max({line("phases.pore"), line("phases.am"), line("phases.cbd")});
   if (!out.given() && (out.cbd != out.pore || (given > 0 && line("phases.am") == 0)))
-    mistakes.add(given, fmt::format("shapes.phases.am is {0}, as shapes.phases.pore. Give the "
-                                    "label of the active material: phases = {{ pore = {0}, am = "
-                                    "{1}, cbd = {2} }}.",
-                                    out.pore, out.pore + 1, out.pore + 2));
+    mistakes.add(given,
+                 "shapes.phases.am is {0}, as shapes.phases.pore. Give the label of the active "
+                 "material: phases = {{ pore = {0}, am = {1}, cbd = {2} }}.",
+                 out.pore, out.pore + 1, out.pore + 2);
   else if (out.given() && out.cbd == out.am)
-    mistakes.add(given, fmt::format("shapes.phases.am and cbd are both {}. Give each phase its own "
-                                    "label, cbd that of the pores if there is none.",
-                                    out.am));
+    mistakes.add(given,
+                 "shapes.phases.am and cbd are both {}. Give each phase its own label, cbd that of "
+                 "the pores if there is none.",
+                 out.am);
   if (out.given() && image.empty())
     mistakes.add(given,
                  "shapes.phases names the labels of shapes.image, which is missing. Give the "
@@ -242,15 +237,14 @@ ShapeSource read_shapes(const Settings &s, const std::string &file, Mistakes &mi
                  "[shapes] gives both an image and a library; give one of them.");
   if (!out.image.empty() && out.image.find('%') == std::string::npos &&
       !fs::is_regular_file(out.image))
-    mistakes.add(s.line("shapes.image"),
-                 fmt::format("shapes.image '{}' is not there. Give the path of a label image, "
-                             "relative to this file.",
-                             out.image));
+    mistakes.add(
+        s.line("shapes.image"),
+        "shapes.image '{}' is not there. Give the path of a label image, relative to this file.",
+        out.image);
   if (!out.library.empty() && !fs::is_directory(out.library))
     mistakes.add(s.line("shapes.library"),
-                 fmt::format("shapes.library '{}' is not there. Give the folder, relative to "
-                             "this file.",
-                             out.library));
+                 "shapes.library '{}' is not there. Give the folder, relative to this file.",
+                 out.library);
   return out;
 }
 
@@ -264,7 +258,7 @@ ReferenceMaterial take_material(Settings &s, const std::string &file, const std:
     return material;
   } catch (const Failure &f) {
     s.note("material", s.line("material"), true);
-    mistakes.add(s.line("material"), fmt::format("material: {}", f.what()));
+    mistakes.add(s.line("material"), "material: {}", f.what());
     return {};
   }
 }
@@ -301,10 +295,10 @@ void check_recipe(const Settings &s, const Recipe &r, Mistakes &mistakes) {
   check_porosity(s, r, mistakes);
   check_cell(s, r, mistakes);
   if (r.structure.given() && r.cbd_gradient.slope != 0.0)
-    mistakes.add(s.line(kGradient),
-                 fmt::format("{} is {}, but the structure has its carbon-binder where it is. Give "
-                             "0, or leave it out.",
-                             kGradient, s.text(kGradient)));
+    mistakes.add(
+        s.line(kGradient),
+        "{} is {}, but the structure has its carbon-binder where it is. Give 0, or leave it out.",
+        kGradient, s.text(kGradient));
 }
 
 double neighbour_cut_off(double diameter) { return 1.1 * diameter + 0.25; }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 #include <utility>
 
 namespace calendem {
@@ -40,6 +41,12 @@ std::string unit_hint(const Key &key, double value) {
 
 } // namespace
 
+const Key *find_key(const std::vector<Key> &keys, const std::string &name) {
+  const auto at =
+      std::find_if(keys.begin(), keys.end(), [&](const Key &k) { return k.name == name; });
+  return at == keys.end() ? nullptr : &*at;
+}
+
 std::optional<std::string> wrong_number(const Key &key, double value) {
   const std::string unit = key.unit.empty() ? "" : " " + key.unit;
   if (!std::isfinite(value))
@@ -59,12 +66,10 @@ std::optional<std::string> wrong_text(const Key &key, const std::string &value) 
     return value.empty()
                ? std::optional(fmt::format("{} is empty; give a text ({}).", key.name, key.meaning))
                : std::nullopt;
-  std::vector<std::string> choices(1);
-  for (char c : key.choices)
-    if (c == '|')
-      choices.emplace_back();
-    else
-      choices.back() += c;
+  std::vector<std::string> choices;
+  std::istringstream list(key.choices);
+  for (std::string choice; std::getline(list, choice, '|');)
+    choices.push_back(choice);
   if (std::find(choices.begin(), choices.end(), value) != choices.end())
     return std::nullopt;
   return fmt::format("{} is \"{}\"; it must be one of {}. The closest is \"{}\".", key.name, value,
@@ -169,14 +174,12 @@ const Effect &find_effect(const std::string &name) {
   std::vector<std::string> names;
   for (const Effect &e : effects())
     names.push_back(e.name);
-  throw Failure(kBadInput, fmt::format("there is no effect '{}'. Did you mean '{}'? Known are {}.",
-                                       name, closest(name, names), fmt::join(names, ", ")));
+  throw Failure(kBadInput, "there is no effect '{}'. Did you mean '{}'? Known are {}.", name,
+                closest(name, names), fmt::join(names, ", "));
 }
 
 const Key &key_of(const Effect &e) {
-  const std::vector<Key> &keys = e.in_recipe ? recipe_keys() : case_keys();
-  return *std::find_if(keys.begin(), keys.end(),
-                       [&](const Key &k) { return k.name == e.parameter.keys.front(); });
+  return *find_key(e.in_recipe ? recipe_keys() : case_keys(), e.parameter.keys.front());
 }
 
 std::string folder_of_tests(const Effect &e) {

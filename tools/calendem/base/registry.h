@@ -12,6 +12,9 @@
 
 namespace calendem {
 
+/// The key of that name; null: there is none.
+const Key *find_key(const std::vector<Key> &keys, const std::string &name);
+
 /// What is wrong with a number or text for this key; nothing if it is good.
 std::optional<std::string> wrong_number(const Key &key, double value);
 std::optional<std::string> wrong_text(const Key &key, const std::string &value);

@@ -2,6 +2,7 @@
 #include "base/run_folder.h"
 #include "base/case.h"
 #include "base/provenance.h"
+#include "base/shown.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -13,6 +14,15 @@ namespace calendem {
 namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 } // namespace
+
+std::map<std::string, std::string> recipe_in(const nlohmann::json &electrode) {
+  std::map<std::string, std::string> out;
+  const nlohmann::json recipe = electrode.value("recipe", nlohmann::json::object());
+  for (const auto &[key, value] : recipe.items())
+    if (value.is_string())
+      out[key] = value;
+  return out;
+}
 
 std::size_t Curve::row_of_max_pressure() const {
   const Column &pressure = (*this)["pressure_MPa"];
@@ -255,6 +265,17 @@ Curve RunFolder::curve(const std::vector<std::string> &columns, Mistakes &mistak
       out.columns[column] = rows.numbers(column);
   check_numbers(file, columns, out, mistakes);
   return out;
+}
+
+double RunFolder::inverse_tortuosity(const std::string &moment) {
+  const json &structure = object("structure.json");
+  const json moments = structure.is_null() ? json() : structure.value("moments", json::array());
+  for (const json &m : moments)
+    if (m.value("moment", "") == moment) {
+      const json through = m.value("/tortuosity/through_plane"_json_pointer, json::object());
+      return number_in(through, "effective_diffusivity") / number_in(through, "porosity");
+    }
+  return kNaN;
 }
 
 Settings RunFolder::settings() const {

@@ -18,6 +18,9 @@ namespace calendem {
 /// In electrode.json: the settings as the recipe gave them; "recipe" has what a structure changed too.
 constexpr const char *kRecipeGiven = "recipe_given";
 
+/// The settings of its recipe, as electrode.json has them; empty where it has none.
+std::map<std::string, std::string> recipe_in(const nlohmann::json &electrode);
+
 using Column = std::vector<double>;
 
 /// From one loss of contact to the next: rows of the curve.
@@ -84,6 +87,9 @@ public:
   /// them. Empty after a mistake. Of a run that is not finished the last row may be cut short: it is
   /// left out, which is a note.
   Curve curve(const std::vector<std::string> &columns, Mistakes &mistakes, Mistakes &notes);
+  /// 1 / tortuosity factor of the macropores through the plane at a moment of structure.json; 0: no
+  /// path leads through; NaN: not measured.
+  double inverse_tortuosity(const std::string &moment);
   /// case.toml, as run. Throws Failure(2) with every mistake of it.
   Settings settings() const;
 

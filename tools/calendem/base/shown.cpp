@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/shown.h"
+#include "base/plain_text.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <utility>
 
 namespace calendem {
 
@@ -21,6 +24,15 @@ std::string raised(int exponent) {
 int place_of(double x) { return int(std::floor(std::log10(std::fabs(x)))); }
 
 } // namespace
+
+double number_in(const nlohmann::json &object, const std::string &name) {
+  const auto found = object.find(name);
+  return found != object.end() && found->is_number() ? found->get<double>() : NAN;
+}
+
+nlohmann::json or_null(double number) {
+  return std::isfinite(number) ? nlohmann::json(number) : nlohmann::json();
+}
 
 std::string shown(const nlohmann::json &number, const char *format) {
   if (!number.is_number())
@@ -58,21 +70,23 @@ std::vector<std::string> shown_alike(const std::vector<double> &numbers) {
   const bool fits = most - least < 2 && most > -4 && most < 4;
   std::vector<std::string> out;
   for (const double x : numbers)
-    out.push_back(shown(std::isfinite(x) ? nlohmann::json(x) : nlohmann::json(),
-                        fits ? alike.c_str() : "{:.3g}"));
+    out.push_back(shown(or_null(x), fits ? alike.c_str() : "{:.3g}"));
   return out;
 }
 
 NameAndUnit in_words(const std::string &name) {
+  static const std::pair<const char *, const char *> kUnits[] = {
+      {"_MPa", "MPa"},   {"_GPa", "GPa"},     {"_kPa", "kPa"},        {"_um2", "µm²"},
+      {"_um3", "µm³"},   {"_um", "µm"},       {"_us", "µs"},          {"_fJ", "fJ"},
+      {"_nN", "nN"},     {"_percent", "%"},   {"_m_s", "m/s"},        {"_mg_cm2", "mg/cm²"},
+      {"_J_m3", "J/m³"}, {"_g_cm3", "g/cm³"}, {"_per_second", "1/s"}, {"_seconds", "s"},
+      {"_s", "s"}};
+  static const std::regex threshold("_(above|below|at)_[0-9.]+_[a-zA-Z0-9]+$");
   NameAndUnit out = {name, ""};
-  for (const auto &[ending, unit] : {std::pair("_percent", " %"),
-                                     {"_MPa", " MPa"},
-                                     {"_GPa", " GPa"},
-                                     {"_um", " µm"},
-                                     {"_mg_cm2", " mg/cm²"}})
-    if (const std::string end = ending;
-        name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0)
-      out = {name.substr(0, name.size() - end.size()), unit};
+  const bool of_threshold = std::regex_search(name, threshold);
+  for (const auto &[ending, unit] : kUnits)
+    if (!of_threshold && out.unit.empty() && ends(name, ending) && name != ending)
+      out = {name.substr(0, name.rfind(ending)), std::string(" ") + unit};
   std::replace(out.name.begin(), out.name.end(), '_', ' ');
   return out;
 }

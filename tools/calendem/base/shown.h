@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Numbers and units as a reader writes them: on pages and in sentences.
+// Numbers of JSON objects; numbers and units as a reader writes them: on pages and in sentences.
 #ifndef CALENDEM_BASE_SHOWN_H
 #define CALENDEM_BASE_SHOWN_H
 
@@ -10,6 +10,11 @@
 namespace calendem {
 
 inline constexpr double kPercent = 100.0; ///< shares are kept as fractions and shown in percent
+
+/// The number of that name; NaN where there is none.
+double number_in(const nlohmann::json &object, const std::string &name);
+/// JSON has no number that is not finite.
+nlohmann::json or_null(double number);
 
 /// A JSON number in that format: with a minus, not a hyphen, and a power of ten instead of an
 /// exponent ("4.1·10⁻⁸"); a dash where it is none.
@@ -22,7 +27,8 @@ std::string format_by_error(const nlohmann::json &error);
 /// "32.2". If less than two digits of another were left, each has three of its own.
 std::vector<std::string> shown_alike(const std::vector<double> &numbers);
 
-/// A name that ends in a unit, in words: "porosity before" and " %" for "porosity_before_percent".
+/// A name that ends in a unit, in words: "porosity before" and " %" for "porosity_before_percent". The
+/// unit of a threshold is none of the value's: "difference above 5 MPa".
 struct NameAndUnit {
   std::string name, unit; ///< the unit with the blank before it; empty: none is known
 };

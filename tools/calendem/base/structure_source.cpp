@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/recipe.h"
 #include <filesystem>
-#include <fmt/format.h>
 #include <sstream>
 
 namespace calendem {
@@ -21,9 +20,9 @@ std::set<int> types_of(const Settings &s, const std::string &key, Mistakes &mist
     const bool number =
         word.size() < 8 && word.find_first_not_of("0123456789") == std::string::npos;
     if (!number || std::stoi(word) < 1 || !types.insert(std::stoi(word)).second) {
-      mistakes.add(s.line(key), fmt::format("{} is \"{}\"; it must name whole numbers from 1, each "
-                                            "once, such as \"1 2 3\".",
-                                            key, s.text(key)));
+      mistakes.add(s.line(key),
+                   "{} is \"{}\"; it must name whole numbers from 1, each once, such as \"1 2 3\".",
+                   key, s.text(key));
       break;
     }
   }
@@ -43,19 +42,18 @@ void check_types(const Settings &s, const StructureSource &source, Mistakes &mis
                                    std::pair("structure.left_out_types", &source.left_out_types)})
     for (int type : *types)
       if (!seen.insert(type).second)
-        mistakes.add(s.line(key),
-                     fmt::format("{}: type {} is in another list too; a type is active "
-                                 "material, CBD or left out.",
-                                 key, type));
+        mistakes.add(
+            s.line(key),
+            "{}: type {} is in another list too; a type is active material, CBD or left out.", key,
+            type);
 }
 
 void check_files(const Settings &s, const StructureSource &source, Mistakes &mistakes) {
   for (const auto &[key, path] : {std::pair("structure.file", &source.file),
                                   std::pair("structure.body_map", &source.body_map)})
     if (!path->empty() && !fs::is_regular_file(*path))
-      mistakes.add(s.line(key), fmt::format("{} '{}' is not there. Give its path, relative to this "
-                                            "file.",
-                                            key, *path));
+      mistakes.add(s.line(key), "{} '{}' is not there. Give its path, relative to this file.", key,
+                   *path);
   if (!source.body_map.empty() && !source.clusters)
     mistakes.add(s.line("structure.body_map"),
                  "structure.body_map names given bodies, but structure.bodies is \"shapes\". Give "
@@ -70,9 +68,9 @@ void check_idle(const Settings &s, bool clusters, Mistakes &mistakes) {
     idle.insert(idle.end(), {"particles.irregularity", "shapes.image", "shapes.library"});
   for (const std::string &key : idle)
     if (s.line(key) > 0)
-      mistakes.add(s.line(key), fmt::format("{} has no effect beside [structure], which gives the "
-                                            "{}. Remove one of them.",
-                                            key, clusters ? "bodies" : "sizes"));
+      mistakes.add(s.line(key),
+                   "{} has no effect beside [structure], which gives the {}. Remove one of them.",
+                   key, clusters ? "bodies" : "sizes");
 }
 
 void read_units(const Settings &s, StructureSource &out, Mistakes &mistakes) {
@@ -82,9 +80,9 @@ void read_units(const Settings &s, StructureSource &out, Mistakes &mistakes) {
   const bool scaled = out.length_um > 0.0 || out.density_g_cm3 > 0.0;
   if (units != "lj" && scaled)
     mistakes.add(s.line("structure.units"),
-                 fmt::format("structure.lj_length_um and lj_density_g_cm3 are for units \"lj\"; "
-                             "structure.units is \"{}\".",
-                             units));
+                 "structure.lj_length_um and lj_density_g_cm3 are for units \"lj\"; "
+                 "structure.units is \"{}\".",
+                 units);
   if (units == "lj" && !(out.length_um > 0.0 && out.density_g_cm3 > 0.0))
     mistakes.add(s.line("structure.units"),
                  "structure.units \"lj\" has no scale: give structure.lj_length_um, the length of "

@@ -1,14 +1,23 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/table_reader.h"
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace calendem {
 
+void TableReader::each_table(const toml::table &root, const std::string &name,
+                             const std::function<void(const toml::table &)> &read) {
+  const toml::node *list = root.get(name);
+  if (list && !list->is_array_of_tables())
+    refuse(*list, "write each {0} as a table: [[{0}]].", name);
+  else if (list)
+    for (const toml::node &node : *list->as_array())
+      read(*node.as_table());
+}
+
 void TableReader::unknown(const std::string &name, int line,
                           const std::vector<std::string> &known) {
-  mistakes_.add(line, fmt::format("unknown key '{}'. Did you mean '{}'?", name,
-                                  closest(last_part(name), known)));
+  mistakes_.add(line, "unknown key '{}'. Did you mean '{}'?", name,
+                closest(last_part(name), known));
 }
 
 void TableReader::report_unknown(const toml::table &table, const std::vector<std::string> &known,
@@ -20,7 +29,7 @@ void TableReader::report_unknown(const toml::table &table, const std::vector<std
 
 void TableReader::report_missing(const toml::table &table, const Key &key) {
   if (key.fallback.empty() && whole_)
-    mistakes_.add(line_of(table), fmt::format("key '{}' is missing ({}).", key.name, key.meaning));
+    refuse(table, "key '{}' is missing ({}).", key.name, key.meaning);
 }
 
 std::string TableReader::text(const toml::table &table, const Key &key) {
@@ -30,10 +39,9 @@ std::string TableReader::text(const toml::table &table, const Key &key) {
     return key.fallback == "-" ? "" : key.fallback;
   }
   if (!node->is_string())
-    mistakes_.add(line_of(*node), fmt::format("{} must be a text in quotes ({}), not {}.", key.name,
-                                              key.meaning, shown(*node)));
+    refuse(*node, "{} must be a text in quotes ({}), not {}.", key.name, key.meaning, shown(*node));
   else if (const auto wrong = wrong_text(key, **node->as_string()))
-    mistakes_.add(line_of(*node), *wrong);
+    refuse(*node, "{}", *wrong);
   else
     return **node->as_string();
   return "";
@@ -41,10 +49,10 @@ std::string TableReader::text(const toml::table &table, const Key &key) {
 
 std::optional<double> TableReader::number(const toml::node &node, const Key &key) {
   if (!node.is_number())
-    mistakes_.add(line_of(node), fmt::format("{} must be a number without quotes ({}), not {}.",
-                                             key.name, key.meaning, shown(node)));
+    refuse(node, "{} must be a number without quotes ({}), not {}.", key.name, key.meaning,
+           shown(node));
   else if (const auto wrong = wrong_number(key, *node.value<double>()))
-    mistakes_.add(line_of(node), *wrong);
+    refuse(node, "{}", *wrong);
   else
     return *node.value<double>();
   return std::nullopt;
@@ -66,8 +74,7 @@ std::vector<double> TableReader::numbers(const toml::table &table, const Key &ke
   }
   const toml::array *list = node->as_array();
   if (!list) {
-    mistakes_.add(line_of(*node),
-                  fmt::format("{} must be a list of numbers, not {}.", key.name, shown(*node)));
+    refuse(*node, "{} must be a list of numbers, not {}.", key.name, shown(*node));
     return out;
   }
   for (const toml::node &n : *list)
@@ -83,16 +90,14 @@ std::vector<std::string> TableReader::texts(const toml::table &table, const std:
     return out;
   const toml::array *list = node->as_array();
   if (!list) {
-    mistakes_.add(line_of(*node),
-                  fmt::format("{} must be a list of texts in quotes, not {}.", key, shown(*node)));
+    refuse(*node, "{} must be a list of texts in quotes, not {}.", key, shown(*node));
     return out;
   }
   for (const toml::node &n : *list)
     if (n.is_string())
       out.push_back(**n.as_string());
     else
-      mistakes_.add(line_of(n),
-                    fmt::format("{} holds {}; it must hold texts in quotes.", key, shown(n)));
+      refuse(n, "{} holds {}; it must hold texts in quotes.", key, shown(n));
   return out;
 }
 

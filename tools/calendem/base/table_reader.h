@@ -7,6 +7,7 @@
 #include "base/registry.h"
 #include "base/toml_reader.h"
 #include <filesystem>
+#include <functional>
 
 namespace calendem {
 
@@ -24,6 +25,14 @@ protected:
   bool whole_;
   Mistakes &mistakes_;
 
+  /// Adds a mistake at the place of `at`; values are put into the text as by fmt::format.
+  template <class... Values>
+  void refuse(const toml::node &at, fmt::format_string<Values...> what, Values &&...values) {
+    mistakes_.add(line_of(at), fmt::format(what, std::forward<Values>(values)...));
+  }
+  /// Calls `read` with each table of the list [[name]] and its node.
+  void each_table(const toml::table &root, const std::string &name,
+                  const std::function<void(const toml::table &)> &read);
   /// `prefix` is of the names in messages: "condition.".
   void report_unknown(const toml::table &table, const std::vector<std::string> &known,
                       const std::string &prefix = "");

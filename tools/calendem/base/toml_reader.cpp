@@ -31,7 +31,7 @@ std::string read_text(const std::string &file, Mistakes &mistakes) {
   }
   std::ifstream in(file, std::ios::binary);
   if (!in) {
-    mistakes.add(0, fmt::format("cannot be read: {}.", std::strerror(errno)));
+    mistakes.add(0, "cannot be read: {}.", std::strerror(errno));
     return text;
   }
   const PlainText read = plain_text({std::istreambuf_iterator<char>(in), {}});
@@ -66,16 +66,15 @@ TomlFile parse_toml(const std::string &file, Mistakes &mistakes) {
       return {toml::parse(text, file), errors == 0};
     } catch (const toml::parse_error &e) {
       if (text.find('=') == std::string::npos) {
-        mistakes.add(0, fmt::format("this is no TOML file: no line is KEY = VALUE. It begins with "
-                                    "'{}'.",
-                                    text.substr(0, std::min<size_t>(text.find('\n'), 60))));
+        mistakes.add(0, "this is no TOML file: no line is KEY = VALUE. It begins with '{}'.",
+                     text.substr(0, std::min<size_t>(text.find('\n'), 60)));
         return {};
       }
       const int line = static_cast<int>(e.source().begin.line);
       const auto [begin, end] = place_of(text, line);
       const std::string content = text.substr(begin, std::min<size_t>(end - begin, 60));
-      mistakes.add(line, fmt::format("not valid TOML: {}. The line is: {}", e.description(),
-                                     content.empty() ? "(the file's end)" : content));
+      mistakes.add(line, "not valid TOML: {}. The line is: {}", e.description(),
+                   content.empty() ? "(the file's end)" : content);
       const size_t first = content.find_first_not_of(" \t");
       // Without a table's head the keys below it would be taken for those of the table above.
       if (first == std::string::npos || content[first] == '[')
@@ -103,37 +102,23 @@ namespace {
 
 struct Described {
   FileKind kind;
-  const char *what, *verbs;
-  std::vector<std::string> tables; ///< and keys that identify it, alone or together
+  const char *what, *verbs,
+      *tables; ///< and keys that identify it, alone or together, each in blanks
 };
-
-const std::vector<Described> &kinds() {
-  static const std::vector<Described> all = {
-      {FileKind::Recipe,
-       "an electrode's recipe",
-       "pack",
-       {"coating", "cell", "structure", "shapes"}},
-      {FileKind::Film,
-       "the recipe of a film",
-       "dry",
-       {"coating", "cell", "shapes", "slurry", "drying"}},
-      {FileKind::Tomogram, "the description of a tomogram", "tomogram", {"image"}},
-      {FileKind::Case, "a case", "run", {"electrode", "platen", "bond", "material", "numerics"}},
-      {FileKind::Experiment,
-       "an experiment",
-       "compare, diagnose or calibrate",
-       {"experiment", "condition"}},
-      {FileKind::Study, "a study", "study", {"study", "vary"}},
-      {FileKind::Bank, "a bank", "bank", {"bank", "full_cell", "numerics"}},
-      {FileKind::Material,
-       "a material",
-       "validate, or its path to the key 'material' of a recipe",
-       {"also_called", "calibrated_on", "base", "material", "bond"}}};
-  return all;
-}
+const Described kKinds[] = {
+    {FileKind::Recipe, "an electrode's recipe", "pack", " coating cell structure shapes "},
+    {FileKind::Film, "the recipe of a film", "dry", " coating cell shapes slurry drying "},
+    {FileKind::Tomogram, "the description of a tomogram", "tomogram", " image "},
+    {FileKind::Case, "a case", "run", " electrode platen bond material numerics "},
+    {FileKind::Experiment, "an experiment", "compare, diagnose or calibrate",
+     " experiment condition "},
+    {FileKind::Study, "a study", "study", " study vary "},
+    {FileKind::Bank, "a bank", "bank", " bank full_cell numerics "},
+    {FileKind::Material, "a material", "validate, or its path to the key 'material' of a recipe",
+     " also_called calibrated_on base material bond "}};
 
 bool has(const Described &d, std::string_view table) {
-  return std::find(d.tables.begin(), d.tables.end(), table) != d.tables.end();
+  return std::string(d.tables).find(" " + std::string(table) + " ") != std::string::npos;
 }
 
 /// Tables and keys of the file that identify its kind. A recipe names its material, which in a case
@@ -142,7 +127,7 @@ std::vector<std::string> identifying_keys(const toml::table &root) {
   std::vector<std::string> out;
   for (const auto &[key, node] : root)
     if (!(key.str() == "material" && node.is_string()) &&
-        std::any_of(kinds().begin(), kinds().end(),
+        std::any_of(std::begin(kKinds), std::end(kKinds),
                     [name = key.str()](const Described &d) { return has(d, name); }))
       out.emplace_back(key.str());
   return out;
@@ -158,14 +143,13 @@ TomlFile parse_toml(const std::string &file, FileKind wanted, Mistakes &mistakes
                        [&](const std::string &name) { return has(d, name); });
   };
   const auto is_wanted = [&](const Described &d) { return d.kind == wanted; };
-  const auto right = std::find_if(kinds().begin(), kinds().end(), is_wanted);
-  const auto is = std::find_if(kinds().begin(), kinds().end(), fits);
-  if (!found.empty() && is != kinds().end() && !fits(*right))
-    throw Failure(
-        kBadInput,
-        fmt::format("{}: this is {} (it has '{}'); {} is expected here. Give this file to calendem "
-                    "{}; input_scripts/cases/ has examples of each.",
-                    file, is->what, fmt::join(found, "', '"), right->what, is->verbs));
+  const auto *right = std::find_if(std::begin(kKinds), std::end(kKinds), is_wanted);
+  const auto *is = std::find_if(std::begin(kKinds), std::end(kKinds), fits);
+  if (!found.empty() && is != std::end(kKinds) && !fits(*right))
+    throw Failure(kBadInput,
+                  "{}: this is {} (it has '{}'); {} is expected here. Give this file to calendem "
+                  "{}; input_scripts/cases/ has examples of each.",
+                  file, is->what, fmt::join(found, "', '"), right->what, is->verbs);
   return out;
 }
 
@@ -206,9 +190,7 @@ public:
   void walk(const std::string &prefix, const toml::table &table) {
     for (const auto &[k, node] : table) {
       const std::string name = prefix + std::string(k.str());
-      const auto key =
-          std::find_if(keys_.begin(), keys_.end(), [&](const Key &x) { return x.name == name; });
-      if (key != keys_.end())
+      if (const Key *key = find_key(keys_, name))
         read(*key, node);
       else if (node.is_table())
         enter(name, *node.as_table());
@@ -339,7 +321,7 @@ Settings read_toml(const std::string &file, FileKind kind, const std::vector<Key
         out.line(key.name) > 0) // given, be it wrong
       continue;
     if (parsed.whole && !parsed.root.empty())
-      mistakes.add(0, fmt::format("key '{}' is missing ({}).", key.name, key.meaning));
+      mistakes.add(0, "key '{}' is missing ({}).", key.name, key.meaning);
     out.note(key.name, 0, true);
   }
   fill_in(keys, out);

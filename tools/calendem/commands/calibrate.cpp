@@ -8,7 +8,6 @@
 #include "commands/films_asked.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <functional>
 

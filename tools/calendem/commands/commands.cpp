@@ -14,14 +14,9 @@ namespace {
 
 constexpr const char *kMade = "# Made by `calendem registry`; not to be edited.\n";
 
-const Key &key_named(const std::string &name) {
-  return *std::find_if(case_keys().begin(), case_keys().end(),
-                       [&](const Key &k) { return k.name == name; });
-}
-
 std::string default_of(const Key &key) {
   return key.same_as.empty() ? key.fallback
-                             : fmt::format("${{{}}}", key_named(key.same_as).variable);
+                             : fmt::format("${{{}}}", find_key(case_keys(), key.same_as)->variable);
 }
 
 std::string meaning_of(const Key &key) {
@@ -174,8 +169,8 @@ std::string bond_laws_in() {
 
 } // namespace
 
-std::vector<GeneratedFile> generated_files() {
-  std::vector<GeneratedFile> all = reference_pages();
+std::vector<GeneratedFile> generated_files(const std::string &top) {
+  std::vector<GeneratedFile> all = reference_pages(top);
   all.insert(all.begin(), {{"input_scripts/common/defaults.in", defaults_in()},
                            {"input_scripts/common/settings.in", settings_in()},
                            {"input_scripts/common/effects.in", effects_in()},

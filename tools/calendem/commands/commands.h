@@ -56,9 +56,9 @@ struct GeneratedFile {
   std::string text;
 };
 
-std::vector<GeneratedFile> generated_files();
-
-std::vector<GeneratedFile> reference_pages();
+/// `top`: of the repository, whose pages have text that is written by hand around what is made.
+std::vector<GeneratedFile> generated_files(const std::string &top);
+std::vector<GeneratedFile> reference_pages(const std::string &top);
 
 } // namespace calendem
 

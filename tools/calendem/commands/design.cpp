@@ -14,16 +14,6 @@ struct DesignOptions : FilmOptions {
   bool by_runs = false; ///< instead of the bank's emulators
 };
 
-/// What is predicted of a film, and the numbers from which its chances follow.
-struct Settled {
-  PredictedFilm predicted;
-  PredictionsOf of;
-};
-
-Settled settled(const FilmBank &bank, const GapDraws &draws) {
-  return {film_at_gaps(bank, draws), numbers_at_gaps(draws)};
-}
-
 SetBy set_by(const FilmOptions &o) { return o.gaps.empty() ? SetBy::Pressure : SetBy::Gap; }
 
 void note_outside(const GapDraws &draws, Design &d) {
@@ -34,82 +24,54 @@ void note_outside(const GapDraws &draws, Design &d) {
         draws.runs > 0 ? "the model error is that" : "cracks and springback are those"));
 }
 
+Design designed(const Film &film, const PredictedFilm &predicted,
+                const std::vector<Chance> &chances) {
+  Design d;
+  d.film = film;
+  d.predicted = predicted;
+  d.chances = chances;
+  d.best = best_of(chances);
+  return d;
+}
+
+Design designed(const FilmBank &bank, const GapDraws &draws, const Target &target) {
+  Design d = designed(draws.film, film_at_gaps(bank, draws),
+                      chances_from(draws.gaps, numbers_at_gaps(draws), target));
+  note_outside(draws, d);
+  return d;
+}
+
 /// What a film offers at the pressures or gaps asked for.
 Design design_of(const AskedFilms &a, const FilmOptions &o, const Film &film,
                  const Target &target) {
   const FilmBank &bank = a.model.bank;
   const Calibration &c = a.model.calibration;
-  Design d;
-  d.film = film;
-  if (set_by(o) == SetBy::Gap) {
-    const GapDraws draws = under_gaps(bank, c, film, values_of("--gap", o.gaps, "um"));
-    const Settled s = settled(bank, draws);
-    d.predicted = s.predicted;
-    d.chances = chances_from(draws.gaps, s.of, target);
-    d.best = best_of(d.chances);
-    note_outside(draws, d);
-  } else {
-    const double error = o.press_percent / kPercent;
-    d.chances = chances(bank, c, film, a.pressures, error, target);
-    d.predicted = predicted(bank, c, film, a.pressures, error);
-    d.best = best_of(d.chances);
-  }
-  return d;
+  if (set_by(o) == SetBy::Gap)
+    return designed(bank, under_gaps(bank, c, film, values_of("--gap", o.gaps, "um")), target);
+  const double error = o.press_percent / kPercent;
+  return designed(film, predicted(bank, c, film, a.pressures, error),
+                  chances(bank, c, film, a.pressures, error, target));
 }
 
-/// Designs from runs at each of them; under a roll in so many passes.
+/// Designs from runs at each of the pressures; under a roll in so many passes, at each of the gaps.
 Design design_by_runs(const AskedFilms &a, const FilmOptions &o, std::size_t recipe,
-                      const Target &target, int passes) {
-  Design d;
-  if (passes > 0) {
-    const GapDraws draws = run_film_at_gaps(a, o, recipe, values_of("--gap", o.gaps, "um"), passes);
-    const Settled s = settled(a.model.bank, draws);
-    d.predicted = s.predicted;
-    d.chances = chances_from(draws.gaps, s.of, target);
-    d.best = best_of(d.chances);
-    note_outside(draws, d);
-  } else {
-    const ByRuns own = run_film(a, o, recipe, a.pressures);
-    d.predicted = own.predicted;
-    d.chances = chances_from(a.pressures, own.of, target);
-    d.best = best_of(d.chances);
-  }
-  d.film = d.predicted.film;
-  if (passes > 1)
-    d.film.name += fmt::format(", {} passes", passes);
-  return d;
-}
-
-/// The proposal of a recipe, run; under a roll in so many passes.
-Confirmation confirmation(const AskedFilms &a, const FilmOptions &o, std::size_t recipe,
-                          const Target &target, double proposed, int passes) {
-  Confirmation out;
-  out.passes = passes;
-  if (passes > 0) {
-    const GapDraws draws = run_film_at_gaps(a, o, recipe, {proposed}, passes);
-    const Settled s = settled(a.model.bank, draws);
-    out.predicted = s.predicted;
-    out.chance = chances_from({proposed}, s.of, target).front();
-  } else {
-    const ByRuns own = run_film(a, o, recipe, {proposed});
-    out.predicted = own.predicted;
-    out.chance = chances_from({proposed}, own.of, target).front();
-  }
-  return out;
+                      const Target &target, int passes, const std::vector<double> &at) {
+  if (passes > 0)
+    return designed(a.model.bank, run_film_at_gaps(a, o, recipe, at, passes), target);
+  const ByRuns own = run_film(a, o, recipe, at);
+  return designed(own.predicted.film, own.predicted, chances_from(at, own.of, target));
 }
 
 void say_confirmed(const Confirmation &c) {
-  const Band &after = c.predicted.after[0], &cracked = c.predicted.cracked[0];
   const std::string passes = c.passes == 0 ? ""
                                            : fmt::format(" in {} pass{} under the roll", c.passes,
                                                          c.passes == 1 ? "" : "es");
   fmt::print(
       "  run {} times{}, each with another draw of the material on another packing: it meets "
-      "the target with {:.0f} %: porosity {:.1f} % ({:.1f} to {:.1f}), cracked particles "
-      "{:.0f} % ({:.0f} to {:.0f})\n",
-      c.predicted.runs, passes, kPercent * c.chance.all, kPercent * after.median,
-      kPercent * after.low90, kPercent * after.high90, kPercent * cracked.median,
-      kPercent * cracked.low90, kPercent * cracked.high90);
+      "the target with {:.0f} %: porosity {}, cracked particles {}\n",
+      c.predicted.runs, passes, kPercent * c.chance.all,
+      in_percent(c.predicted.after[0], "{:.1f} % ({:.1f} to {:.1f})"),
+      in_percent(c.predicted.cracked[0], "{:.0f} % ({:.0f} to {:.0f})"));
 }
 
 /// Pressing makes no film more porous.
@@ -118,9 +80,8 @@ void check_target(const AskedFilms &a, double porosity) {
   for (const Film &f : a.films)
     for (std::size_t k = 0; k < of.size(); ++k)
       if (of[k].keys.front() == kPorosityKey && f.recipe[k] <= porosity)
-        throw Failure(kBadInput, fmt::format("--porosity {:g}: {} has {:g} % before pressing. Ask "
-                                             "for less.",
-                                             porosity, f.name, f.recipe[k]));
+        throw Failure(kBadInput, "--porosity {:g}: {} has {:g} % before pressing. Ask for less.",
+                      porosity, f.name, f.recipe[k]);
 }
 
 /// The answer for a film, in words.
@@ -129,11 +90,9 @@ void say(const Design &d, SetBy by, const Target &target) {
   const char *unit = gap ? "um" : "MPa";
   const int decimals = gap ? 1 : 0;
   const Chance &best = d.chances[d.best];
-  const Band &after = d.predicted.after[d.best], &cracked = d.predicted.cracked[d.best];
-  const std::string there = fmt::format(
-      "porosity {:.1f} % (90 %: {:.1f} to {:.1f}), cracked particles {:.0f} % ({:.0f} to {:.0f})",
-      kPercent * after.median, kPercent * after.low90, kPercent * after.high90,
-      kPercent * cracked.median, kPercent * cracked.low90, kPercent * cracked.high90);
+  const std::string there =
+      in_percent(d.predicted.after[d.best], "porosity {:.1f} % (90 %: {:.1f} to {:.1f})") +
+      in_percent(d.predicted.cracked[d.best], ", cracked particles {:.0f} % ({:.0f} to {:.0f})");
   if (kPercent * best.all < 1.0)
     fmt::print("{0}: no {1} from {2:.{6}f} to {3:.{6}f} {4} meets the target (less than 1 %); at "
                "{5:.{6}f} {4}: {7}\n",
@@ -175,7 +134,10 @@ std::vector<Design> designs_by_runs(const AskedFilms &a, const DesignOptions &o,
   for (const int n : passes)
     for (std::size_t k = 0; k < o.recipes.size(); ++k)
       missed.attempt(o.recipes[k], [&] {
-        out.push_back(design_by_runs(a, o, k, target, n));
+        out.push_back(design_by_runs(a, o, k, target, n,
+                                     n > 0 ? values_of("--gap", o.gaps, "um") : a.pressures));
+        if (n > 1)
+          out.back().film.name += fmt::format(", {} passes", n);
         write(a, o, target, out);
       });
   if (out.empty())
@@ -195,7 +157,8 @@ std::vector<Design> designs_by_bank(const AskedFilms &a, const DesignOptions &o,
     for (const int n : passes)
       missed.attempt(o.recipes[k], [&] {
         Design &d = out[k];
-        d.confirmed.push_back(confirmation(a, o, k, target, d.chances[d.best].at, n));
+        const Design run = design_by_runs(a, o, k, target, n, {d.chances[d.best].at});
+        d.confirmed.push_back({n, run.predicted, run.chances.front()});
         write(a, o, target, out);
       });
   return out;

@@ -4,10 +4,7 @@
 #include "base/registry.h"
 #include "commands/commands.h"
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 namespace calendem {
@@ -46,19 +43,19 @@ void print_json(const std::string &name) {
 
 void write_generated(const std::string &top, bool check) {
   std::vector<std::string> stale;
-  for (const GeneratedFile &f : generated_files()) {
+  for (const GeneratedFile &f : generated_files(top)) {
     const std::string path = top + "/" + f.path;
-    std::ifstream in(path);
-    if (std::string(std::istreambuf_iterator<char>(in), {}) == f.text)
+    if (text_of_file(path) == f.text)
       continue;
     stale.push_back(f.path);
     if (!check)
       write_file(path, f.text);
   }
   if (check && !stale.empty())
-    throw Failure(kCheckFailed, fmt::format("not what the rows of src_plugin/laws make: {}. "
-                                            "`calendem registry {}` writes them.",
-                                            fmt::join(stale, ", "), top));
+    throw Failure(
+        kCheckFailed,
+        "not what the rows of src_plugin/laws make: {}. `calendem registry {}` writes them.",
+        fmt::join(stale, ", "), top);
   for (const std::string &path : stale)
     fmt::print("registry: {}\n", path);
 }

@@ -16,29 +16,16 @@ std::vector<double> values_of(const std::string &option, const std::string &text
                               const std::string &unit) {
   std::vector<double> out;
   const bool range = text.find(':') != std::string::npos;
-  std::string part;
-  for (std::size_t k = 0; k <= text.size(); ++k) {
-    if (k < text.size() && text[k] != ',' && text[k] != ':') {
-      part += text[k];
-      continue;
-    }
-    std::size_t used = 0;
+  for (const std::string &part : CLI::detail::split(text, range ? ':' : ',')) {
     double value = NAN;
-    try {
-      value = std::stod(part, &used);
-    } catch (const std::exception &) {
-    }
-    if (used != part.size() || !(value > 0.0) || !std::isfinite(value))
-      throw Failure(kBadInput,
-                    fmt::format("{} is '{}'; give {}.", option, text,
-                                unit.empty() ? "whole numbers from 1 to 20, as 1,2,3"
-                                             : unit + " as 20,50,80 or as a range 20:300"));
+    if (!CLI::detail::lexical_cast(part, value) || !(value > 0.0) || !std::isfinite(value))
+      throw Failure(kBadInput, "{} is '{}'; give {}.", option, text,
+                    unit.empty() ? "whole numbers from 1 to 20, as 1,2,3"
+                                 : unit + " as 20,50,80 or as a range 20:300");
     out.push_back(value);
-    part.clear();
   }
   if (range && (out.size() != 2 || out[0] >= out[1]))
-    throw Failure(kBadInput,
-                  fmt::format("{} is '{}'; a range is LOW:HIGH in {}.", option, text, unit));
+    throw Failure(kBadInput, "{} is '{}'; a range is LOW:HIGH in {}.", option, text, unit);
   if (range)
     out = spread_pressures(out[0], out[1], kOfRange);
   std::sort(out.begin(), out.end());
@@ -56,10 +43,9 @@ void check_covered(const std::vector<double> &pressures, const FilmBank &bank) {
   for (const double p : pressures)
     if (!bank.covers(p))
       throw Failure(kBadInput,
-                    fmt::format("--pressure asks for {:g} MPa; the bank has {:g} to {:g}. Predict "
-                                "it by runs of its own (--runs), or make a bank with more "
-                                "pressures_MPa.",
-                                p, bank.pressures().front(), bank.pressures().back()));
+                    "--pressure asks for {:g} MPa; the bank has {:g} to {:g}. Predict it by runs "
+                    "of its own (--runs), or make a bank with more pressures_MPa.",
+                    p, bank.pressures().front(), bank.pressures().back());
 }
 
 /// What a recipe may hold, and no further beyond the bank's films than these differ.
@@ -72,10 +58,8 @@ void check_varied(const std::string &text, double value, const bank::Input &p) {
         high = std::min(high, key.high);
       }
   if (!(value >= low && value <= high))
-    throw Failure(kBadInput,
-                  fmt::format("--vary is '{}'; {} may be {:g} to {:g} (the bank has {:g} "
-                              "to {:g}).",
-                              text, p.name, low, high, p.low, p.high));
+    throw Failure(kBadInput, "--vary is '{}'; {} may be {:g} to {:g} (the bank has {:g} to {:g}).",
+                  text, p.name, low, high, p.low, p.high);
 }
 
 /// Every combination of "NAME=v,v,v" for the films.
@@ -86,26 +70,23 @@ std::vector<Film> varied(std::vector<Film> films, const std::vector<std::string>
     const std::size_t equals = text.find('=');
     const std::string name = text.substr(0, equals);
     if (!seen.insert(name).second)
-      throw Failure(kBadInput, fmt::format("--vary has {} twice; give all its values at once: "
-                                           "{}=VALUE,VALUE.",
-                                           name, name));
-    std::size_t place = 0;
+      throw Failure(kBadInput, "--vary has {} twice; give all its values at once: {}=VALUE,VALUE.",
+                    name, name);
     std::vector<std::string> names;
     for (const bank::Input &p : bank.film())
       names.push_back(p.name);
-    while (place < names.size() && names[place] != name)
-      ++place;
+    const auto place = std::size_t(std::find(names.begin(), names.end(), name) - names.begin());
     if (equals == std::string::npos || place == names.size())
-      throw Failure(kBadInput, fmt::format("--vary is '{}'; give NAME=VALUE,VALUE with a name of "
-                                           "the bank's films: {}.",
-                                           text, fmt::join(names, ", ")));
+      throw Failure(kBadInput,
+                    "--vary is '{}'; give NAME=VALUE,VALUE with a name of the bank's films: {}.",
+                    text, fmt::join(names, ", "));
     std::vector<Film> next;
     for (const Film &f : films)
       for (const std::string &value : CLI::detail::split(text.substr(equals + 1), ',')) {
         Film changed = f;
         double number = 0.0;
         if (!CLI::detail::lexical_cast(value, number) || !std::isfinite(number))
-          throw Failure(kBadInput, fmt::format("--vary is '{}'; '{}' is no number.", text, value));
+          throw Failure(kBadInput, "--vary is '{}'; '{}' is no number.", text, value);
         check_varied(text, number, bank.film()[place]);
         changed.recipe[place] = number;
         changed.name += fmt::format("{}{} {:g}{}", f.name.empty() ? "" : ", ", in_words(name).name,
@@ -126,16 +107,12 @@ int material_of(const FilmOptions &o, const std::vector<std::string> &names) {
   const auto at = std::find(names.begin(), names.end(), o.material);
   if (at == names.end())
     throw Failure(kBadInput,
-                  fmt::format("--material {}; the model has '{}'. Say which of them the films are "
-                              "of, or '{}' for one that was not measured.",
-                              o.material.empty() ? "is needed" : "is '" + o.material + "'",
-                              fmt::join(names, "', '"), kOther));
+                  "--material {}; the model has '{}'. Say which of them the films are of, or '{}' "
+                  "for one that was not measured.",
+                  o.material.empty() ? "is needed" : "is '" + o.material + "'",
+                  fmt::join(names, "', '"), kOther);
   return int(at - names.begin());
 }
-
-} // namespace
-
-namespace {
 
 /// A recipe of its material: else the answer would be another's.
 Recipe recipe_to_answer_for(const std::string &file) {
@@ -145,6 +122,11 @@ Recipe recipe_to_answer_for(const std::string &file) {
 }
 
 } // namespace
+
+std::string in_percent(const Band &band, const char *format) {
+  return fmt::format(fmt::runtime(format), kPercent * band.median, kPercent * band.low90,
+                     kPercent * band.high90);
+}
 
 AskedFilms of_model(const FilmOptions &o) {
   AskedFilms out = {read_model(o.model), 0, {}, {}};
@@ -173,9 +155,9 @@ AskedFilms asked_to_run(const FilmOptions &o) {
     throw Failure(kBadInput, "--runs goes with recipes as they are: without --vary.");
   const std::string &asked = gap ? o.gaps : o.pressures;
   if (asked.empty() || asked.find(':') != std::string::npos)
-    throw Failure(kBadInput, fmt::format("--runs needs values of {} one by one: each is so many "
-                                         "simulations. Give {} {}.",
-                                         name, name, gap ? "52,54" : "80,150"));
+    throw Failure(kBadInput,
+                  "--runs needs values of {} one by one: each is so many simulations. Give {} {}.",
+                  name, name, gap ? "52,54" : "80,150");
   AskedFilms out = of_model(o);
   if (!gap && o.press_percent > 0.0 && out.pressures.size() < 2)
     throw Failure(kBadInput, "--press-percent with --runs needs the slope between pressures: give "
@@ -214,9 +196,8 @@ std::vector<int> passes_of(const FilmOptions &o) {
   std::vector<int> out;
   for (const double passes : values_of("--passes", o.passes, "")) {
     if (passes != std::floor(passes) || passes > kMost || o.passes.find(':') != std::string::npos)
-      throw Failure(kBadInput, fmt::format("--passes is '{}'; give whole numbers from 1 to {:g}, "
-                                           "as 1,2,3.",
-                                           o.passes, kMost));
+      throw Failure(kBadInput, "--passes is '{}'; give whole numbers from 1 to {:g}, as 1,2,3.",
+                    o.passes, kMost);
     out.push_back(int(passes));
   }
   return out;
@@ -244,9 +225,9 @@ void MissedRuns::attempt(const std::string &recipe, const std::function<void()> 
 
 void MissedRuns::stop_if_any(bool nothing) const {
   if (!texts_.empty())
-    throw Failure(status_, fmt::format("{}\n{}", fmt::join(texts_, "\n"),
-                                       nothing ? "Nothing is written but the runs that were made."
-                                               : "The rest is written."));
+    throw Failure(status_, "{}\n{}", fmt::join(texts_, "\n"),
+                  nothing ? "Nothing is written but the runs that were made."
+                          : "The rest is written.");
 }
 
 void add_film_options(CLI::App &verb, FilmOptions &o) {

@@ -46,6 +46,9 @@ struct AskedFilms {
 std::vector<double> values_of(const std::string &option, const std::string &text,
                               const std::string &unit);
 
+/// Median and 90 % interval of a share in percent, by a format of three numbers.
+std::string in_percent(const Band &band, const char *format = "{:5.1f} ({:.1f} to {:.1f})");
+
 /// Model and pressures, no films yet.
 AskedFilms of_model(const FilmOptions &options);
 /// With the films, which the bank must have. Throws Failure(2).

@@ -30,12 +30,8 @@ std::vector<PredictedFilm> films_by_runs(const AskedFilms &a, const FilmOptions 
 }
 
 void say(const AtGap &at) {
-  fmt::print(
-      "  {:6.1f} um  {:5.0f} ({:.0f} to {:.0f})  {:5.1f} ({:.1f} to {:.1f})  {:5.1f} ({:.1f} to "
-      "{:.1f})\n",
-      at.gap, at.pressure.median, at.pressure.low90, at.pressure.high90, kPercent * at.after.median,
-      kPercent * at.after.low90, kPercent * at.after.high90, kPercent * at.cracked.median,
-      kPercent * at.cracked.low90, kPercent * at.cracked.high90);
+  fmt::print("  {:6.1f} um  {:5.0f} ({:.0f} to {:.0f})  {}  {}\n", at.gap, at.pressure.median,
+             at.pressure.low90, at.pressure.high90, in_percent(at.after), in_percent(at.cracked));
   for (const auto &[share, where] : {std::pair(at.below, "below"), std::pair(at.above, "above")})
     if (share >= 0.01)
       fmt::print("    note: with {:.0f} % the pressure lies {} the bank's; its band ends there\n",
@@ -111,10 +107,8 @@ void run_predict(const FilmOptions &o) {
   for (const PredictedFilm &f : films) {
     fmt::print("{}: porosity after release, % (90 %), cracked particles, %\n", f.film.name);
     for (std::size_t k = 0; k < f.pressures.size(); ++k)
-      fmt::print("  {:6.1f} MPa  {:5.1f} ({:.1f} to {:.1f})  {:5.1f} ({:.1f} to {:.1f})\n",
-                 f.pressures[k], kPercent * f.after[k].median, kPercent * f.after[k].low90,
-                 kPercent * f.after[k].high90, kPercent * f.cracked[k].median,
-                 kPercent * f.cracked[k].low90, kPercent * f.cracked[k].high90);
+      fmt::print("  {:6.1f} MPa  {}  {}\n", f.pressures[k], in_percent(f.after[k]),
+                 in_percent(f.cracked[k]));
     for (const std::string &text : f.beyond)
       fmt::print("  note: {}\n", text);
   }

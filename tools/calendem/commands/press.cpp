@@ -84,9 +84,8 @@ void press(PressOptions o) {
     std::error_code none;
     if (fs::equivalent(file, table, none))
       throw Failure(kBadInput,
-                    fmt::format("{}: -o names the export itself, which would be replaced. "
-                                "Give another name.",
-                                file));
+                    "{}: -o names the export itself, which would be replaced. Give another name.",
+                    file);
     require_own_file(table, kHeadOfCurve);
     const PressExport from = read_press_export(file, o.format);
     curves.push_back(make_press_curve(file, from, o.contact_MPa));

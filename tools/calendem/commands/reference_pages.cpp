@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/experiment.h"
+#include "base/provenance.h"
 #include "base/recipe.h"
 #include "base/registry.h"
 #include "commands/commands.h"
 #include "effects/settings.h"
 #include "electrode/slurry/dry.h"
 #include "electrode/tomogram.h"
-#include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
+#include <map>
 #include <regex>
 #include <utility>
 
@@ -16,9 +17,6 @@ namespace calendem {
 namespace {
 
 constexpr double kAnyWhole = 1e9; // no limit that a reader needs
-
-constexpr const char *kMadePage =
-    "<!-- Made from the rows of the program by `calendem registry`; not to be edited. -->\n\n";
 
 std::string table_of(const Key &key) {
   const std::size_t dot = key.name.rfind('.');
@@ -95,83 +93,49 @@ std::string tables(const std::vector<Key> &keys) {
   return out;
 }
 
-std::string page(const std::string &title, const std::string &text, const std::string &rest) {
-  return kMadePage + fmt::format("# {}\n\n{}\n{}", title, text, rest);
+/// The page with `made` between its marks; the text around them is written by hand.
+GeneratedFile page(const std::string &top, const std::string &name,
+                   const std::map<std::string, std::string> &made) {
+  GeneratedFile out{fmt::format("docs/reference/{}.md", name), ""};
+  out.text = text_of_file(top + "/" + out.path);
+  for (const auto &[part, text] : made) {
+    const std::string begin = fmt::format("<!-- {}, made by calendem registry -->\n", part),
+                      end = fmt::format("\n<!-- end of {} -->\n", part);
+    const std::size_t from = out.text.find(begin), to = out.text.find(end);
+    if (from == std::string::npos || to == std::string::npos || to < from)
+      throw Failure(kBadInput, "{}: the lines '{}' and '{}' are missing: put them where the {} go.",
+                    out.path, begin.substr(0, begin.size() - 1), end.substr(1, end.size() - 2),
+                    part);
+    out.text.replace(from + begin.size(), to - from - begin.size(), text);
+  }
+  return out;
 }
 
-std::string case_page() {
-  return page(
-      "Keys of a case",
-      "A case is a TOML file that describes what `calendem run` simulates. Only `electrode` "
-      "is required.\nPaths are relative to the file. The folder of a run contains "
-      "`case.toml` with every default filled in.\n\n"
-      "Keys under `[effects...]` switch on physics that the base model leaves out: see "
-      "[Effects](effects.md).\nThe input scripts have the same settings, by the names in "
-      "`input_scripts/common/defaults.in`, except a line load and\nits tolerance, and the "
-      "thickness zero.",
-      tables(case_keys()));
-}
-
-std::string recipe_page() {
-  return page("Keys of a recipe",
-              "A recipe is a TOML file from which `calendem pack` makes an electrode. No key is "
-              "required: the defaults\ngive the electrode of the paper in a cell of 15 × 15 µm.\n"
-              "`[shapes]` takes the shapes of particles from a tomogram, `[structure]` takes all "
-              "particles from a data file of\nLAMMPS or LIGGGHTS. `calendem dry` reads a recipe "
-              "with two more tables: see [Keys of a film](film.md).",
-              tables(recipe_keys()));
-}
-
-std::string film_page() {
+GeneratedFile film_page(const std::string &top) {
   std::vector<Key> keys;
   for (const Key &key : film_keys())
     if (const std::string table = table_of(key); table == "slurry" || table == "drying")
       keys.push_back(key);
-  return page("Keys of a film",
-              "The recipe of a film that `calendem dry` makes by simulating slurry and drying has "
-              "the keys of a\n[recipe](recipe.md) except `[structure]` and "
-              "`[effects.cbd_gradient]`, and these.",
-              tables(keys));
+  return page(top, "film", {{"keys", tables(keys)}});
 }
 
-std::string tomogram_page() {
-  return page("Keys of a synthetic tomogram",
-              "`calendem tomogram` makes a label image whose particles are known, to try the "
-              "steps from an image to an\nelectrode.",
-              tables(tomogram_keys()));
-}
-
-std::string experiment_page() {
+GeneratedFile experiment_page(const std::string &top) {
   std::vector<Key> measured;
   for (const Quantity &q : quantities())
     measured.push_back(q.key);
   const auto rows = [](const std::vector<Key> &keys) {
-    std::string out = kHead;
+    std::string out = std::string("\n") + kHead;
     for (const Key &key : keys)
       out += row(key);
     return out;
   };
-  return page(
-      "Keys of an experiment",
-      "An experiment file contains the measured data for `calendem compare`, "
-      "`calendem diagnose` and\n`calendem calibrate`. `calendem validate` reports every "
-      "mistake in it.",
-      "\n## `[experiment]`\n\n" + rows(head_keys()) +
-          "| `split` | none | `{ train = [ids], test = [ids] }` | ids of the conditions to "
-          "calibrate on, and of those held out |\n"
-          "\n## `[[condition]]`\n\nOne table for each sample or pressure.\n\n" +
-          rows(condition_keys()) +
-          "\n### Measured values of a condition\n\nA number, `{ value, sd }` or "
-          "`{ value, sd_relative }`. `mass_mg` and `thickness_after_um` also take\n"
-          "`includes_foil`: a mass includes the foil unless it says otherwise, a thickness "
-          "does not.\nA mass must be 0.5 to 100 mg/cm² on the disc. A coating must be as "
-          "thick as its solid and have at most 90 % of pores; 6 µm\nfor a wrong zero of the "
-          "gauge and three standard deviations are allowed for.\n\n" +
-          rows(measured) +
-          "\n## `[[crushed_particle]]`\n\nSingle particles of the powder, crushed one by "
-          "one between two plates. `calendem calibrate` learns the strength of\nthe bonds "
-          "from them, the other verbs do not compare them.\n\n" +
-          rows(crushed_keys()));
+  return page(top, "experiment",
+              {{"keys of the experiment",
+                rows(head_keys()) + "| `split` | none | `{ train = [ids], test = [ids] }` | ids of "
+                                    "the conditions to calibrate on, and of those held out |\n"},
+               {"keys of a condition", rows(condition_keys())},
+               {"measured values", rows(measured)},
+               {"keys of a crushed particle", rows(crushed_keys())}});
 }
 
 std::string material_section(const std::string &name) {
@@ -193,22 +157,11 @@ std::string material_section(const std::string &name) {
   return out;
 }
 
-std::string materials_page() {
+GeneratedFile materials_page(const std::string &top) {
   std::string sections;
   for (const std::string &name : known_materials())
     sections += material_section(name);
-  return page(
-      "Materials",
-      "A [recipe](recipe.md) names what its electrode is made of by the key `material`: one "
-      "of these, or the path of a file of\nyour own. Its values stand between the keys' "
-      "defaults and what recipe and case give; each has its source. `pack` keeps\nthem in "
-      "`electrode.json`, and writes what the input scripts need into `electrode.in`.\n\n"
-      "A file has `name`, `also_called`, `calibrated_on` (lists; an empty one: not "
-      "calibrated), may take the values of another\nby `base = \"nmc111\"`, and gives keys "
-      "of the [case](case.md) (`material`, `bond`, effects of contacts and bonds) and "
-      "of the\nrecipe (densities, primaries, irregularity, nanoporosity) as `{ value = 0.15, "
-      "sd = 0.05, source = \"doi:...\" }`.\n`calendem validate` checks it.",
-      sections);
+  return page(top, "materials", {{"materials", sections}});
 }
 
 std::string unit_of(const Effect &e) {
@@ -243,37 +196,25 @@ std::string effect_section(const Effect &e) {
   return out;
 }
 
-std::string effects_page() {
+GeneratedFile effects_page(const std::string &top) {
   std::string list = "\n| effect | what it is |\n|---|---|\n", sections;
   for (const Effect &e : effects()) {
     list += fmt::format("| [`{0}`](#{0}) | {1} |\n", e.name, e.what);
     sections += effect_section(e);
   }
-  return page(
-      "Effects",
-      "Effects are physics that the base model leaves out. Each is off by default, has its law in "
-      "`src_plugin/physics`,\nand is switched on by a key of the [case](case.md) or of the "
-      "[recipe](recipe.md).\n`calendem effects NAME` prints the same. Equations are in "
-      "[How the model works](../model/effects.md).\n\n"
-      "A contact follows one law. Of the effects with a contact law (the plasticities, "
-      "`cbd_viscoelasticity`, the confinements,\n`collector_indentation`) only one kind of law can "
-      "act on the same pair of phases. Friction, collapse and bridges combine\nwith them; collapse "
-      "and bridges exclude each other. The prior is that of the diagnosis; a key may have values "
-      "outside it.",
-      list + sections);
+  return page(top, "effects", {{"effects", list + sections}});
 }
 
 } // namespace
 
-std::vector<GeneratedFile> reference_pages() {
-  const std::string folder = "docs/reference/";
-  return {{folder + "case.md", case_page()},
-          {folder + "recipe.md", recipe_page()},
-          {folder + "film.md", film_page()},
-          {folder + "tomogram.md", tomogram_page()},
-          {folder + "experiment.md", experiment_page()},
-          {folder + "effects.md", effects_page()},
-          {folder + "materials.md", materials_page()}};
+std::vector<GeneratedFile> reference_pages(const std::string &top) {
+  return {page(top, "case", {{"keys", tables(case_keys())}}),
+          page(top, "recipe", {{"keys", tables(recipe_keys())}}),
+          film_page(top),
+          page(top, "tomogram", {{"keys", tables(tomogram_keys())}}),
+          experiment_page(top),
+          effects_page(top),
+          materials_page(top)};
 }
 
 } // namespace calendem

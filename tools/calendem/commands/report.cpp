@@ -158,11 +158,11 @@ void write_images(const Arguments &a, const std::string &folder) {
 void measure(Arguments a, const CLI::App &verb) {
   const bool is_run = fs::is_directory(a.input);
   if (!fs::exists(a.input) && a.input.find('%') == std::string::npos) // a pattern names a series
-    throw Failure(kBadInput, fmt::format("{}: no such file or folder. Give the folder of a run, or "
-                                         "a label image.",
-                                         a.input));
+    throw Failure(kBadInput,
+                  "{}: no such file or folder. Give the folder of a run, or a label image.",
+                  a.input);
   if (a.images && !is_run)
-    throw Failure(kBadInput, fmt::format("--images is for a run; '{}' is not a folder.", a.input));
+    throw Failure(kBadInput, "--images is for a run; '{}' is not a folder.", a.input);
   if (a.output.empty() && !is_run)
     throw CLI::RequiredError("--output");
   const std::string folder = a.output.empty() ? a.input : a.output;

@@ -26,8 +26,8 @@ std::string checked(const Key &key, const std::string &value, Mistakes &mistakes
   const bool is_text = key.text || !key.choices.empty();
   double number = 0.0;
   if (!is_text && !CLI::detail::lexical_cast(value, number))
-    mistakes.add(0, fmt::format("{} is '{}', which is not a number. Run the scripts again.",
-                                key.variable, value));
+    mistakes.add(0, "{} is '{}', which is not a number. Run the scripts again.", key.variable,
+                 value);
   return value;
 }
 
@@ -36,9 +36,9 @@ std::string checked(const Key &key, const std::string &value, Mistakes &mistakes
 Settings read_settings(const std::string &file, const std::string &electrode) {
   std::ifstream in(file);
   if (!in)
-    throw Failure(kBadInput, fmt::format("cannot read '{}': give the folder that the input scripts "
-                                         "wrote into (-var out DIR)",
-                                         file));
+    throw Failure(
+        kBadInput,
+        "cannot read '{}': give the folder that the input scripts wrote into (-var out DIR)", file);
   std::map<std::string, std::string> values;
   std::string line, variable, name, index, value;
   while (std::getline(in, line))
@@ -54,9 +54,10 @@ Settings read_settings(const std::string &file, const std::string &electrode) {
     }
     const auto found = values.find(key.variable);
     if (found == values.end())
-      mistakes.add(0, fmt::format("'{}' is missing: the run was made by an older version, or the "
-                                  "file is cut. Run the scripts again.",
-                                  key.variable));
+      mistakes.add(0,
+                   "'{}' is missing: the run was made by an older version, or the file is cut. Run "
+                   "the scripts again.",
+                   key.variable);
     else
       s.set(key.name, checked(key, found->second, mistakes));
   }
@@ -77,10 +78,10 @@ void stop_if_of_another(const std::string &folder, const std::string &electrode)
                                : now;
   if (then != now)
     throw Failure(kBadInput,
-                  fmt::format("'{}' was collected with another electrode (electrode.data then {}, "
-                              "now {}). Give the one that it was pressed from with --electrode, or "
-                              "remove its summary.json if that was the wrong one.",
-                              folder, then, now));
+                  "'{}' was collected with another electrode (electrode.data then {}, now {}). "
+                  "Give the one that it was pressed from with --electrode, or remove its "
+                  "summary.json if that was the wrong one.",
+                  folder, then, now);
 }
 
 /// The folder's case.toml has the settings of these scripts; what they do not know of is taken from
@@ -113,10 +114,10 @@ void keep_what_run_knew(const nlohmann::json &before, nlohmann::json &summary) {
 void collect_folder(const std::string &folder, const std::string &electrode) {
   Settings settings = read_settings(folder + "/settings.txt", electrode);
   if (!fs::is_directory(folder + "/vtk"))
-    throw Failure(kBadInput, fmt::format("'{}' has no folder vtk: its frames are needed to collect "
-                                         "it. A study that keeps tables only has removed them; run "
-                                         "it again.",
-                                         folder));
+    throw Failure(kBadInput,
+                  "'{}' has no folder vtk: its frames are needed to collect it. A study that keeps "
+                  "tables only has removed them; run it again.",
+                  folder);
   const ElectrodeFacts facts = read_electrode(settings.text("electrode"));
   stop_if_of_another(folder, settings.text("electrode"));
   const nlohmann::json before =

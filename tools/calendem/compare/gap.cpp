@@ -269,10 +269,9 @@ Gap find_gap(const Experiment &experiment, const std::vector<SimulatedRun> &runs
   }
   if (entries.empty())
     throw Failure(kBadInput,
-                  fmt::format("nothing of '{}' can be compared with these runs. A run belongs to a "
-                              "condition when its platen has the condition's control and target "
-                              "within 2 %.{}",
-                              experiment.name, as_list(gap.not_said)));
+                  "nothing of '{}' can be compared with these runs. A run belongs to a condition "
+                  "when its platen has the condition's control and target within 2 %.{}",
+                  experiment.name, as_list(gap.not_said));
   say_of_runs(experiment, runs, used, gap);
   pool_seeds(entries, gap.degrees_of_freedom);
   for (const Entry &e : entries)
@@ -285,10 +284,6 @@ Gap find_gap(const Experiment &experiment, const std::vector<SimulatedRun> &runs
 
 extern const char *const kGapHtml;
 namespace {
-
-nlohmann::json number_or_null(double x) {
-  return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json();
-}
 
 nlohmann::json table(const nlohmann::json &gap) {
   nlohmann::json rows = nlohmann::json::array();
@@ -320,12 +315,12 @@ nlohmann::ordered_json to_json(const Gap &gap) {
                          {"simulated", r.simulated},
                          {"packings", r.packings},
                          {"sd_measurement", r.sd_measurement},
-                         {"sd_seeds", number_or_null(r.sd_seeds)},
+                         {"sd_seeds", or_null(r.sd_seeds)},
                          {"sd_pressure", r.sd_pressure}});
   }
   nlohmann::ordered_json out =
       new_gap(gap.experiment, where, gap.threshold, gap.degrees_of_freedom);
-  out["chi2"] = number_or_null(gap.chi2);
+  out["chi2"] = or_null(gap.chi2);
   out["p_value"] = gap.p_value;
   out["said"] = gap.said;
   out["not_said"] = gap.not_said;

@@ -77,21 +77,21 @@ PhaseImage read(const Experiment &e, const std::string &file) {
   const PhaseImage image =
       phases_of(read_label_image(file, e.labels_voxel_um), e.labels_pore, e.labels_cbd);
   if (phase_fractions(image).pore == 0.0)
-    throw Failure(kBadInput, fmt::format("{}: no voxel has the label labels_pore = {}. Correct it.",
-                                         file, e.labels_pore));
+    throw Failure(kBadInput, "{}: no voxel has the label labels_pore = {}. Correct it.", file,
+                  e.labels_pore);
   if (e.labels_cbd && phase_fractions(image).cbd == 0.0)
-    throw Failure(kBadInput, fmt::format("{}: no voxel has the label labels_cbd = {}. Correct it, "
-                                         "or leave it out if the image shows no CBD.",
-                                         file, *e.labels_cbd));
+    throw Failure(kBadInput,
+                  "{}: no voxel has the label labels_cbd = {}. Correct it, or leave it out if the "
+                  "image shows no CBD.",
+                  file, *e.labels_cbd);
   const int stride =
       std::max(1, static_cast<int>(std::ceil(kFinest / image.voxel.maxCoeff() - 1e-9)));
   if (*std::min_element(image.n.begin(), image.n.end()) < kFewest * stride)
     throw Failure(kBadInput,
-                  fmt::format("{}: {} x {} x {} voxels of {:g} um are too few to be "
-                              "compared with a run; {} along each axis are wanted{}. "
-                              "Give an image of the whole thickness.",
-                              file, image.n[0], image.n[1], image.n[2], image.voxel.maxCoeff(),
-                              kFewest * stride, stride > 1 ? " of voxels so small" : ""));
+                  "{}: {} x {} x {} voxels of {:g} um are too few to be compared with a run; {} "
+                  "along each axis are wanted{}. Give an image of the whole thickness.",
+                  file, image.n[0], image.n[1], image.n[2], image.voxel.maxCoeff(),
+                  kFewest * stride, stride > 1 ? " of voxels so small" : "");
   return stride > 1 ? every_nth(image, stride) : image;
 }
 
@@ -104,19 +104,13 @@ void compare_image(const Experiment &e, const std::string &file, bool after,
   const std::string where = after ? ", image after" : ", image before";
   using Value = std::function<double(const ImageMeasures &)>;
   const auto why_none = [frames](const SimulatedRun &r) { return frames->of(r).why_none; };
-  const auto add = [&](const char *name, const Value &value, const auto &slope) {
-    Observable o;
-    o.name = name + where;
-    o.stage = after ? "relaxation" : kBefore;
-    o.unit = "%";
-    o.measured = 100.0 * value(seen.of_volume);
-    o.sd = 100.0 * sd_by_quarters(image, value);
-    o.simulated = [frames, value](const SimulatedRun &r) {
+  const auto add = [&](const char *name, const Value &value, const Derivative &slope) {
+    const auto simulated = [frames, value](const SimulatedRun &r) {
       return 100.0 * value(frames->of(r).of_volume);
     };
-    o.slope = slope;
-    o.why_none = why_none;
-    out.push_back(o);
+    out.push_back({name + where, after ? "relaxation" : kBefore, "%", 100.0 * value(seen.of_volume),
+                   100.0 * sd_by_quarters(image, value), simulated, slope});
+    out.back().why_none = why_none;
   };
   const auto none = [](const SimulatedRun &) { return 0.0; };
   const auto pore = [after](const SimulatedRun &r) {
@@ -127,30 +121,18 @@ void compare_image(const Experiment &e, const std::string &file, bool after,
                  : 0.0;
   };
   if (e.labels_cbd)
-    add(
-        "macro porosity", [](const ImageMeasures &m) { return m.pore; }, pore);
+    add("macro porosity", &ImageMeasures::pore, pore);
   else
-    add(
-        "share of AM", [](const ImageMeasures &m) { return m.am; }, am);
-  add(
-      "AM, upper minus lower third", [](const ImageMeasures &m) { return m.upper_minus_lower; },
-      none);
-  add(
-      "AM, middle minus other thirds", [](const ImageMeasures &m) { return m.middle_minus_others; },
-      none);
+    add("share of AM", &ImageMeasures::am, am);
+  add("AM, upper minus lower third", &ImageMeasures::upper_minus_lower, none);
+  add("AM, middle minus other thirds", &ImageMeasures::middle_minus_others, none);
   if (!after || seen.whole == 0)
     return;
-  Observable cracks;
-  cracks.name = "particles in pieces" + where;
-  cracks.stage = "relaxation";
-  cracks.unit = "fraction";
-  cracks.measured = seen.in_pieces;
   const double p = (seen.in_pieces * seen.whole + 1.0) / (seen.whole + 2.0); // never 0 or 1
-  cracks.sd = std::sqrt(p * (1.0 - p) / seen.whole);
-  cracks.simulated = [frames](const SimulatedRun &r) { return frames->of(r).in_pieces; };
-  cracks.slope = none;
-  cracks.why_none = why_none;
-  out.push_back(cracks);
+  const auto in_pieces = [frames](const SimulatedRun &r) { return frames->of(r).in_pieces; };
+  out.push_back({"particles in pieces" + where, "relaxation", "fraction", seen.in_pieces,
+                 std::sqrt(p * (1.0 - p) / seen.whole), in_pieces, none});
+  out.back().why_none = why_none;
 }
 
 } // namespace

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compare/measured_curve.h"
 #include "base/csv_table.h"
+#include "base/provenance.h"
 #include "compare/gap.h"
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 namespace calendem {
 namespace {
@@ -50,9 +49,7 @@ std::vector<bool> standing_out(const std::vector<double> &v,
 } // namespace
 
 MeasuredCurve read_measured_curve(const std::string &file) {
-  std::ifstream in(file);
-  const auto table =
-      CsvTable::parse({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+  const CsvTable table = CsvTable::parse(text_of_file(file));
   const auto d = table.numbers("displacement_um"), p = table.numbers("pressure_MPa");
   const auto stage = table.texts("stage");
   std::vector<std::size_t> turns;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compare/observables.h"
 #include "compare/measured_curve.h"
-#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -14,26 +13,38 @@ constexpr double kSameTarget = 0.02;
 constexpr double kCurveShares[] = {0.1, 0.25, 0.5, 0.75};
 
 double none(const SimulatedRun &) { return 0.0; }
-double percent(const SimulatedRun &) { return 100.0; }
+double percent(const SimulatedRun &) { return kPercent; }
+Derivative value_of(double SimulatedRun::*member, double unit = 1.0) {
+  return [member, unit](const SimulatedRun &r) { return unit * r.*member; };
+}
 
 /// h/h_solid: free of the samples' different loadings. `of`: the run's thickness.
 Observable thickness_ratio(const Experiment &e, const Measured &thickness, const Measured &loading,
                            const char *stage, double SimulatedRun::*of) {
   const double h = coating_thickness_um(e, thickness);
   const double ratio = h / solid_thickness_um(e, loading.value);
-  Observable o;
-  o.name = "thickness over solid thickness";
-  o.stage = stage;
-  o.measured = ratio;
-  o.sd = ratio * thickness.sd / h;
+  const auto simulated = [of](const SimulatedRun &r) { return r.*of / r.solid_column; };
+  const auto per_porosity = [simulated](const SimulatedRun &r) { // of 1/(1 - porosity)
+    return std::pow(simulated(r), 2);
+  };
+  Observable o = {"thickness over solid thickness", stage,     "", ratio,
+                  ratio * thickness.sd / h,         simulated, {}};
   o.by_loading = -ratio * loading.sd / loading.value;
-  o.simulated = [of](const SimulatedRun &r) { return r.*of / r.solid_column; };
-  o.per_porosity = [of](const SimulatedRun &r) { // of 1/(1 - porosity)
-    return std::pow(r.*of / r.solid_column, 2);
+  o.per_porosity = per_porosity;
+  o.slope = [per_porosity](const SimulatedRun &r) { return r.porosity_slope * per_porosity(r); };
+  return o;
+}
+
+/// In um: the sample's loading is not known. `of`, `porosity`: the run's.
+Observable thickness_in_um(const Experiment &e, const Measured &thickness, const char *stage,
+                           double SimulatedRun::*of, double SimulatedRun::*porosity) {
+  const auto per_porosity = [of, porosity](const SimulatedRun &r) {
+    return r.*of / (1.0 - r.*porosity);
   };
-  o.slope = [of](const SimulatedRun &r) {
-    return r.porosity_slope * std::pow(r.*of / r.solid_column, 2);
-  };
+  Observable o = {"thickness",  stage,        "um", coating_thickness_um(e, thickness),
+                  thickness.sd, value_of(of), {}};
+  o.per_porosity = per_porosity;
+  o.slope = [per_porosity](const SimulatedRun &r) { return r.porosity_slope * per_porosity(r); };
   return o;
 }
 
@@ -41,26 +52,6 @@ std::string without_loading(const Condition &c, const std::string &what) {
   return fmt::format("{}: without a mass or a loading of this sample its {} compared in µm, as if "
                      "it carried the recipe's.",
                      c.id, what);
-}
-
-/// After relaxation, in um: the sample's loading is not known.
-void add_thickness(const Experiment &e, const Condition &c, const Measured &thickness,
-                   std::vector<Observable> &out, std::vector<std::string> &not_said) {
-  Observable o;
-  o.name = "thickness";
-  o.stage = "relaxation";
-  o.unit = "um";
-  o.measured = coating_thickness_um(e, thickness);
-  o.sd = thickness.sd;
-  o.simulated = [](const SimulatedRun &r) { return r.thickness_after; };
-  o.slope = [](const SimulatedRun &r) {
-    return r.porosity_slope * r.thickness_after / (1.0 - r.porosity_after);
-  };
-  o.per_porosity = [](const SimulatedRun &r) {
-    return r.thickness_after / (1.0 - r.porosity_after);
-  };
-  out.push_back(o);
-  not_said.push_back(without_loading(c, "thickness is"));
 }
 
 /// Loading of a sample of that thickness and porosity [mg/cm2].
@@ -73,8 +64,8 @@ void porosity_before(const Condition &c, std::vector<Observable> &out) {
   if (!c.porosity_before_percent)
     return;
   out.push_back({"total porosity before", kBefore, "%", c.porosity_before_percent->value,
-                 c.porosity_before_percent->sd,
-                 [](const SimulatedRun &r) { return 100.0 * r.porosity_initial; }, none});
+                 c.porosity_before_percent->sd, value_of(&SimulatedRun::porosity_initial, kPercent),
+                 none});
   out.back().per_initial_porosity = percent;
 }
 
@@ -88,8 +79,11 @@ void porosity_after(const Experiment &e, const Condition &c, std::vector<Observa
   if (!c.porosity_after_percent) {
     if (ratio)
       out.push_back(*ratio);
-    else if (c.thickness_after_um)
-      add_thickness(e, c, *c.thickness_after_um, out, not_said);
+    else if (c.thickness_after_um) {
+      out.push_back(thickness_in_um(e, *c.thickness_after_um, "relaxation",
+                                    &SimulatedRun::thickness_after, &SimulatedRun::porosity_after));
+      not_said.push_back(without_loading(c, "thickness is"));
+    }
     return;
   }
   Observable o = {"total porosity",
@@ -97,8 +91,8 @@ void porosity_after(const Experiment &e, const Condition &c, std::vector<Observa
                   "%",
                   c.porosity_after_percent->value,
                   c.porosity_after_percent->sd,
-                  [](const SimulatedRun &r) { return 100.0 * r.porosity_after; },
-                  [](const SimulatedRun &r) { return 100.0 * r.porosity_slope; }};
+                  value_of(&SimulatedRun::porosity_after, kPercent),
+                  value_of(&SimulatedRun::porosity_slope, kPercent)};
   o.per_porosity = percent;
   out.push_back(o);
   if (ratio)
@@ -120,32 +114,23 @@ void under_load(const Experiment &e, const Condition &c, std::vector<Observable>
                 std::vector<std::string> &not_said) {
   if (!by_pressure(c) && c.max_pressure_MPa)
     out.push_back({"maximum pressure", "compression", "MPa", c.max_pressure_MPa->value,
-                   c.max_pressure_MPa->sd, [](const SimulatedRun &r) { return r.max_pressure; },
-                   none});
+                   c.max_pressure_MPa->sd, value_of(&SimulatedRun::max_pressure), none});
   const std::optional<Measured> loading = loading_of(e, c);
   if (by_pressure(c) && c.thickness_at_max_um && loading) {
     out.push_back(thickness_ratio(e, *c.thickness_at_max_um, *loading, "compression",
                                   &SimulatedRun::thickness_at_max));
   } else if (by_pressure(c) && c.thickness_at_max_um) {
-    out.push_back({"thickness", "compression", "um", c.thickness_at_max_um->value,
-                   c.thickness_at_max_um->sd,
-                   [](const SimulatedRun &r) { return r.thickness_at_max; },
-                   [](const SimulatedRun &r) {
-                     return r.porosity_slope * r.thickness_at_max / (1.0 - r.porosity_at_max);
-                   }});
-    out.back().per_porosity = [](const SimulatedRun &r) {
-      return r.thickness_at_max / (1.0 - r.porosity_at_max);
-    };
+    out.push_back(thickness_in_um(e, *c.thickness_at_max_um, "compression",
+                                  &SimulatedRun::thickness_at_max, &SimulatedRun::porosity_at_max));
     not_said.push_back(without_loading(c, "thickness is"));
   }
   if (c.cracked_bodies_fraction)
     out.push_back({"cracked bodies", "compression", "fraction", c.cracked_bodies_fraction->value,
-                   c.cracked_bodies_fraction->sd,
-                   [](const SimulatedRun &r) { return r.cracked_fraction; }, none});
+                   c.cracked_bodies_fraction->sd, value_of(&SimulatedRun::cracked_fraction), none});
   if (c.pressure_left_percent) {
     out.push_back({"pressure left", kDwell, "%", c.pressure_left_percent->value,
-                   c.pressure_left_percent->sd,
-                   [](const SimulatedRun &r) { return 100.0 * r.pressure_left; }, none});
+                   c.pressure_left_percent->sd, value_of(&SimulatedRun::pressure_left, kPercent),
+                   none});
     out.back().why_none = [](const SimulatedRun &) { return "its platen does not rest"; };
   }
   if (c.cbd_nanoporosity_after_percent)

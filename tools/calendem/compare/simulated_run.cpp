@@ -49,26 +49,10 @@ void read_summary(RunFolder &folder, SimulatedRun &run, Mistakes &mistakes) {
     run.imposed = s["imposed"].value("what", "something that this version does not know");
   const double bodies = number("bodies");
   run.cracked_fraction = bodies > 0.0 ? number("cracked_bodies") / bodies : 0.0;
-  const auto if_there = [&](const char *key) { // the mean of a sample's cells has none
-    return s.contains(key) && s[key].is_number() ? s[key].get<double>() : NAN;
-  };
-  run.broken_fraction = if_there("broken_fraction_after");
-  run.cbd_nanoporosity = if_there("cbd_nanoporosity_after");
+  run.broken_fraction =
+      number_in(s, "broken_fraction_after"); // the mean of a sample's cells has none
+  run.cbd_nanoporosity = number_in(s, "cbd_nanoporosity_after");
   run.solid_column = number("thickness_at_max_um") * (1.0 - run.porosity_at_max);
-}
-
-/// Reads it from structure.json, if the run was measured.
-double inverse_tortuosity(RunFolder &folder) {
-  if (!folder.has("structure.json"))
-    return NAN;
-  for (const auto &moment :
-       folder.object("structure.json").value("moments", nlohmann::json::array())) {
-    const nlohmann::json through =
-        moment.value("/tortuosity/through_plane"_json_pointer, nlohmann::json::object());
-    if (moment.value("moment", "") == "after" && through.contains("effective_diffusivity"))
-      return through.value("effective_diffusivity", NAN) / through.value("porosity", NAN);
-  }
-  return NAN;
 }
 
 } // namespace
@@ -120,15 +104,12 @@ SimulatedRun read_simulated_run(const std::string &path) {
   mistakes.stop_if_any();
   const Settings settings = folder.settings();
   read_curve(folder, settings.number("platen.dwell_us") > 0.0, run, mistakes);
-  run.inverse_tortuosity = inverse_tortuosity(folder);
+  run.inverse_tortuosity = folder.inverse_tortuosity("after");
   if (const auto &electrode = folder.object("electrode.json", mistakes); electrode.is_object()) {
     // a packing made twice took other times, but is the same
     run.electrode_hash =
         electrode.value("identity", hash_of_file(folder.path_of("electrode.json")));
-    const nlohmann::json recipe = electrode.value("recipe", nlohmann::json::object());
-    for (const auto &[key, value] : recipe.items())
-      if (value.is_string())
-        run.recipe[key] = value;
+    run.recipe = recipe_in(electrode);
   }
   mistakes.stop_if_any();
   run.way = fmt::format("platen.presses = {}, dwell_us = {}, speed_m_s = {}",

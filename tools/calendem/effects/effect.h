@@ -117,6 +117,15 @@ struct Effect {
   }
 };
 
+/// Begins a row: its name, its layer, and what it is.
+inline Effect effect(const std::string &name, const std::string &layer, const std::string &what) {
+  Effect e;
+  e.name = name;
+  e.layer = layer;
+  e.what = what;
+  return e;
+}
+
 /// The parameter of an effect: keys that exist already, or its own.
 inline EffectParameter strength(std::vector<std::string> keys, std::string off) {
   EffectParameter parameter;

@@ -8,10 +8,8 @@
 namespace calendem {
 
 inline Effect weibull_strength() {
-  Effect e;
-  e.name = "weibull_strength";
-  e.layer = "bond";
-  e.what = "the strength of bonds has a Weibull distribution with the same mean";
+  Effect e = effect("weibull_strength", "bond",
+                    "the strength of bonds has a Weibull distribution with the same mean");
   e.parameter = strength({"bond.weibull_modulus"}, "0").log_uniform(1.5, 10).in_reciprocal();
   e.moves = "breaks begin earlier and are spread over more of the curve; porosity hardly changes";
   e.source = "Weibull 1951; a modulus of 3-8 is an unsourced prior for NMC, widened here";
@@ -21,13 +19,9 @@ inline Effect weibull_strength() {
 }
 
 inline Effect pre_cracks() {
-  Effect e;
-  e.name = "pre_cracks";
-  e.layer = "bond";
-  e.what = "a fraction of the bonds has no strength from the start";
-  e.settings = {setting("effects.pre_cracks.fraction", "pre_cracks", "0")
-                    .range(0, 0.9)
-                    .means("fraction of the bonds without strength")};
+  Effect e = effect("pre_cracks", "bond", "a fraction of the bonds has no strength from the start");
+  e.settings = {number("effects.pre_cracks.fraction", "pre_cracks", "0", 0, 0.9, "",
+                       "fraction of the bonds without strength")};
   e.parameter = strength(e.settings[0]).log_uniform(0.02, 0.5);
   e.bond_law = "pre_cracks";
   e.moves = "bodies are weaker from the first load on: lower pressure at a displacement, more "
@@ -39,13 +33,10 @@ inline Effect pre_cracks() {
 }
 
 inline Effect body_scatter() {
-  Effect e;
-  e.name = "body_scatter";
-  e.layer = "bond";
-  e.what = "the strength of whole bodies has a lognormal distribution with mean 1";
-  e.settings = {setting("effects.body_scatter.sd_ln", "body_scatter", "0")
-                    .range(0, 1)
-                    .means("standard deviation of the logarithm of strength; seed: bond.seed")};
+  Effect e = effect("body_scatter", "bond",
+                    "the strength of whole bodies has a lognormal distribution with mean 1");
+  e.settings = {number("effects.body_scatter.sd_ln", "body_scatter", "0", 0, 1, "",
+                       "standard deviation of the logarithm of strength; seed: bond.seed")};
   e.parameter = strength(e.settings[0]).log_uniform(0.1, 0.8);
   e.bond_law = "body_scatter";
   e.moves = "some bodies break early and others not at all: breaks are spread over the curve, and "
@@ -58,17 +49,13 @@ inline Effect body_scatter() {
 }
 
 inline Effect body_size() {
-  Effect e;
-  e.name = "body_size";
-  e.layer = "bond";
-  e.what = "large bodies are weaker: strength follows a power law of the diameter";
+  Effect e = effect("body_size", "bond",
+                    "large bodies are weaker: strength follows a power law of the diameter");
   e.settings = {
-      setting("effects.body_size.exponent", "body_size_exponent", "0")
-          .range(0, 3)
-          .means("exponent a in strength ~ d^-a; 3/m for a Weibull modulus m; 0: no effect"),
-      setting("effects.body_size.reference_um", "body_reference_um", "4.35")
-          .range(0.1, 100, "um")
-          .means("diameter of a body of unchanged strength; the recipe's particles.median_um")};
+      number("effects.body_size.exponent", "body_size_exponent", "0", 0, 3, "",
+             "exponent a in strength ~ d^-a; 3/m for a Weibull modulus m; 0: no effect"),
+      number("effects.body_size.reference_um", "body_reference_um", "4.35", 0.1, 100, "um",
+             "diameter of a body of unchanged strength; the recipe's particles.median_um")};
   e.parameter = strength(e.settings[0]).log_uniform(0.2, 2);
   e.bond_law = "body_size";
   e.moves = "breaks begin earlier, in the largest bodies; small bodies stay whole";

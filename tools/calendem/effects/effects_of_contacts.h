@@ -24,10 +24,8 @@ inline std::vector<std::pair<Phase, Phase>> all_of_cbd() {
 }
 
 inline Effect friction() {
-  Effect e;
-  e.name = "friction";
-  e.layer = "contact";
-  e.what = "Coulomb friction between particles at a realistic level";
+  Effect e =
+      effect("friction", "contact", "Coulomb friction between particles at a realistic level");
   e.parameter = strength({"material.am.friction", "material.cbd.friction"}, "0.001")
                     .uniform(0.05, 0.6)
                     .with_power(0.7);
@@ -40,15 +38,12 @@ inline Effect friction() {
 }
 
 inline Effect nmc_plasticity() {
-  Effect e;
-  e.name = "nmc_plasticity";
-  e.layer = "contact";
-  e.what =
-      "contacts of primaries yield at a limiting pressure: elastic-plastic, with stiff unloading";
+  Effect e = effect(
+      "nmc_plasticity", "contact",
+      "contacts of primaries yield at a limiting pressure: elastic-plastic, with stiff unloading");
   e.settings = {
-      setting("effects.nmc_plasticity.yield_pressure_GPa", "nmc_yield_GPa", "0")
-          .range(0, 1000, "GPa")
-          .means("limit of the contact pressure between bodies and at the platen; 0: elastic"),
+      number("effects.nmc_plasticity.yield_pressure_GPa", "nmc_yield_GPa", "0", 0, 1000, "GPa",
+             "limit of the contact pressure between bodies and at the platen; 0: elastic"),
       hardening("effects.nmc_plasticity.hardening_GPa", "nmc_yield_hardening_GPa")};
   e.parameter = strength(e.settings[0]).log_uniform(1.5, 12).in_reciprocal().with_power(0);
   e.contact = {&kContactLaw<PlasticContact>, {{Phase::Am, Phase::Am}, {Phase::Am, Phase::Platen}}};
@@ -61,30 +56,21 @@ inline Effect nmc_plasticity() {
 }
 
 inline Effect cbd_collapse() {
-  Effect e;
-  e.name = "cbd_collapse";
-  e.layer = "contact";
-  e.what = "nanopores of the carbon-binder domain collapse permanently under pressure";
+  Effect e = effect("cbd_collapse", "contact",
+                    "nanopores of the carbon-binder domain collapse permanently under pressure");
   const std::string at = "effects.cbd_collapse.";
   e.settings = {
-      setting(at + "yield_pressure_MPa", "cbd_yield_MPa", "0")
-          .range(0, 1e5, "MPa")
-          .means(
-              "mean pressure on a CBD sphere at which its nanopores begin to collapse; 0: never"),
-      setting(at + "hardening_MPa", "cbd_hardening_MPa", "50")
-          .range(0.1, 1e5, "MPa")
-          .means("pressure scale of the decrease above the yield pressure"),
-      setting(at + "initial_nanoporosity", "cbd_initial_phi", "0.5")
-          .range(0, 0.95, "fraction")
-          .means(
-              "nanoporosity at the start; must agree with the recipe's cbd.nanoporosity_percent"),
-      setting(at + "floor_nanoporosity", "cbd_floor_phi", "0.27")
-          .range(0, 0.95, "fraction")
-          .means("lower limit of the nanoporosity"),
-      setting(at + "relaxation_us", "cbd_collapse_us", "0.1")
-          .range(1e-3, 1e3, "us")
-          .means("time constant with which nanopores follow their pressure; a few transits of a "
-                 "pressure wave"),
+      number(at + "yield_pressure_MPa", "cbd_yield_MPa", "0", 0, 1e5, "MPa",
+             "mean pressure on a CBD sphere at which its nanopores begin to collapse; 0: never"),
+      number(at + "hardening_MPa", "cbd_hardening_MPa", "50", 0.1, 1e5, "MPa",
+             "pressure scale of the decrease above the yield pressure"),
+      number(at + "initial_nanoporosity", "cbd_initial_phi", "0.5", 0, 0.95, "fraction",
+             "nanoporosity at the start; must agree with the recipe's cbd.nanoporosity_percent"),
+      number(at + "floor_nanoporosity", "cbd_floor_phi", "0.27", 0, 0.95, "fraction",
+             "lower limit of the nanoporosity"),
+      number(at + "relaxation_us", "cbd_collapse_us", "0.1", 1e-3, 1e3, "us",
+             "time constant with which nanopores follow their pressure; a few transits of a "
+             "pressure wave"),
       setting(at + "every_steps", "cbd_collapse_steps", "50")
           .range(1, 1e6, "steps")
           .is_whole()
@@ -103,17 +89,13 @@ inline Effect cbd_collapse() {
 }
 
 inline Effect cbd_viscoelasticity() {
-  Effect e;
-  e.name = "cbd_viscoelasticity";
-  e.layer = "contact";
-  e.what = "contacts with the carbon-binder domain relax (Prony series of one term)";
+  Effect e = effect("cbd_viscoelasticity", "contact",
+                    "contacts with the carbon-binder domain relax (Prony series of one term)");
   e.settings = {
-      setting("effects.cbd_viscoelasticity.relaxed_fraction", "cbd_relaxed_fraction", "0")
-          .range(0, 0.95, "fraction")
-          .means("fraction of the stiffness of contacts with CBD that relaxes; 0: elastic"),
-      setting("effects.cbd_viscoelasticity.time_us", "cbd_relaxation_us", "1")
-          .range(1e-3, 1e6, "us")
-          .means("relaxation time, in the time of the simulation, see platen.speed_m_s")};
+      number("effects.cbd_viscoelasticity.relaxed_fraction", "cbd_relaxed_fraction", "0", 0, 0.95,
+             "fraction", "fraction of the stiffness of contacts with CBD that relaxes; 0: elastic"),
+      number("effects.cbd_viscoelasticity.time_us", "cbd_relaxation_us", "1", 1e-3, 1e6, "us",
+             "relaxation time, in the time of the simulation, see platen.speed_m_s")};
   e.parameter = strength(e.settings[0]).uniform(0.05, 0.35);
   e.contact = {&kContactLaw<ViscousContact>, all_of_cbd()};
   e.moves = "pressure depends on speed and decays during a dwell; springback is delayed";
@@ -124,25 +106,21 @@ inline Effect cbd_viscoelasticity() {
 }
 
 inline Effect cbd_plasticity() {
-  Effect e;
-  e.name = "cbd_plasticity";
-  e.layer = "contact";
-  e.what = "contacts with the carbon-binder domain yield at a limiting pressure, and may harden";
+  Effect e =
+      effect("cbd_plasticity", "contact",
+             "contacts with the carbon-binder domain yield at a limiting pressure, and may harden");
   const std::string at = "effects.cbd_plasticity.";
   e.settings = {
-      setting(at + "yield_pressure_GPa", "cbd_contact_yield_GPa", "0")
-          .range(0, 1000, "GPa")
-          .means("limit of the contact pressure of CBD on all phases and walls; 0: elastic"),
+      number(at + "yield_pressure_GPa", "cbd_contact_yield_GPa", "0", 0, 1000, "GPa",
+             "limit of the contact pressure of CBD on all phases and walls; 0: elastic"),
       hardening(at + "hardening_GPa", "cbd_contact_hardening_GPa"),
-      setting(at + "beyond_cohesion", "cbd_beyond_cohesion", "0")
-          .range(0, 1, "fraction")
-          .means("part of the pressure of cohesion, 2 c_CED, that the limit leaves out; 0: the "
-                 "limit is of the whole contact pressure; 1: of what a contact carries beyond "
-                 "cohesion, as an indenter measures it"),
-      setting(at + "flattening", "cbd_flattening", "1")
-          .range(0, 1, "fraction")
-          .means("how a sphere's contact with a wall widens as it gets deep; 1: as the sphere's "
-                 "volume demands; 0: no more than a shallow one's, so that it may sink through")};
+      number(at + "beyond_cohesion", "cbd_beyond_cohesion", "0", 0, 1, "fraction",
+             "part of the pressure of cohesion, 2 c_CED, that the limit leaves out; 0: the limit "
+             "is of the whole contact pressure; 1: of what a contact carries beyond cohesion, as "
+             "an indenter measures it"),
+      number(at + "flattening", "cbd_flattening", "1", 0, 1, "fraction",
+             "how a sphere's contact with a wall widens as it gets deep; 1: as the sphere's volume "
+             "demands; 0: no more than a shallow one's, so that it may sink through")};
   e.parameter = strength(e.settings[0]).log_uniform(0.55, 3).in_reciprocal().with_power(0);
   e.contact = {&kContactLaw<PlasticContact>, all_of_cbd()};
   e.moves =
@@ -157,25 +135,19 @@ inline Effect cbd_plasticity() {
 }
 
 inline Effect cbd_ductility() {
-  Effect e;
-  e.name = "cbd_ductility";
-  e.layer = "contact";
-  e.what = "carbon-binder domain flows under its hardness, keeps its volume, and resists with its "
-           "bulk modulus where it has filled its surroundings";
+  Effect e = effect("cbd_ductility", "contact",
+                    "carbon-binder domain flows under its hardness, keeps its volume, and resists "
+                    "with its bulk modulus where it has filled its surroundings");
   const std::string at = "effects.cbd_ductility.";
   e.settings = {
-      setting(at + "hardness_GPa", "cbd_hardness_GPa", "0")
-          .range(0, 1000, "GPa")
-          .means("indentation hardness of CBD, at its contacts with all phases and walls; 0: "
-                 "elastic"),
-      setting(at + "bulk_modulus_GPa", "cbd_full_GPa", "1.7")
-          .range(1e-3, 1000, "GPa")
-          .means("bulk modulus of a sphere without free surface; 1.7: E/3(1 - 2 nu) of 2 GPa and "
-                 "nu = 0.3"),
-      setting(at + "beyond_cohesion", "cbd_hardness_beyond_cohesion", "1")
-          .range(0, 1, "fraction")
-          .means("part of the pressure of cohesion that comes on top of the hardness; 1: an "
-                 "indenter that does not stick has measured it")};
+      number(at + "hardness_GPa", "cbd_hardness_GPa", "0", 0, 1000, "GPa",
+             "indentation hardness of CBD, at its contacts with all phases and walls; 0: elastic"),
+      number(at + "bulk_modulus_GPa", "cbd_full_GPa", "1.7", 1e-3, 1000, "GPa",
+             "bulk modulus of a sphere without free surface; 1.7: E/3(1 - 2 nu) of 2 GPa and nu = "
+             "0.3"),
+      number(at + "beyond_cohesion", "cbd_hardness_beyond_cohesion", "1", 0, 1, "fraction",
+             "part of the pressure of cohesion that comes on top of the hardness; 1: an indenter "
+             "that does not stick has measured it")};
   e.parameter = strength(e.settings[0]).log_uniform(0.02, 0.4).in_reciprocal().with_power(0);
   e.contact = {&kContactLaw<DuctileContact>, all_of_cbd()};
   e.moves = "lower pressure where CBD carries load, until it has filled its pores, and little "
@@ -192,18 +164,13 @@ inline Effect cbd_ductility() {
 /// Contacts at large overlap; `most`, `least`: of the prior [GPa].
 inline Effect confinement(const std::string &phase, const std::string &what, double least,
                           double most) {
-  Effect e;
-  e.name = phase + "_confinement";
-  e.layer = "contact";
-  e.what = what;
+  Effect e = effect(phase + "_confinement", "contact", what);
   const std::string at = "effects." + e.name + ".";
   e.settings = {
-      setting(at + "bulk_modulus_GPa", phase + "_bulk_GPa", "0")
-          .range(0, 1000, "GPa")
-          .means("bulk modulus of a sphere confined by its contacts; 0: Hertz at any overlap"),
-      setting(at + "free_surface", phase + "_free_surface", "0.5")
-          .range(0.01, 0.99, "fraction")
-          .means("free fraction of the sphere's surface at which its bulk begins to resist")};
+      number(at + "bulk_modulus_GPa", phase + "_bulk_GPa", "0", 0, 1000, "GPa",
+             "bulk modulus of a sphere confined by its contacts; 0: Hertz at any overlap"),
+      number(at + "free_surface", phase + "_free_surface", "0.5", 0.01, 0.99, "fraction",
+             "free fraction of the sphere's surface at which its bulk begins to resist")};
   e.parameter = strength(e.settings[0]).log_uniform(least, most);
   e.moves =
       "higher pressure at high density, where overlaps are large, and more springback from there";
@@ -233,14 +200,11 @@ inline Effect nmc_confinement() {
 }
 
 inline Effect collector_indentation() {
-  Effect e;
-  e.name = "collector_indentation";
-  e.layer = "boundary";
-  e.what = "primaries indent the collector above a limiting pressure";
-  e.settings = {
-      setting("effects.collector_indentation.yield_pressure_GPa", "collector_yield_GPa", "0")
-          .range(0, 1000, "GPa")
-          .means("limit of the contact pressure of bodies on the collector; 0: elastic")};
+  Effect e = effect("collector_indentation", "boundary",
+                    "primaries indent the collector above a limiting pressure");
+  e.settings = {number("effects.collector_indentation.yield_pressure_GPa", "collector_yield_GPa",
+                       "0", 0, 1000, "GPa",
+                       "limit of the contact pressure of bodies on the collector; 0: elastic")};
   e.parameter = strength(e.settings[0]).log_uniform(0.1, 1.5).in_reciprocal();
   e.contact = {&kContactLaw<PlasticContact>, {{Phase::Am, Phase::Collector}}};
   e.moves = "a permanent offset of some tenths of a micrometre; fewer breaks near the collector";
@@ -259,30 +223,23 @@ inline Key bridge_strength(const std::string &phase, const std::string &meaning)
 }
 
 inline Effect binder_bridges() {
-  Effect e;
-  e.name = "binder_bridges";
-  e.layer = "contact";
-  e.what = "the binder connects CBD to CBD, active material and collector by bonds that can break";
+  Effect e = effect(
+      "binder_bridges", "contact",
+      "the binder connects CBD to CBD, active material and collector by bonds that can break");
   const std::string at = "effects.binder_bridges.";
   e.settings = {
-      setting(at + "strength_MPa", "bridge_MPa", "0")
-          .range(0, 1000, "MPa")
-          .means("tensile strength of bridges from CBD to CBD; 0: none"),
+      number(at + "strength_MPa", "bridge_MPa", "0", 0, 1000, "MPa",
+             "tensile strength of bridges from CBD to CBD; 0: none"),
       bridge_strength("am", "tensile strength of bridges from CBD to active material"),
       bridge_strength("collector", "tensile strength of bridges from CBD to the collector"),
-      setting(at + "shear_ratio", "bridge_shear_ratio", "2")
-          .range(0.1, 10)
-          .means("shear strength divided by tensile strength of a bridge"),
-      setting(at + "modulus_GPa", "bridge_GPa", "1")
-          .range(0.01, 100, "GPa")
-          .means("modulus of a bridge"),
-      setting(at + "radius_ratio", "bridge_radius_ratio", "0.5")
-          .range(0.05, 1.5)
-          .means("radius of a bridge divided by the smaller radius of its spheres (on the "
-                 "collector, by that of the sphere)"),
-      setting(at + "gap_um", "bridge_gap_um", "0.02")
-          .range(0, BinderBridges::kMostGap, "um")
-          .means("largest gap between spheres that is bridged at the start")};
+      number(at + "shear_ratio", "bridge_shear_ratio", "2", 0.1, 10, "",
+             "shear strength divided by tensile strength of a bridge"),
+      number(at + "modulus_GPa", "bridge_GPa", "1", 0.01, 100, "GPa", "modulus of a bridge"),
+      number(at + "radius_ratio", "bridge_radius_ratio", "0.5", 0.05, 1.5, "",
+             "radius of a bridge divided by the smaller radius of its spheres (on the collector, "
+             "by that of the sphere)"),
+      number(at + "gap_um", "bridge_gap_um", "0.02", 0, BinderBridges::kMostGap, "um",
+             "largest gap between spheres that is bridged at the start")};
   e.parameter = strength(e.settings[0]).log_uniform(1, 25);
   for (const char *key : {"strength_MPa", "am_strength_MPa", "collector_strength_MPa"}) {
     e.relations.push_back({at + key, Relation::Is::AtMost, at + "modulus_GPa",

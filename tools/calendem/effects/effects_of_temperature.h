@@ -23,14 +23,12 @@ inline bool softens(const std::string &key) {
 }
 
 inline Effect cbd_softening() {
-  Effect e;
-  e.name = "cbd_softening";
-  e.layer = "boundary";
-  e.what = "warm rolls or platens soften the carbon-binder domain";
-  e.settings = {setting(kTemperature, "temperature_C", "25")
-                    .range(CbdSoftening::kColdest, CbdSoftening::kHottest, "C")
-                    .means("temperature of rolls or platen, and of the film; the values of the "
-                           "material are those at 25")};
+  Effect e =
+      effect("cbd_softening", "boundary", "warm rolls or platens soften the carbon-binder domain");
+  e.settings = {number(kTemperature, "temperature_C", "25", CbdSoftening::kColdest,
+                       CbdSoftening::kHottest, "C",
+                       "temperature of rolls or platen, and of the film; the values of the "
+                       "material are those at 25")};
   e.parameter = strength(e.settings[0]).uniform(40, 100);
   e.moves = "lower pressure at a displacement and a denser film, the more the more carbon-binder "
             "there is; with a law of yield or collapse less springback";

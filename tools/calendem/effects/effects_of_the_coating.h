@@ -9,14 +9,11 @@
 namespace calendem {
 
 inline Effect cbd_gradient() {
-  Effect e;
-  e.name = "cbd_gradient";
-  e.layer = "coating";
-  e.what = "more carbon-binder domain at one side of the coating than at the other";
+  Effect e = effect("cbd_gradient", "coating",
+                    "more carbon-binder domain at one side of the coating than at the other");
   e.settings = {
-      setting("effects.cbd_gradient.slope", "", "0")
-          .range(-1, 1)
-          .means("CBD content at the surface minus that at the collector, divided by their sum")};
+      number("effects.cbd_gradient.slope", "", "0", -1, 1, "",
+             "CBD content at the surface minus that at the collector, divided by their sum")};
   e.parameter = strength(e.settings[0]).uniform(-0.6, 0.9);
   e.in_recipe = true;
   e.moves = "profiles of carbon-binder and porosity over the height, before and after";
@@ -28,17 +25,15 @@ inline Effect cbd_gradient() {
 }
 
 inline Effect drying_stress() {
-  Effect e;
-  e.name = "drying_stress";
-  e.layer = "coating";
-  e.what = "the binder has shrunk on the foil: binder bridges are under tension before the press";
-  e.settings = {setting("effects.drying_stress.shrinkage", "drying_shrinkage", "0")
-                    .range(0, DryingShrinkage::kMost)
-                    .means("relative shrinkage of the length of binder bridges; 0: none"),
-                setting("effects.drying_stress.time_us", "drying_us", "0.5")
-                    .range(0.01, 100, "us")
-                    .means("time in which they shrink; they then rest for the same time before the "
-                           "platen starts")};
+  Effect e = effect(
+      "drying_stress", "coating",
+      "the binder has shrunk on the foil: binder bridges are under tension before the press");
+  e.settings = {
+      number("effects.drying_stress.shrinkage", "drying_shrinkage", "0", 0, DryingShrinkage::kMost,
+             "", "relative shrinkage of the length of binder bridges; 0: none"),
+      number(
+          "effects.drying_stress.time_us", "drying_us", "0.5", 0.01, 100, "us",
+          "time in which they shrink; they then rest for the same time before the platen starts")};
   e.parameter = strength(e.settings[0]).log_uniform(0.001, 0.02);
   e.relations = {{e.settings[0].name, Relation::Is::Needs, "effects.binder_bridges.strength_MPa",
                   "only binder bridges can shrink"}};

@@ -8,13 +8,11 @@
 namespace calendem {
 
 inline Effect machine_compliance() {
-  Effect e;
-  e.name = "machine_compliance";
-  e.layer = "boundary";
-  e.what = "frame and rolls deflect in proportion to the pressure";
-  e.settings = {setting("effects.machine_compliance.um_per_MPa", "compliance_um_MPa", "0")
-                    .range(0, 1, "um/MPa")
-                    .means("deflection of frame and rolls, included in the displacement shown")};
+  Effect e = effect("machine_compliance", "boundary",
+                    "frame and rolls deflect in proportion to the pressure");
+  e.settings = {number("effects.machine_compliance.um_per_MPa", "compliance_um_MPa", "0", 0, 1,
+                       "um/MPa",
+                       "deflection of frame and rolls, included in the displacement shown")};
   e.parameter = strength(e.settings[0]).log_uniform(0.005, 0.2);
   e.shown = &PressInstruments::compliance;
   e.instrument = true;
@@ -27,13 +25,10 @@ inline Effect machine_compliance() {
 }
 
 inline Effect pressure_calibration() {
-  Effect e;
-  e.name = "pressure_calibration";
-  e.layer = "measurement";
-  e.what = "the pressure shown is the true pressure times a factor";
-  e.settings = {setting("effects.pressure_calibration.factor", "pressure_factor", "1")
-                    .range(0.2, 5)
-                    .means("pressure shown divided by true pressure")};
+  Effect e = effect("pressure_calibration", "measurement",
+                    "the pressure shown is the true pressure times a factor");
+  e.settings = {number("effects.pressure_calibration.factor", "pressure_factor", "1", 0.2, 5, "",
+                       "pressure shown divided by true pressure")};
   e.parameter = strength(e.settings[0]).log_uniform(0.6, 1.6).in_logarithm();
   e.shown = &PressInstruments::pressure_factor;
   e.moves = "scales the pressure axis of every curve, and nothing else";
@@ -45,13 +40,9 @@ inline Effect pressure_calibration() {
 }
 
 inline Effect thickness_zero() {
-  Effect e;
-  e.name = "thickness_zero";
-  e.layer = "measurement";
-  e.what = "the thickness shown has a constant error";
-  e.settings = {setting("effects.thickness_zero.offset_um", "", "0")
-                    .range(-50, 50, "um")
-                    .means("added to the thickness shown")};
+  Effect e = effect("thickness_zero", "measurement", "the thickness shown has a constant error");
+  e.settings = {number("effects.thickness_zero.offset_um", "", "0", -50, 50, "um",
+                       "added to the thickness shown")};
   e.parameter = strength(e.settings[0]).uniform(-6, 6);
   e.shown = &PressInstruments::thickness_zero;
   e.instrument = true;

@@ -40,7 +40,7 @@ private:
   }
 };
 
-/// Begins a row that names what it sets: setting("bond.damping", ...).range(0, 1).means("...").
+/// Begins a row that names what it sets: setting("bond.seed", ...).range(0, 4e9).is_whole().means("...").
 /// @param variable of the script @param fallback its default; "": the key is required
 inline Key setting(const std::string &name, const std::string &variable = "",
                    const std::string &fallback = "") {
@@ -49,6 +49,12 @@ inline Key setting(const std::string &name, const std::string &variable = "",
   key.variable = variable;
   key.fallback = fallback;
   return key;
+}
+
+/// A row of a number: its range in `unit`, and what it means.
+inline Key number(const std::string &name, const std::string &variable, const std::string &fallback,
+                  double low, double high, const std::string &unit, const std::string &meaning) {
+  return setting(name, variable, fallback).range(low, high, unit).means(meaning);
 }
 
 } // namespace calendem

@@ -16,12 +16,10 @@ std::size_t first_contact(const std::string &file, const std::vector<double> &p,
     if (std::all_of(p.begin() + long(k), p.begin() + long(k + kRows),
                     [&](double v) { return v > contact; }))
       return k;
-  throw Failure(
-      kBadInput,
-      fmt::format("{}: the pressure never stays above {:g} MPa, where contact is taken to "
-                  "begin; its highest is {:.4g}. Are force, unit and diameter right? Else "
-                  "give --contact-MPa.",
-                  file, contact, *std::max_element(p.begin(), p.end())));
+  throw Failure(kBadInput,
+                "{}: the pressure never stays above {:g} MPa, where contact is taken to begin; its "
+                "highest is {:.4g}. Are force, unit and diameter right? Else give --contact-MPa.",
+                file, contact, *std::max_element(p.begin(), p.end()));
 }
 
 /// Loading up to each maximum of the pressure behind which the platen goes back, unloading down to
@@ -31,11 +29,9 @@ void find_stages(PressCurve &c) {
   bool loading = true;
   std::size_t extreme = 0;
   c.stage.assign(c.pressure.size(), "loading");
-  c.cycle.assign(c.pressure.size(), 1);
   for (std::size_t k = 1; k < c.pressure.size(); ++k) {
     const double beyond = (loading ? 1.0 : -1.0) * (c.pressure[k] - c.pressure[extreme]);
     c.stage[k] = c.stage[k - 1];
-    c.cycle[k] = c.cycle[k - 1];
     if (beyond > 0.0)
       extreme = k;
     const bool back = (c.displacement[k] < c.displacement[extreme]) == loading;
@@ -44,8 +40,6 @@ void find_stages(PressCurve &c) {
     loading = !loading;
     std::fill(c.stage.begin() + long(extreme) + 1, c.stage.begin() + long(k) + 1,
               loading ? "loading" : "unloading");
-    std::fill(c.cycle.begin() + long(extreme) + 1, c.cycle.begin() + long(k) + 1,
-              c.cycle[extreme] + loading);
     extreme = k;
   }
   for (std::size_t k = extreme + 1; k < c.pressure.size() && loading; ++k) // less than a turn
@@ -98,8 +92,7 @@ PressCurve make_press_curve(const std::string &file, const PressExport &from, do
     d = sign * (d - zero) + 0.0; // no -0
   if (c.stage.empty())
     find_stages(c);
-  else
-    count_cycles(c);
+  count_cycles(c);
   c.said.push_back(
       fmt::format("first contact in row {} at {:.3g} MPa{}; the displacement counts {}",
                   c.contact + 1, c.pressure.front(),
@@ -119,10 +112,9 @@ void subtract_machine(PressCurve &curve, const PressCurve &blank) {
   const double most = blank.highest();
   if (most < kShort * curve.highest())
     throw Failure(kBadInput,
-                  fmt::format("the blank run ends at {:.4g} MPa, the curve at {:.4g}: "
-                              "what the press gives way above is unknown. Press the blank "
-                              "as far.",
-                              most, curve.highest()));
+                  "the blank run ends at {:.4g} MPa, the curve at {:.4g}: what the press gives way "
+                  "above is unknown. Press the blank as far.",
+                  most, curve.highest());
   const double first = blank.pressure.front();
   const auto way = [&](double p) { // below the blank's first contact as steep as just above
     return p < first ? blank.displacement_at(2.0 * first) * (p - first) / first

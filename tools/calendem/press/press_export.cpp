@@ -102,11 +102,12 @@ public:
       : file_(file), format_(format),
         table_(CsvTable::parse_export(text_of_file(file), format.decimal)) {
     if (const std::string wrong = table_.ambiguous(); !wrong.empty())
-      refuse(wrong + (wrong.find("two ways") != std::string::npos ? " Or give --decimal." : ""));
+      refuse("{}{}", wrong,
+             wrong.find("two ways") != std::string::npos ? " Or give --decimal." : "");
     if (!table_.bad_lines().empty())
-      refuse(fmt::format("line {} has another number of columns than the others. Correct the line; "
-                         "numbers with decimal commas need other separators.",
-                         table_.bad_lines().front()));
+      refuse("line {} has another number of columns than the others. Correct the line; numbers "
+             "with decimal commas need other separators.",
+             table_.bad_lines().front());
     if (table_.rows() < 3)
       refuse("it has no rows of numbers. Give the press's export as text (CSV).");
   }
@@ -140,8 +141,9 @@ private:
   const PressFormat &format_;
   CsvTable table_;
 
-  [[noreturn]] void refuse(const std::string &what) const {
-    throw Failure(kBadInput, fmt::format("{}: {}", file_, what));
+  template <class... Values>
+  [[noreturn]] void refuse(fmt::format_string<Values...> what, Values &&...values) const {
+    throw Failure(kBadInput, "{}: {}", file_, fmt::format(what, std::forward<Values>(values)...));
   }
   std::string columns() const {
     std::string out;
@@ -160,8 +162,7 @@ private:
       return small(h).rfind(small(name), 0) == 0;
     });
     if (at == header.end())
-      refuse(fmt::format("there is no column '{}' for --{}; there are {}.", name, quantity,
-                         columns()));
+      refuse("there is no column '{}' for --{}; there are {}.", name, quantity, columns());
     return *at;
   }
 
@@ -191,18 +192,16 @@ private:
         found = candidates(k, false);
       if (found.size() > 1)
         refuse(
-            fmt::format("'{}' may each be the {}. Give --{} with the name or number of one of the "
-                        "columns {}.",
-                        fmt::join(found, "' and '"), quantity, quantity, columns()));
+            "'{}' may each be the {}. Give --{} with the name or number of one of the columns {}.",
+            fmt::join(found, "' and '"), quantity, quantity, columns());
       name = found.empty() ? "" : found.front();
     }
     if (name.empty() || k.units.empty())
       return {name, 1.0};
     const double factor = factor_of(k, unit.empty() ? unit_in(name) : unit);
     if (factor == 0.0)
-      refuse(fmt::format("the {}'s column '{}' has no unit that is known. Give --{} \"{}:{}\", or "
-                         "what it is.",
-                         quantity, name, quantity, name, k.units.front().first));
+      refuse("the {}'s column '{}' has no unit that is known. Give --{} \"{}:{}\", or what it is.",
+             quantity, name, quantity, name, k.units.front().first);
     return {name, factor};
   }
 
@@ -210,15 +209,14 @@ private:
                               std::vector<std::string> &said) const {
     const Column column = find(quantity);
     if (column.name.empty())
-      refuse(fmt::format("no column looks like the {}. Give --{} with the name or number of one of "
-                         "the columns {}, and its unit (2:mm).",
-                         quantity, quantity, columns()));
+      refuse("no column looks like the {}. Give --{} with the name or number of one of the columns "
+             "{}, and its unit (2:mm).",
+             quantity, quantity, columns());
     std::vector<double> out = table_.numbers(column.name);
     for (std::size_t k = 0; k < out.size(); ++k)
       if (out[k] *= column.factor / area; !std::isfinite(out[k]))
-        refuse(fmt::format(
-            "line {}: '{}' in column '{}' is not a number. Correct or remove the row.",
-            table_.line_of(k), table_.texts(column.name)[k].substr(0, 40), column.name));
+        refuse("line {}: '{}' in column '{}' is not a number. Correct or remove the row.",
+               table_.line_of(k), table_.texts(column.name)[k].substr(0, 40), column.name);
     said.push_back(fmt::format("{} from '{}'", quantity, column.name));
     return out;
   }
@@ -232,9 +230,9 @@ private:
                                        [&](const auto &s) { return has_part(text, s.second); });
       if (stage == std::end(kStages)) {
         if (format_.columns.count("stage") > 0)
-          refuse(fmt::format("'{}' in column '{}' is no name of a stage that is known (loading, "
-                             "dwell, unloading). Leave --stage out: stages follow from the force.",
-                             text.substr(0, 40), column));
+          refuse("'{}' in column '{}' is no name of a stage that is known (loading, dwell, "
+                 "unloading). Leave --stage out: stages follow from the force.",
+                 text.substr(0, 40), column);
         out.stage.clear();
         out.said.push_back(
             fmt::format("stages from the force, as '{}' is no name of one", text.substr(0, 40)));
@@ -250,7 +248,7 @@ private:
 
 PressExport read_press_export(const std::string &file, const PressFormat &format) {
   if (!std::filesystem::is_regular_file(file))
-    throw Failure(kBadInput, fmt::format("{}: no such file. Give the export of a press.", file));
+    throw Failure(kBadInput, "{}: no such file. Give the export of a press.", file);
   return Reader(file, format).read();
 }
 

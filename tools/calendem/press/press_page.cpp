@@ -10,35 +10,23 @@ extern const char *const kPressHtml;
 namespace {
 
 using report::Chart;
-using report::Series;
-
-Series line(const std::string &name, std::vector<double> x, std::vector<double> y, std::size_t look,
-            const char *dash = "") {
-  Series s;
-  s.name = name;
-  s.x = std::move(x);
-  s.y = std::move(y);
-  s.colour = report::kSeriesColours[look];
-  s.dash = dash;
-  return s;
-}
+using report::kSeriesColours;
+using report::line_through;
 
 Chart of_export(const PressExport &from, const PressCurve &curve) {
-  Chart chart{
-      "export", "What the press recorded", "Its position (µm)", "Pressure (MPa)", "", {}, {}, ""};
-  chart.series.push_back(line("all rows", from.displacement, from.pressure, 0));
-  Series contact =
-      line("first contact", {from.displacement[curve.contact]}, {from.pressure[curve.contact]}, 1);
-  contact.mark = report::Mark::points;
-  contact.symbol = report::Symbol::circle;
-  chart.series.push_back(contact);
-  return chart;
+  return {"export",
+          "What the press recorded",
+          "Its position (µm)",
+          "Pressure (MPa)",
+          "",
+          {line_through("all rows", from.displacement, from.pressure, kSeriesColours[0]),
+           report::points_at("first contact", {from.displacement[curve.contact]},
+                             {from.pressure[curve.contact]}, kSeriesColours[1],
+                             report::Symbol::circle)}};
 }
 
 Chart of_curve(const PressCurve &curve) {
-  Chart chart{
-      "curve", "The curve", "Displacement from first contact (µm)", "Pressure (MPa)", "", {},
-      {},      ""};
+  Chart chart{"curve", "The curve", "Displacement from first contact (µm)", "Pressure (MPa)"};
   std::size_t look = 0;
   for (const char *stage : {"loading", "dwell", "unloading"}) {
     std::vector<double> x, y;
@@ -48,7 +36,8 @@ Chart of_curve(const PressCurve &curve) {
         y.push_back(curve.pressure[k]);
       }
     if (!x.empty())
-      chart.series.push_back(line(stage, x, y, look, look == 0 ? "" : "9 4"));
+      chart.series.push_back(
+          line_through(stage, x, y, kSeriesColours[look], look == 0 ? "" : "9 4"));
     ++look;
   }
   if (curve.machine.empty())
@@ -56,8 +45,8 @@ Chart of_curve(const PressCurve &curve) {
   std::vector<double> x = curve.displacement;
   for (std::size_t k = 0; k < x.size(); ++k)
     x[k] += curve.machine[k];
-  chart.series.push_back(
-      line("before the press's own way was taken off", x, curve.pressure, 5, "2 3"));
+  chart.series.push_back(line_through("before the press's own way was taken off", x, curve.pressure,
+                                      kSeriesColours[5], "2 3"));
   return chart;
 }
 

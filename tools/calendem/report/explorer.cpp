@@ -34,13 +34,7 @@ private:
   std::vector<unsigned char> bytes_;
 };
 
-struct Frames {
-  Moment moment;
-  ParticleFrame particles;
-  BondFrame bonds;
-};
-
-void make_whole(Frames &f, const std::array<double, 2> &period) {
+void make_whole(FramesAt &f, const std::array<double, 2> &period) {
   const PeriodicUnwrapper unwrapper(f.particles, period);
   for (std::size_t i = 0; i < f.particles.centre.size(); ++i)
     f.particles.centre[i] = unwrapper.place(f.particles.centre[i], f.particles.body[i]);
@@ -50,7 +44,7 @@ void make_whole(Frames &f, const std::array<double, 2> &period) {
   }
 }
 
-json packed(const Frames &f, const Box &box) {
+json packed(const FramesAt &f, const Box &box) {
   Bytes xyz, radius, body, ends, owner, state;
   for (std::size_t i = 0; i < f.particles.centre.size(); ++i) {
     xyz.add(f.particles.centre[i], box);
@@ -88,21 +82,20 @@ json bodies_of(const std::string &directory) {
 json explorer_of(Run &run) {
   if (run.particles.empty() || run.bonds.empty())
     return {};
-  std::vector<Frames> all;
+  std::vector<FramesAt> all;
   Box box;
   for (const Moment &moment : moments_of(run)) {
-    all.push_back({moment, read_particles(closest(run.particles, moment.time_us).path, run.notes),
-                   read_bonds(closest(run.bonds, moment.time_us).path, run.notes)});
+    all.push_back(frames_at(run, moment));
     const std::array<double, 2> period = period_of(run, moment.time_us);
     if (period[0] > 0.0 && period[1] > 0.0)
       make_whole(all.back(), period);
     for (const Point &centre : all.back().particles.centre)
       box.include(centre);
   }
-  if (box.low[0] > box.high[0])
+  if (box.empty())
     return {};
   json out = {{"low", box.low}, {"high", box.high}, {"bodies", bodies_of(run.directory)}};
-  for (const Frames &f : all)
+  for (const FramesAt &f : all)
     out["moments"].push_back(packed(f, box));
   return out;
 }

@@ -4,71 +4,42 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <fmt/format.h>
 
 namespace calendem::report {
 namespace {
 
 using Columns = std::map<std::string, Column>;
 
-Chart axes(const char *id, const std::string &title, const char *x_label, const char *y_label) {
-  Chart chart;
-  chart.id = id;
-  chart.title = title;
-  chart.x_label = x_label;
-  chart.y_label = y_label;
-  return chart;
-}
-
-Series points(const std::string &name, const char *colour, Symbol symbol) {
-  Series series;
-  series.name = name;
-  series.mark = Mark::points;
-  series.colour = colour;
-  series.symbol = symbol;
-  return series;
-}
-
 struct Measure {
   const char *column, *name, *colour, *dash;
 };
 
 /// One line per run and measure over the rows of compression and dwell.
-std::vector<Series> against_pressure(const std::vector<Run> &runs,
-                                     const std::vector<Measure> &measures, bool per_body) {
-  std::vector<Series> all;
+void add_measures(Chart &chart, const std::vector<Run> &runs, const std::vector<Measure> &measures,
+                  bool per_body) {
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const Columns &c = runs[r].fracture.cracks;
     if (c.empty() || c.at("pressure_MPa").empty())
       continue;
-    const Column &p = c.at("pressure_MPa");
-    const std::size_t rows = std::max_element(p.begin(), p.end()) - p.begin() + 1;
+    const Column &p = c.at("pressure_MPa"), &bodies = c.at("bodies_with_bonds");
+    const auto end = std::max_element(p.begin(), p.end()) + 1;
     for (const Measure &m : measures) {
-      Series line;
-      line.name = (runs.size() == 1 ? "" : runs[r].name + ": ") + m.name;
-      line.colour = runs.size() == 1 ? m.colour : kSeriesColours[r % kSeriesColours.size()];
-      line.dash = m.dash;
-      for (std::size_t i = 0; i < rows; ++i) {
-        const double bodies = c.at("bodies_with_bonds")[i];
-        const double value = c.at(m.column)[i];
-        line.x.push_back(p[i]);
-        line.y.push_back(per_body ? (bodies > 0 ? kPercent * value / bodies : 0.0) : value);
-      }
-      all.push_back(std::move(line));
+      Column value = c.at(m.column);
+      value.resize(std::size_t(end - p.begin()));
+      for (std::size_t i = 0; per_body && i < value.size(); ++i)
+        value[i] = bodies[i] > 0 ? kPercent * value[i] / bodies[i] : 0.0;
+      add_line(chart, runs, r, m.name, {p.begin(), end}, value, m.colour, m.dash).symbol =
+          Symbol::none;
     }
   }
-  return all;
-}
-
-std::string titled(const std::string &title, const Run &run, bool single) {
-  return single ? title : title + ": " + run.name;
 }
 
 /// Apart and whole bodies as two kinds of points; x and y of a row of bodies.csv.
 template <typename X, typename Y> std::vector<Series> body_points(const Run &run, X x_of, Y y_of) {
   const Columns &b = run.fracture.bodies;
-  Series whole = points("whole", "#0064b0", Symbol::circle),
-         apart = points("apart", "#c8321e", Symbol::diamond);
+  Series whole = points_at("whole", {}, {}, "#0064b0", Symbol::circle),
+         apart = points_at("apart", {}, {}, "#c8321e", Symbol::diamond);
   if (b.empty())
     return {};
   for (std::size_t i = 0; i < b.at("body").size(); ++i) {
@@ -88,14 +59,13 @@ template <typename X, typename Y> std::vector<Series> body_points(const Run &run
 } // namespace
 
 Chart cracked_by_pressure(const std::vector<Run> &runs) {
-  Chart chart = axes("cracked-pressure", "Cracked particles against pressure",
-                     "Pressure on the platen (MPa)", "Secondary particles (%)");
-  chart.series =
-      against_pressure(runs,
-                       {{"bodies_apart", "apart: more than one fragment", "#00845a", "2 3"},
-                        {"bodies_cracked", "cracked: apart and 8 % broken", "#c8321e", ""},
-                        {"bodies_split", "split: largest below 90 %", "#0064b0", "9 4"}},
-                       true);
+  Chart chart{"cracked-pressure", "Cracked particles against pressure",
+              "Pressure on the platen (MPa)", "Secondary particles (%)"};
+  add_measures(chart, runs,
+               {{"bodies_apart", "apart: more than one fragment", "#00845a", "2 3"},
+                {"bodies_cracked", "cracked: apart and 8 % broken", "#c8321e", ""},
+                {"bodies_split", "split: largest below 90 %", "#0064b0", "9 4"}},
+               true);
   chart.note =
       "Secondary particles that have bonds, up to the maximum pressure. The paper's tomograms show "
       "intact particles at 80 MPa and obvious cracks in some of them at 150 MPa.";
@@ -103,50 +73,45 @@ Chart cracked_by_pressure(const std::vector<Run> &runs) {
 }
 
 Chart crack_surface(const std::vector<Run> &runs) {
-  Chart chart = axes("crack-surface", "Crack surface against pressure",
-                     "Pressure on the platen (MPa)", "Surface (µm²)");
-  chart.series =
-      against_pressure(runs,
-                       {{"crack_surface_um2", "all broken bonds", "#c8321e", ""},
-                        {"parted_surface_um2", "between different fragments", "#0064b0", "9 4"}},
-                       false);
+  Chart chart{"crack-surface", "Crack surface against pressure", "Pressure on the platen (MPa)",
+              "Surface (µm²)"};
+  add_measures(chart, runs,
+               {{"crack_surface_um2", "all broken bonds", "#c8321e", ""},
+                {"parted_surface_um2", "between different fragments", "#0064b0", "9 4"}},
+               false);
   chart.note = "Each broken bond counts as one face of its lattice cell; a crack opens twice this "
                "area of new surface.";
   return chart;
 }
 
 Chart thresholds(const Run &run, bool single) {
-  Chart chart =
-      axes("thresholds",
-           titled("Does the fraction of broken bonds identify a cracked particle?", run, single),
-           "Threshold (% of a particle's bonds)", "Secondary particles (%)");
+  Chart chart{"thresholds",
+              titled("Does the fraction of broken bonds identify a cracked particle?", run, single),
+              "Threshold (% of a particle's bonds)", "Secondary particles (%)"};
   const Columns &t = run.fracture.thresholds;
   if (t.empty())
     return chart;
   const auto at = [&](const char *column, std::size_t i) { return t.at(column)[i]; };
-  Series apart_missed = points("apart, but below (false negative)", "#c8321e", Symbol::diamond),
-         apart_wrong = points("above, but not apart (false positive)", "#0064b0", Symbol::circle),
-         split_missed = points("split, but below", "#8a6d00", Symbol::triangle),
-         split_wrong = points("above, but not split", "#00845a", Symbol::square);
-  for (std::size_t i = 0; i < t.at("threshold_percent").size(); ++i) {
+  const Column &percent = t.at("threshold_percent");
+  Column apart_missed, apart_wrong, split_missed, split_wrong;
+  for (std::size_t i = 0; i < percent.size(); ++i) {
     const double above = at("above_apart", i) + at("above_whole", i),
                  all = above + at("below_apart", i) + at("below_whole", i);
-    const auto add = [&](Series &series, double bodies) {
-      series.x.push_back(at("threshold_percent", i));
-      series.y.push_back(all > 0 ? kPercent * bodies / all : 0.0);
-    };
-    add(apart_missed, at("below_apart", i));
-    add(apart_wrong, at("above_whole", i));
-    add(split_missed, at("below_split", i));
-    add(split_wrong, above - at("above_split", i));
+    const auto share = [&](double bodies) { return all > 0 ? kPercent * bodies / all : 0.0; };
+    apart_missed.push_back(share(at("below_apart", i)));
+    apart_wrong.push_back(share(at("above_whole", i)));
+    split_missed.push_back(share(at("below_split", i)));
+    split_wrong.push_back(share(above - at("above_split", i)));
   }
-  const char *const dashes[] = {"", "2 3", "9 4", "5 2 1 2"};
-  Series *const all[] = {&apart_missed, &apart_wrong, &split_missed, &split_wrong};
-  for (int k = 0; k < 4; ++k) {
-    all[k]->mark = Mark::line;
-    all[k]->dash = dashes[k];
-    chart.series.push_back(std::move(*all[k]));
-  }
+  const auto add = [&](const char *name, const Column &y, const char *colour, Symbol symbol,
+                       const char *dash) {
+    chart.series.push_back(line_through(name, percent, y, colour, dash));
+    chart.series.back().symbol = symbol;
+  };
+  add("apart, but below (false negative)", apart_missed, "#c8321e", Symbol::diamond, "");
+  add("above, but not apart (false positive)", apart_wrong, "#0064b0", Symbol::circle, "2 3");
+  add("split, but below", split_missed, "#8a6d00", Symbol::triangle, "9 4");
+  add("above, but not split", split_wrong, "#00845a", Symbol::square, "5 2 1 2");
   chart.note =
       "At the end of the run. Apart: more than one fragment, chips included. Split: the largest "
       "fragment has less than 90 % of the primaries. The paper uses 8–12 %, elsewhere 13 %.";
@@ -154,8 +119,8 @@ Chart thresholds(const Run &run, bool single) {
 }
 
 Chart fragments(const Run &run, bool single) {
-  Chart chart = axes("fragments", titled("Largest fragment of each particle", run, single),
-                     "Broken bonds of the particle (%)", "Largest fragment (% of the primaries)");
+  Chart chart{"fragments", titled("Largest fragment of each particle", run, single),
+              "Broken bonds of the particle (%)", "Largest fragment (% of the primaries)"};
   chart.series = body_points(
       run, [](const Columns &b, std::size_t i) { return kPercent * b.at("broken_fraction")[i]; },
       [](const Columns &b, std::size_t i) { return kPercent * b.at("largest_fragment")[i]; });
@@ -163,9 +128,8 @@ Chart fragments(const Run &run, bool single) {
 }
 
 Chart broken_by_depth(const Run &run, bool single) {
-  Chart chart =
-      axes("depth", titled("Broken bonds of each particle by depth", run, single),
-           "Depth below the surface before pressing (µm)", "Broken bonds of the particle (%)");
+  Chart chart{"depth", titled("Broken bonds of each particle by depth", run, single),
+              "Depth below the surface before pressing (µm)", "Broken bonds of the particle (%)"};
   chart.series = body_points(
       run, [](const Columns &b, std::size_t i) { return b.at("depth_um")[i]; },
       [](const Columns &b, std::size_t i) { return kPercent * b.at("broken_fraction")[i]; });
@@ -174,11 +138,10 @@ Chart broken_by_depth(const Run &run, bool single) {
 
 Chart one_body(const Run &run, bool single) {
   const int body = studied_body(run);
-  Chart chart =
-      axes("one-body",
-           titled("Particle " + std::to_string(body) + ": pressure and broken bonds", run, single),
-           "Displacement of the platen (µm)", "Pressure on the platen (MPa)");
-  chart.right_label = "Broken bonds of the particle";
+  Chart chart{"one-body",
+              titled(fmt::format("Particle {}: pressure and broken bonds", body), run, single),
+              "Displacement of the platen (µm)", "Pressure on the platen (MPa)",
+              "Broken bonds of the particle"};
   if (body == 0 || run.fracture.breaks.empty())
     return chart;
   std::vector<double> times;
@@ -186,22 +149,15 @@ Chart one_body(const Run &run, bool single) {
     if (std::lround(run.fracture.breaks.at("body")[i]) == body)
       times.push_back(run.fracture.breaks.at("time_us")[i]);
   std::sort(times.begin(), times.end());
-  Series pressure, broken;
-  pressure.name = "pressure on the electrode";
-  pressure.colour = "#0064b0";
-  broken.name = "its broken bonds (right)";
-  broken.colour = "#c8321e";
-  broken.dash = "9 4";
-  broken.right_axis = true;
-  for (const std::size_t row : run.curve.compression()) {
-    const double d = run.curve["displacement_um"][row];
-    pressure.x.push_back(d);
-    pressure.y.push_back(run.curve["pressure_MPa"][row]);
-    broken.x.push_back(d);
-    broken.y.push_back(double(
-        std::upper_bound(times.begin(), times.end(), run.curve["time_us"][row]) - times.begin()));
-  }
-  chart.series = {std::move(pressure), std::move(broken)};
+  const std::vector<std::size_t> rows = run.curve.compression();
+  const Column d = picked(run.curve["displacement_um"], rows);
+  Column broken;
+  for (const double time : picked(run.curve["time_us"], rows))
+    broken.push_back(double(std::upper_bound(times.begin(), times.end(), time) - times.begin()));
+  chart.series = {line_through("pressure on the electrode", d,
+                               picked(run.curve["pressure_MPa"], rows), "#0064b0"),
+                  line_through("its broken bonds (right)", d, broken, "#c8321e", "9 4")};
+  chart.series.back().right_axis = true;
   chart.note =
       "The particle with the most broken bonds, in compression, like the paper's Figure 5b.";
   return chart;

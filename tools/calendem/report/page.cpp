@@ -18,6 +18,25 @@ NLOHMANN_JSON_SERIALIZE_ENUM(Hatch, {{Hatch::solid, "solid"},
                                      {Hatch::falling, "falling"},
                                      {Hatch::dots, "dots"}})
 
+Series line_through(const std::string &name, std::vector<double> x, std::vector<double> y,
+                    const std::string &colour, const std::string &dash) {
+  Series s;
+  s.name = name;
+  s.x = std::move(x);
+  s.y = std::move(y);
+  s.colour = colour;
+  s.dash = dash;
+  return s;
+}
+
+Series points_at(const std::string &name, std::vector<double> x, std::vector<double> y,
+                 const std::string &colour, Symbol symbol) {
+  Series s = line_through(name, std::move(x), std::move(y), colour);
+  s.mark = Mark::points;
+  s.symbol = symbol;
+  return s;
+}
+
 nlohmann::json to_json(const Chart &chart) {
   nlohmann::json series = nlohmann::json::array(), limits = nlohmann::json::array();
   for (const auto &s : chart.series) {
@@ -142,65 +161,52 @@ bool holds(const json *value) {
   return !(value->is_array() && value->empty());
 }
 
-/// End of the section `key` that was opened before `from`: position of its closing tag.
-std::string::size_type closing(const std::string &text, std::string::size_type from,
-                               const std::string &key) {
-  int depth = 1;
-  for (auto at = text.find("{{", from); at != std::string::npos; at = text.find("{{", at + 2)) {
-    if (text.compare(at, key.size() + 5, "{{/" + key + "}}") == 0 && --depth == 0)
+std::size_t fill_section(const std::string &text, std::size_t at, const std::string &tag,
+                         Scopes &scopes, std::string *out);
+
+/// Fills `text` from `at` on, up to the end of `section`, or of the text; returns the place behind it.
+/// `out` null: what is filled is not wanted.
+std::size_t fill(const std::string &text, std::size_t at, const std::string &section,
+                 Scopes &scopes, std::string *out) {
+  for (std::size_t open = text.find("{{", at);; open = text.find("{{", at)) {
+    if (out)
+      out->append(text, at, open - at);
+    if (open == std::string::npos && section.empty())
+      return text.size();
+    const bool raw = open != std::string::npos && text.compare(open, 3, "{{{") == 0;
+    const std::size_t braces = raw ? 3 : 2, end = text.find(raw ? "}}}" : "}}", open);
+    if (open == std::string::npos || end == std::string::npos)
+      throw std::logic_error("page template: a tag or section '" + section + "' is not closed");
+    const std::string tag = text.substr(open + braces, end - open - braces), key = tag.substr(1);
+    at = end + braces;
+    if (tag[0] == '/' && key == section)
       return at;
-    if (text.compare(at, key.size() + 5, "{{#" + key + "}}") == 0 ||
-        text.compare(at, key.size() + 5, "{{^" + key + "}}") == 0)
-      ++depth;
+    if (tag[0] == '#' || tag[0] == '^')
+      at = fill_section(text, at, tag, scopes, out);
+    else if (out)
+      *out += raw ? words(find(scopes, tag)) : escaped(words(find(scopes, tag)));
   }
-  throw std::logic_error("page template: section '" + key + "' is not closed");
 }
 
-void fill(const std::string &text, Scopes &scopes, std::string &out);
-
-void fill_section(char kind, const std::string &body, const json *value, Scopes &scopes,
-                  std::string &out) {
-  if (kind == '^') {
-    if (!holds(value))
-      fill(body, scopes, out);
-    return;
-  }
-  if (!holds(value))
-    return;
+std::size_t fill_section(const std::string &text, std::size_t at, const std::string &tag,
+                         Scopes &scopes, std::string *out) {
+  const std::string key = tag.substr(1);
+  const json *value = find(scopes, key);
+  const bool positive = tag[0] == '#', shown = holds(value) == positive;
+  if (!shown || !positive)
+    return fill(text, at, key, scopes, shown ? out : nullptr);
+  std::size_t end = at;
   const auto once = [&](const json &element) {
     scopes.push_back(&element);
-    fill(body, scopes, out);
+    end = fill(text, at, key, scopes, out);
     scopes.pop_back();
   };
   if (!value->is_array())
-    return once(*value);
-  for (const auto &element : *value)
-    once(element);
-}
-
-void fill(const std::string &text, Scopes &scopes, std::string &out) {
-  std::string::size_type done = 0;
-  for (auto open = text.find("{{"); open != std::string::npos; open = text.find("{{", done)) {
-    out.append(text, done, open - done);
-    const bool raw = text.compare(open, 3, "{{{") == 0;
-    const auto end = text.find(raw ? "}}}" : "}}", open);
-    if (end == std::string::npos)
-      throw std::logic_error("page template: a tag is not closed");
-    std::string key = text.substr(open + (raw ? 3 : 2), end - open - (raw ? 3 : 2));
-    done = end + (raw ? 3 : 2);
-    if (raw) {
-      out += words(find(scopes, key));
-    } else if (key.front() == '#' || key.front() == '^') {
-      const char kind = key.front();
-      key.erase(0, 1);
-      const auto close = closing(text, done, key);
-      fill_section(kind, text.substr(done, close - done), find(scopes, key), scopes, out);
-      done = close + key.size() + 5;
-    } else {
-      out += escaped(words(find(scopes, key)));
-    }
-  }
-  out.append(text, done, std::string::npos);
+    once(*value);
+  else
+    for (const json &element : *value)
+      once(element);
+  return end;
 }
 
 } // namespace
@@ -208,29 +214,18 @@ void fill(const std::string &text, Scopes &scopes, std::string &out) {
 std::string escaped(const std::string &text) {
   std::string out;
   for (const char c : text)
-    switch (c) {
-    case '&':
-      out += "&amp;";
-      break;
-    case '<':
-      out += "&lt;";
-      break;
-    case '>':
-      out += "&gt;";
-      break;
-    case '"':
-      out += "&quot;";
-      break;
-    default:
-      out += c;
-    }
+    out += c == '&'   ? "&amp;"
+           : c == '<' ? "&lt;"
+           : c == '>' ? "&gt;"
+           : c == '"' ? "&quot;"
+                      : std::string(1, c);
   return out;
 }
 
 std::string fill_template(const std::string &text, const json &values) {
   Scopes scopes{&values};
   std::string out;
-  fill(text, scopes, out);
+  fill(text, 0, "", scopes, &out);
   return out;
 }
 

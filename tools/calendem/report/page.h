@@ -43,13 +43,18 @@ struct Limit { ///< a horizontal line with a label, on the left axis
 struct Chart {
   std::string id; ///< unique in a page; name of the files that are saved from it
   std::string title;
-  std::string x_label, y_label, right_label; ///< with units
-  std::vector<Series> series;
-  std::vector<Limit> limits;
-  std::string note;      ///< what the reader must know to read it
+  std::string x_label, y_label, right_label = ""; ///< with units
+  std::vector<Series> series = {};
+  std::vector<Limit> limits = {};
+  std::string note = ""; ///< what the reader must know to read it
   double y_top = 0;      ///< upper end of the left axis; 0 = from the data
   bool from_zero = true; ///< the left axis; false: from the data, to see small differences
 };
+
+Series line_through(const std::string &name, std::vector<double> x, std::vector<double> y,
+                    const std::string &colour, const std::string &dash = "");
+Series points_at(const std::string &name, std::vector<double> x, std::vector<double> y,
+                 const std::string &colour, Symbol symbol);
 
 /// Numbers and looks; a value that is not finite is null.
 nlohmann::json to_json(const Chart &chart);

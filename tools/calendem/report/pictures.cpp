@@ -5,9 +5,7 @@
 #include "physics/pi.h"
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
-#include <sstream>
 
 namespace calendem::report {
 
@@ -72,28 +70,11 @@ void Raster::put(int x, int y, double depth, double brightness, const Colour &co
     colour_[at][k] = static_cast<std::uint8_t>(std::clamp(colour[k] * brightness, 0.0, 255.0));
 }
 
-void Raster::sphere(const Point &centre, double radius, const Colour &colour) {
-  const Point c = camera_.project(centre);
-  const double cx = c[0] * kSamples, cy = c[1] * kSamples, depth = c[2] * kSamples;
-  const double r = radius * camera_.scale() * kSamples;
-  const int y_end = std::min(height_ - 1, static_cast<int>(std::floor(cy + r)));
-  for (int y = std::max(0, static_cast<int>(std::ceil(cy - r))); y <= y_end; ++y) {
-    const double ny = (y - cy) / r;
-    const double half = r * std::sqrt(std::max(0.0, 1 - ny * ny));
-    const int x_end = std::min(width_ - 1, static_cast<int>(std::floor(cx + half)));
-    for (int x = std::max(0, static_cast<int>(std::ceil(cx - half))); x <= x_end; ++x) {
-      const double nx = (x - cx) / r;
-      const double nz = std::sqrt(std::max(0.0, 1 - nx * nx - ny * ny));
-      put(x, y, depth + r * nz, shade(nx, -ny, nz), colour);
-    }
-  }
-}
-
 void Raster::rod(const Point &from, const Point &to, double radius, const Colour &colour) {
   const Point a = camera_.project(from), b = camera_.project(to);
   const double ax = a[0] * kSamples, ay = a[1] * kSamples;
   const double dx = b[0] * kSamples - ax, dy = b[1] * kSamples - ay;
-  const double r = std::max(radius * camera_.scale() * kSamples, 0.8);
+  const double r = std::max(radius * camera_.scale() * kSamples, 0.8); // else it has no pixel
   const double length2 = std::max(dx * dx + dy * dy, 1e-12);
   const int x0 = std::max(0, static_cast<int>(std::floor(std::min(ax, ax + dx) - r)));
   const int x1 = std::min(width_ - 1, static_cast<int>(std::ceil(std::max(ax, ax + dx) + r)));
@@ -132,75 +113,9 @@ std::vector<std::uint8_t> Raster::pixels() const {
   return out;
 }
 
-std::string png_base64(const std::vector<std::uint8_t> &pixels, int width, int height) {
-  const std::string bytes = png_bytes(pixels, width, height);
-  return base64(reinterpret_cast<const unsigned char *>(bytes.data()), bytes.size());
-}
-
-namespace {
-
-constexpr double kAzimuth = 28, kElevation = 14; // degrees
-constexpr Colour kCbd{96, 96, 96};
-
-Colour from_hue(double hue, double saturation, double value) {
-  Colour colour{};
-  for (int k = 0; k < 3; ++k) {
-    const double place = std::fmod(hue * 6 + (k == 0 ? 5 : k == 1 ? 3 : 1), 6.0);
-    const double dip = std::max(0.0, std::min({place, 4 - place, 1.0}));
-    colour[k] = static_cast<std::uint8_t>(255 * value * (1 - saturation * dip));
-  }
-  return colour;
-}
-
-std::string outline_of(const Camera &camera, const std::vector<Point> &corners) {
-  std::ostringstream points;
-  for (const auto &corner : corners) {
-    const Point p = camera.project(corner);
-    char text[40];
-    std::snprintf(text, sizeof text, "%.1f,%.1f ", p[0], p[1]);
-    points << text;
-  }
-  return points.str();
-}
-
-int scale_bar(double pixels_per_um) {
-  for (const int length : {50, 20, 10, 5, 2})
-    if (length * pixels_per_um <= 110)
-      return length;
-  return 1;
-}
-
-} // namespace
-
-Colour colour_of(int body) {
-  if (body <= 0)
-    return kCbd;
-  return from_hue(std::fmod(body * 0.61803398875, 1.0), body % 2 ? 0.50 : 0.68,
-                  body % 3 ? 0.95 : 0.78);
-}
-
-Box box_of(Run &run) {
-  Box box;
-  for (const auto &centre : read_particles(run.particles.front().path, run.notes).centre)
-    box.include(centre);
-  if (box.low[0] <= box.high[0] && !run.platen.empty())
-    for (const auto &outline : read_platen(run.platen.front().path, run.notes).outlines)
-      for (const auto &corner : outline)
-        box.include(corner);
-  return box;
-}
-
-Camera camera_for(const Box &box, double tallest, double widest) {
-  constexpr double kMargin = 1.2; // um: the spheres' radius and some air
-  Camera camera(kAzimuth, kElevation);
-  camera.frame(box.low, box.high, kMargin, 100.0);
-  const double wide = camera.width() / 100.0, tall = camera.height() / 100.0;
-  camera.frame(box.low, box.high, kMargin, std::min(tallest / tall, widest / wide));
-  return camera;
-}
-
 std::string png_of(const Raster &raster, const Camera &camera) {
-  return png_base64(raster.pixels(), camera.width(), camera.height());
+  const std::string bytes = png_bytes(raster.pixels(), camera.width(), camera.height());
+  return base64(reinterpret_cast<const unsigned char *>(bytes.data()), bytes.size());
 }
 
 std::size_t row_near(const Curve &curve, double time_us) {
@@ -210,109 +125,6 @@ std::size_t row_near(const Curve &curve, double time_us) {
     if (std::abs(time[i] - time_us) < std::abs(time[nearest] - time_us))
       nearest = i;
   return nearest;
-}
-
-void add_state(const Curve &curve, Picture &picture) {
-  const std::size_t nearest = row_near(curve, picture.time_us);
-  picture.pressure_MPa = curve["pressure_MPa"][nearest];
-  picture.broken_fraction = curve["broken_fraction"][nearest];
-}
-
-Picture framed(const Moment &moment, const char *subject, const FrameFile &source,
-               const Camera &camera, const PlatenFrame &platen) {
-  Picture picture;
-  picture.moment = moment.name;
-  picture.subject = subject;
-  picture.time_us = source.time_us;
-  picture.file = source.path;
-  picture.width = camera.width();
-  picture.height = camera.height();
-  picture.pixels_per_um = camera.scale();
-  picture.scale_bar_um = scale_bar(camera.scale());
-  for (const auto &outline : platen.outlines)
-    picture.outlines.push_back(outline_of(camera, outline));
-  return picture;
-}
-
-namespace {
-
-constexpr double kTallestPicture = 620; // pixels
-constexpr double kWidestPicture = 420;
-constexpr double kIntactRadius = 0.13, kBrokenRadius = 0.24; // um, as drawn
-constexpr Colour kIntact{150, 172, 200}, kBroken{205, 25, 35};
-
-std::string draw_electrode(const ParticleFrame &frame, const Camera &camera) {
-  Raster raster(camera);
-  for (std::size_t i = 0; i < frame.centre.size(); ++i)
-    raster.sphere(frame.centre[i], frame.radius[i], colour_of(frame.body[i]));
-  return png_of(raster, camera);
-}
-
-std::string draw_bonds(const BondFrame &frame, const Camera &camera, double longest,
-                       std::size_t &skipped) {
-  Raster raster(camera);
-  for (const bool intact : {true, false}) {
-    for (std::size_t i = 0; i < frame.from.size(); ++i) {
-      if (frame.intact[i] != intact)
-        continue;
-      const Point &a = frame.from[i], &b = frame.to[i];
-      if (std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) > longest)
-        ++skipped;
-      else
-        raster.rod(a, b, intact ? kIntactRadius : kBrokenRadius, intact ? kIntact : kBroken);
-    }
-    if (intact)
-      raster.fade(0.45); // the broken ones lie on top, wherever they are
-  }
-  return png_of(raster, camera);
-}
-
-} // namespace
-
-std::vector<Moment> moments_of(const Run &run) {
-  const Column &pressure = run.curve["pressure_MPa"];
-  const auto pressure_of = [&](const FrameFile &frame) {
-    return pressure[row_near(run.curve, frame.time_us)];
-  };
-  const FrameFile &highest = *std::max_element(
-      run.particles.begin(), run.particles.end(),
-      [&](const FrameFile &a, const FrameFile &b) { return pressure_of(a) < pressure_of(b); });
-  constexpr double kNear = 0.97;
-  const bool near = pressure_of(highest) >= kNear * pressure[run.curve.row_of_max_pressure()];
-  const double top = highest.time_us;
-  std::vector<Moment> list{{"Before", run.particles.front().time_us},
-                           {near ? "At maximum pressure" : "Frame of highest pressure", top}};
-  if (run.particles.back().time_us > top)
-    list.push_back({run.unfinished.empty() ? "After" : "Last frame", run.particles.back().time_us});
-  return list;
-}
-
-std::vector<Picture> draw_pictures(Run &run) {
-  std::vector<Picture> pictures;
-  if (run.particles.empty())
-    return pictures;
-  const Box box = box_of(run);
-  if (box.low[0] > box.high[0])
-    return pictures;
-  const Camera camera = camera_for(box, kTallestPicture, kWidestPicture);
-  const double longest = 0.5 * std::min(box.high[0] - box.low[0], box.high[1] - box.low[1]);
-  for (const auto &moment : moments_of(run)) {
-    PlatenFrame platen;
-    if (!run.platen.empty())
-      platen = read_platen(closest(run.platen, moment.time_us).path, run.notes);
-    const FrameFile &particles = closest(run.particles, moment.time_us);
-    pictures.push_back(framed(moment, "electrode", particles, camera, platen));
-    pictures.back().png = draw_electrode(read_particles(particles.path, run.notes), camera);
-    add_state(run.curve, pictures.back());
-    if (run.bonds.empty())
-      continue;
-    const FrameFile &bonds = closest(run.bonds, moment.time_us);
-    pictures.push_back(framed(moment, "bonds", bonds, camera, platen));
-    pictures.back().png = draw_bonds(read_bonds(bonds.path, run.notes), camera, longest,
-                                     pictures.back().across_faces);
-    add_state(run.curve, pictures.back());
-  }
-  return pictures;
 }
 
 namespace {

@@ -10,7 +10,6 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -25,6 +24,7 @@ struct Box {
       high[k] = std::max(high[k], p[k]);
     }
   }
+  bool empty() const { return low[0] > high[0]; }
 };
 using Colour = std::array<std::uint8_t, 3>;
 
@@ -52,7 +52,10 @@ private:
 class Raster {
 public:
   explicit Raster(const Camera &camera);
-  void sphere(const Point &centre, double radius, const Colour &colour);
+  void sphere(const Point &centre, double radius, const Colour &colour) {
+    rod(centre, centre, radius, colour);
+  }
+  /// With a half sphere at each end.
   void rod(const Point &from, const Point &to, double radius, const Colour &colour);
   /// Mixes everything drawn so far with white and forgets its depth: later objects lie on top.
   void fade(double share_of_white);
@@ -66,9 +69,6 @@ private:
   std::vector<float> depth_;
   std::vector<Colour> colour_;
 };
-
-/// PNG file of `pixels` (three bytes per pixel, rows from the top) as base64.
-std::string png_base64(const std::vector<std::uint8_t> &pixels, int width, int height);
 
 struct Picture {
   std::string moment;  ///< "Before", "At maximum pressure", "After"
@@ -92,28 +92,25 @@ struct Moment {
 /// Before, at (or nearest to) maximum pressure, after; `run.particles` must not be empty.
 std::vector<Moment> moments_of(const Run &run);
 
+/// What the frames next to a moment hold.
+struct FramesAt {
+  Moment moment;
+  ParticleFrame particles;
+  BondFrame bonds;
+  PlatenFrame platen;
+  const FrameFile *particle_file, *bond_file; ///< null: the run has none
+};
+/// `run.particles` must not be empty; unreadable frames are added to `run.notes`.
+FramesAt frames_at(Run &run, const Moment &moment);
+
 /// Empty when the run has no frames; unreadable frames are added to `run.notes`.
 std::vector<Picture> draw_pictures(Run &run);
 
-/// Hues a golden angle apart, with changing brightness: neighbours in number differ most. Body 0 is
-/// CBD.
-Colour colour_of(int body);
-
-/// What the first frame holds, with the platen; low > high when it cannot be read.
-Box box_of(Run &run);
-/// The camera of all pictures, that shows `box` in at most that many pixels.
-Camera camera_for(const Box &box, double tallest, double widest);
-
+/// PNG file of what was drawn, as base64.
 std::string png_of(const Raster &raster, const Camera &camera);
 
 /// The curve's row next to a time [us].
 std::size_t row_near(const Curve &curve, double time_us);
-/// Pressure and broken bonds of that row.
-void add_state(const Curve &curve, Picture &picture);
-
-/// A picture without pixels: size, scale bar, outlines of the walls.
-Picture framed(const Moment &moment, const char *subject, const FrameFile &source,
-               const Camera &camera, const PlatenFrame &platen);
 
 /// The periodic sides [um] at that time; 0: not known.
 std::array<double, 2> period_of(const Run &run, double time_us);

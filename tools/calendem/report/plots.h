@@ -10,8 +10,17 @@
 
 namespace calendem::report {
 
-/// Before the name of a line: the run, where there are several.
-std::string prefix(const std::vector<Run> &runs, const Run &run);
+/// The title of a chart of one run: with its name where there are several.
+std::string titled(const std::string &title, const Run &run, bool single);
+
+/// Adds a line of the i-th run, which keeps its colour and symbol through all charts; a single run has
+/// `colour` and no symbol.
+Series &add_line(Chart &chart, const std::vector<Run> &runs, std::size_t i, const std::string &name,
+                 Column x, Column y, const char *colour, const char *dash);
+
+/// The paper's broken bonds [%], and its Table 1: total porosity after relaxation [%].
+Series breaks_of_paper(const std::string &name);
+Series porosity_of_paper(const std::string &name);
 
 std::vector<Chart> plots_of(const std::vector<Run> &runs);
 

@@ -22,110 +22,23 @@ namespace {
 
 using nlohmann::json;
 
-RunPart part_of(Run &run, const json &comparison) {
-  RunPart part;
-  part.pictures = draw_pictures(run); // may add notes
-  part.stages = draw_stages(run);
-  part.one_body = draw_one_body(run);
-  part.studied_body = studied_body(run);
-  part.explorer = explorer_of(run); // so may this
-  part.name = run.name;
-  part.unfinished = run.unfinished;
-  part.headline = headline_of(run);
-  part.verdict = verdict_of(run, part.headline, comparison);
-  part.facts = facts_of(run.summary, {"provenance", "contact_range"});
-  part.electrode =
-      facts_of(run.electrode, {"provenance", "recipe", kRecipeGiven, "sphericity_histogram",
-                               "identity", "sources", "material", kMaterialNotes});
-  part.material = material_table(run);
-  part.structure = structure_table(run);
-  part.validity = validity_table(run);
-  part.provenance = facts_of(run.summary.value("provenance", json::object()), {});
-  part.files = json::array();
-  for (const auto &file : run.files_read)
-    part.files.push_back({{"file", file}, {"sha256", sha256_of_file(file)}});
-  for (const std::string &warning : warnings_of_electrode(run.electrode))
-    part.notes.add("electrode.json", warning, "");
-  part.notes.add(run.notes);
-  return part;
-}
-
-json to_json(const Picture &picture) {
-  return {{"moment", picture.moment},
-          {"subject", picture.subject},
-          {"time_us", picture.time_us},
-          {"pressure_MPa", picture.pressure_MPa},
-          {"broken_fraction", picture.broken_fraction},
-          {"file", picture.file},
-          {"pixels_per_um", picture.pixels_per_um},
-          {"bonds_across_faces", picture.across_faces}};
-}
-
 json to_json(const std::vector<Picture> &list) {
   json pictures = json::array();
-  for (const auto &picture : list)
-    pictures.push_back(to_json(picture));
+  for (const Picture &p : list)
+    pictures.push_back({{"moment", p.moment},
+                        {"subject", p.subject},
+                        {"time_us", p.time_us},
+                        {"pressure_MPa", p.pressure_MPa},
+                        {"broken_fraction", p.broken_fraction},
+                        {"file", p.file},
+                        {"pixels_per_um", p.pixels_per_um},
+                        {"bonds_across_faces", p.across_faces}});
   return pictures;
-}
-
-json to_json(const RunPart &run) {
-  json notes = json::array();
-  for (const Mistake &note : run.notes.list())
-    notes.push_back({{"file", note.file}, {"what", note.what}, {"remedy", note.remedy}});
-  return {{"name", run.name},
-          {"status", run.unfinished.empty() ? "finished" : "unfinished"},
-          {"unfinished", run.unfinished},
-          {"headline", run.headline},
-          {"verdict", run.verdict},
-          {"facts", run.facts},
-          {"electrode", run.electrode},
-          {"material", run.material},
-          {"structure", run.structure},
-          {"validity", run.validity},
-          {"provenance", run.provenance},
-          {"files", run.files},
-          {"notes", notes},
-          {"pictures", to_json(run.pictures)},
-          {"stages", to_json(run.stages)},
-          {"studied_body", run.studied_body},
-          {"one_body", to_json(run.one_body)}};
 }
 
 /// The recipe's name, where the electrode has one.
 std::string title_of(const Run &run) {
   return run.electrode.is_object() ? run.electrode.value("name", run.name) : run.name;
-}
-
-} // namespace
-
-Report make_report(std::vector<Run> runs, const std::string &command) {
-  Report report;
-  report.comparison = comparison_of(runs);
-  report.charts = plots_of(runs);
-  for (auto &run : runs) {
-    report.title +=
-        (report.title.empty() ? "" : ", ") + (runs.size() == 1 ? title_of(run) : run.name);
-    report.runs.push_back(part_of(run, report.comparison));
-  }
-  report.provenance = {
-      {"program", "calendem report"}, {"version", version()}, {"command", command}, {"format", 1}};
-  return report;
-}
-
-namespace {
-
-json json_of(const Report &report) {
-  json runs = json::array();
-  bool unfinished = false;
-  for (const auto &run : report.runs) {
-    runs.push_back(to_json(run));
-    unfinished = unfinished || !run.unfinished.empty();
-  }
-  return {{"title", report.title},
-          {"status", unfinished ? "unfinished" : "finished"},
-          {"provenance", report.provenance},
-          {"comparison", report.comparison},
-          {"runs", runs}};
 }
 
 json drawn(const Picture &picture, const std::string &label) {
@@ -171,38 +84,106 @@ json rows_of(const std::vector<Picture> &pictures,
   return rows;
 }
 
+json files_of(const Run &run) {
+  json files = json::array();
+  for (const auto &file : run.files_read)
+    files.push_back({{"file", file}, {"sha256", sha256_of_file(file)}});
+  return files;
+}
+
+/// Notes of the run, those of its electrode first.
+json notes_of(Run &run) {
+  Mistakes all;
+  for (const std::string &warning : warnings_of_electrode(run.electrode))
+    all.add("electrode.json", warning, "");
+  all.add(run.notes);
+  run.notes = all;
+  json notes = json::array();
+  for (const Mistake &note : all.list())
+    notes.push_back({{"file", note.file}, {"what", note.what}, {"remedy", note.remedy}});
+  return notes;
+}
+
+struct Drawings {
+  std::vector<Picture> pictures, stages, one_body; ///< the latter the paper's Figures 3 and 5
+  json view;                                       ///< for the 3-D view; null: no frames
+};
+
+json twin_of(Run &run, const json &comparison, const Drawings &drawings) {
+  const json headline = headline_of(run);
+  return {{"name", run.name},
+          {"status", run.unfinished.empty() ? "finished" : "unfinished"},
+          {"unfinished", run.unfinished},
+          {"headline", headline},
+          {"verdict", verdict_of(run, headline, comparison)},
+          {"facts", facts_of(run.summary, {"provenance", "contact_range"})},
+          {"electrode",
+           facts_of(run.electrode, {"provenance", "recipe", kRecipeGiven, "sphericity_histogram",
+                                    "identity", "sources", "material", kMaterialNotes})},
+          {"material", material_table(run)},
+          {"structure", structure_table(run)},
+          {"validity", validity_table(run)},
+          {"provenance", facts_of(run.summary.value("provenance", json::object()), {})},
+          {"files", files_of(run)},
+          {"notes", notes_of(run)},
+          {"pictures", to_json(drawings.pictures)},
+          {"stages", to_json(drawings.stages)},
+          {"studied_body", studied_body(run)},
+          {"one_body", to_json(drawings.one_body)}};
+}
+
 /// What the page draws of a run, but the JSON twin leaves out.
-void add_pictures(const RunPart &part, json &run) {
-  run["facts_table"] = !part.facts.empty();
-  run["electrode_table"] = !part.electrode.empty();
-  run["has_pictures"] = !part.pictures.empty();
-  run["electrode_pictures"] = row_of(part.pictures, "electrode", "Electrode", false);
-  run["bond_pictures"] = row_of(part.pictures, "bonds", "Bonds", false);
-  run["has_stages"] = !part.stages.empty();
-  run["stage_rows"] = rows_of(part.stages, {{"electrode", "Electrode"}, {"bonds", "Bonds"}});
-  run["has_one_body"] = !part.one_body.empty();
-  run["body_rows"] = rows_of(part.one_body, {{"place", "Place of the particle"},
-                                             {"shape", "Shape of the particle"},
-                                             {"bonds", "Bonds of the particle"}});
-  run["has_view"] = !part.explorer.is_null();
-  run["view"] = in_script(part.explorer.dump());
+void add_drawings(const Drawings &d, json &run) {
+  run.update({{"facts_table", !run["facts"].empty()},
+              {"electrode_table", !run["electrode"].empty()},
+              {"has_pictures", !d.pictures.empty()},
+              {"electrode_pictures", row_of(d.pictures, "electrode", "Electrode", false)},
+              {"bond_pictures", row_of(d.pictures, "bonds", "Bonds", false)},
+              {"has_stages", !d.stages.empty()},
+              {"stage_rows", rows_of(d.stages, {{"electrode", "Electrode"}, {"bonds", "Bonds"}})},
+              {"has_one_body", !d.one_body.empty()},
+              {"body_rows", rows_of(d.one_body, {{"place", "Place of the particle"},
+                                                 {"shape", "Shape of the particle"},
+                                                 {"bonds", "Bonds of the particle"}})},
+              {"has_view", !d.view.is_null()},
+              {"view", in_script(d.view.dump())}});
 }
 
 } // namespace
 
-Page page_of(const Report &report) {
-  Page page{kPageHtml, json_of(report), {}, report.charts};
-  page.values = {{"is_unfinished", page.json["status"] == "unfinished"},
-                 {"several", report.runs.size() > 1},
-                 {"provenance_rows", facts_of(report.provenance, {})},
-                 {"runs", page.json["runs"]}};
-  for (std::size_t i = 0; i < report.runs.size(); ++i) {
-    add_pictures(report.runs[i], page.values["runs"][i]);
-    if (!report.runs[i].explorer.is_null())
-      page.values["scripts"] = {{"three", embedded::kThree},
-                                {"orbit", embedded::kOrbitControls},
-                                {"explorer", embedded::kExplorer}};
+Page page_of(std::vector<Run> &runs, const std::string &command) {
+  const json comparison = comparison_of(runs), provenance = {{"program", "calendem report"},
+                                                             {"version", version()},
+                                                             {"command", command},
+                                                             {"format", 1}};
+  std::string title;
+  json parts = json::array(), drawn = json::array();
+  bool unfinished = false, view = false;
+  std::vector<Chart> charts = plots_of(runs);
+  for (Run &run : runs) {
+    title += (title.empty() ? "" : ", ") + (runs.size() == 1 ? title_of(run) : run.name);
+    const Drawings drawings = {draw_pictures(run), draw_stages(run), draw_one_body(run),
+                               explorer_of(run)}; // they may add notes
+    parts.push_back(twin_of(run, comparison, drawings));
+    drawn.push_back(parts.back());
+    add_drawings(drawings, drawn.back());
+    unfinished = unfinished || !run.unfinished.empty();
+    view = view || !drawings.view.is_null();
   }
+  const json twin = {{"title", title},
+                     {"status", unfinished ? "unfinished" : "finished"},
+                     {"provenance", provenance},
+                     {"comparison", comparison},
+                     {"runs", parts}};
+  Page page{kPageHtml, twin, {}, std::move(charts)};
+  page.values = {{"is_unfinished", unfinished},
+                 {"several", runs.size() > 1},
+                 {"provenance_rows", facts_of(provenance, {})},
+                 {"runs", drawn}};
+  if (view)
+    page.values["scripts"] = {{"three", embedded::kThree},
+                              {"orbit", embedded::kOrbitControls},
+                              {"explorer", embedded::kExplorer}};
   return page;
 }
 
@@ -233,11 +214,12 @@ void write_report(const std::vector<std::string> &directories, std::string page)
   const std::set<std::string> of_others = {"summary", "electrode", "structure",  "gap",
                                            "model",   "design",    "prediction", "shrink"};
   if (ending != ".html" || of_others.count(stem.string()))
-    throw Failure(kBadInput, fmt::format("-o is '{}'. Give a name that ends in .html and is none "
-                                         "of {}: the page's data go to the same name with .json.",
-                                         page, fmt::join(of_others, ", ")));
-  const Report report = make_report(std::move(runs), command_line(directories, page));
-  for (const auto &run : report.runs) {
+    throw Failure(kBadInput,
+                  "-o is '{}'. Give a name that ends in .html and is none of {}: the page's data "
+                  "go to the same name with .json.",
+                  page, fmt::join(of_others, ", "));
+  const Page contents = page_of(runs, command_line(directories, page));
+  for (const Run &run : runs) {
     for (const Mistake &note : run.notes.list())
       std::cerr << "note: " << text_of(note) << '\n';
     if (!run.unfinished.empty())
@@ -245,10 +227,9 @@ void write_report(const std::vector<std::string> &directories, std::string page)
                 << "); the report says so\n";
   }
   const fs::path twin = fs::path(page).replace_extension(".json");
-  const Page contents = page_of(report);
   write_file(twin.string(), data_of(contents).dump(1) + "\n");
   write_file(page, to_html(contents));
-  std::cout << comparison_text(report.comparison) << "report: " << page
+  std::cout << comparison_text(json(contents.json["comparison"])) << "report: " << page
             << "\ndata:   " << twin.string() << '\n';
 }
 

@@ -12,32 +12,9 @@
 
 namespace calendem::report {
 
-struct RunPart {
-  std::string name;
-  std::string unfinished; ///< why; empty = finished
-  nlohmann::json headline, verdict, facts, electrode, material, structure, validity, provenance,
-      files;
-  Mistakes notes;
-  std::vector<Picture> pictures;
-  std::vector<Picture> stages;   ///< the paper's Figure 3
-  std::vector<Picture> one_body; ///< the paper's Figure 5
-  int studied_body = 0;          ///< which that is
-  nlohmann::json explorer;       ///< of the 3-D view; null: no frames
-};
-
-struct Report {
-  std::string title;
-  std::vector<RunPart> runs;
-  nlohmann::json comparison;
-  std::vector<Chart> charts;
-  nlohmann::json provenance; ///< of the report itself: name -> value
-};
-
-/// Everything that is shown about `runs`; `command` is the command line that asked for it.
-Report make_report(std::vector<Run> runs, const std::string &command);
-
-/// The report as a page; its object has pictures by their frame file, without pixels.
-Page page_of(const Report &report);
+/// Everything that is shown about `runs`; `command` is the command line that asked for it. The object
+/// has pictures by their frame file, without pixels. What cannot be drawn goes to the runs' notes.
+Page page_of(std::vector<Run> &runs, const std::string &command);
 
 /// Writes `page` (HTML) and its twin beside it with the ending .json. Throws Failure(2) with the
 /// mistakes of all directories; nothing is written then.

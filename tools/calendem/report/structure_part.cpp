@@ -2,6 +2,7 @@
 #include "base/shown.h"
 #include "report/plots.h"
 #include "report/tables.h"
+#include <algorithm>
 #include <cmath>
 
 namespace calendem::report {
@@ -19,24 +20,19 @@ const MomentLook kMoments[] = {{"before", "before", "#0064b0", "", Symbol::circl
                                {"after", "after relaxation", "#00845a", "2 3", Symbol::triangle}};
 
 /// One series per run and moment; `value` of a row of structure.csv, NaN: no point.
-template <typename Value> std::vector<Series> series_of(const std::vector<Run> &runs, Value value) {
-  std::vector<Series> all;
+template <typename Value>
+void add_profiles(Chart &chart, const std::vector<Run> &runs, Value value) {
   for (std::size_t r = 0; r < runs.size(); ++r)
     for (const auto &look : kMoments) {
-      Series series;
-      series.name = (runs.size() == 1 ? "" : runs[r].name + ": ") + look.shown;
-      series.colour = runs.size() == 1 ? look.colour : kSeriesColours[r % kSeriesColours.size()];
-      series.dash = look.dash;
-      series.symbol = look.symbol;
+      Column x, y;
       for (const StructureRow &row : runs[r].profile)
-        if (const double y = value(row); row.moment == look.moment && std::isfinite(y)) {
-          series.x.push_back(row.height);
-          series.y.push_back(y);
+        if (const double v = value(row); row.moment == look.moment && std::isfinite(v)) {
+          x.push_back(row.height);
+          y.push_back(v);
         }
-      if (!series.x.empty())
-        all.push_back(std::move(series));
+      if (!x.empty())
+        add_line(chart, runs, r, look.shown, x, y, look.colour, look.dash).symbol = look.symbol;
     }
-  return all;
 }
 
 double at(const json &object, const std::string &pointer) {
@@ -81,32 +77,24 @@ std::string bound_of(const json &moment, const std::string &place) {
 } // namespace
 
 Chart porosity_profiles(const std::vector<Run> &runs) {
-  Chart chart;
-  chart.id = "profile-porosity";
-  chart.title = "Porosity through the thickness";
-  chart.x_label = "Height above the collector / thickness";
-  chart.y_label = "Macro porosity (%)";
-  chart.series = series_of(runs, [](const StructureRow &row) { return kPercent * row.macro; });
+  Chart chart{"profile-porosity", "Porosity through the thickness",
+              "Height above the collector / thickness", "Macro porosity (%)"};
+  add_profiles(chart, runs, [](const StructureRow &row) { return kPercent * row.macro; });
   chart.note = "Slices of about 1 µm. Before: the film as packed, up to the platen; the space "
                "above its rough surface counts as pore.";
   return chart;
 }
 
 Chart broken_profiles(const std::vector<Run> &runs) {
-  Chart chart;
-  chart.id = "profile-broken";
-  chart.title = "Broken bonds through the thickness";
-  chart.x_label = "Height above the collector / thickness";
-  chart.y_label = "Broken bonds (% of the slice's)";
-  chart.series = series_of(runs, [](const StructureRow &row) {
+  Chart chart{"profile-broken", "Broken bonds through the thickness",
+              "Height above the collector / thickness", "Broken bonds (% of the slice's)"};
+  add_profiles(chart, runs, [](const StructureRow &row) {
     return row.moment == "before" || !(row.bonds > 0) ? NAN : kPercent * row.broken / row.bonds;
   });
   chart.note = "A bond belongs to the slice that contains its midpoint at that moment.";
-  bool any = false;
-  for (const Series &series : chart.series)
-    for (const double y : series.y)
-      any = any || y > 0;
-  if (!any)
+  if (std::none_of(chart.series.begin(), chart.series.end(), [](const Series &s) {
+        return std::any_of(s.y.begin(), s.y.end(), [](double y) { return y > 0; });
+      }))
     chart.series.clear();
   return chart;
 }
@@ -137,11 +125,7 @@ json structure_table(const Run &run) {
 }
 
 Chart sphericities(const Run &run, bool single) {
-  Chart chart;
-  chart.id = "shape";
-  chart.title = single ? "Shape of the bodies" : "Shape of the bodies: " + run.name;
-  chart.x_label = "Sphericity";
-  chart.y_label = "Bodies";
+  Chart chart{"shape", titled("Shape of the bodies", run, single), "Sphericity", "Bodies"};
   const auto found = run.electrode.find("sphericity_histogram");
   if (found == run.electrode.end() || !found->is_object())
     return chart;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/shown.h"
+#include "report/plots.h"
 #include "report/study_page.h"
 #include "report/tables.h"
 #include <algorithm>
@@ -8,13 +10,11 @@
 
 namespace calendem {
 using report::Chart;
-using report::Mark;
 using report::Series;
 using report::Symbol;
 namespace {
 
 const char *const kMaxPressure = "case.platen.max_pressure_MPa";
-const char *const kBlack = "#222222";
 constexpr std::array kDashes = {"", "9 4", "3 3", "9 3 2 3"};
 
 /// The look of the k-th series of a chart.
@@ -35,31 +35,10 @@ void add(Series &series, double x, const MeanAndSd &y, double factor) {
   series.y_error.push_back(factor * y.sd);
 }
 
-Series paper(const std::string &name) {
-  Series s;
-  s.name = name;
-  s.mark = Mark::points;
-  s.symbol = Symbol::diamond;
-  s.colour = kBlack;
-  return s;
-}
-
-Series paper_broken() {
-  Series s = paper("paper (simulation)");
-  for (const report::PublishedBreaks &p : report::paper_breaks()) {
-    s.x.push_back(p.pressure_MPa);
-    s.y.push_back(p.broken_percent);
-  }
-  return s;
-}
-
 /// The paper's Figure 4a: a point for every maximum pressure, a line for all other settings.
 Chart porosity_chart(const StudyTable &table) {
-  Chart chart;
-  chart.id = "porosity";
-  chart.title = "Porosity after relaxation against maximum pressure";
-  chart.x_label = "Maximum pressure (MPa)";
-  chart.y_label = "Total porosity after relaxation (%)";
+  Chart chart{"porosity", "Porosity after relaxation against maximum pressure",
+              "Maximum pressure (MPa)", "Total porosity after relaxation (%)"};
   std::size_t k = 0;
   for (const StudyGroup &line : table.groups({kMaxPressure})) {
     std::map<double, std::vector<double>> by_pressure;
@@ -73,13 +52,7 @@ Chart porosity_chart(const StudyTable &table) {
       add(s, pressure, mean_and_sd(values), 100.0);
     chart.series.push_back(s);
   }
-  Series measured = paper("measured (paper, Table 1)");
-  for (const report::MeasuredPorosity &p : report::paper_porosity()) {
-    measured.x.push_back(p.pressure_MPa);
-    measured.y.push_back(p.porosity_percent);
-    measured.y_error.push_back(p.sd_percent);
-  }
-  chart.series.push_back(measured);
+  chart.series.push_back(report::porosity_of_paper("measured (paper, Table 1)"));
   chart.note = "Mean and standard deviation over packings. The porosity at 0 MPa is an input from "
                "the recipe. The measured pressures are uncertain by 10–25 %.";
   return chart;
@@ -87,11 +60,8 @@ Chart porosity_chart(const StudyTable &table) {
 
 /// Breaks of the paper's Figure 4b, against pressure.
 Chart broken_chart(const StudyTable &table) {
-  Chart chart;
-  chart.id = "broken";
-  chart.title = "Broken bonds against pressure";
-  chart.x_label = "Pressure on the platen (MPa)";
-  chart.y_label = "Broken bonds (% of initial)";
+  Chart chart{"broken", "Broken bonds against pressure", "Pressure on the platen (MPa)",
+              "Broken bonds (% of initial)"};
   const std::vector<double> pressures = table.pressures("broken_fraction");
   if (pressures.empty())
     return chart;
@@ -103,30 +73,26 @@ Chart broken_chart(const StudyTable &table) {
       add(s, p, table.mean_and_sd(group, fmt::format("broken_fraction_at_{:g}_MPa", p)), 100.0);
     chart.series.push_back(s);
   }
-  chart.series.push_back(paper_broken());
+  chart.series.push_back(report::breaks_of_paper("paper (simulation)"));
   chart.note =
       "Where compression first reaches the pressure; mean and standard deviation over packings.";
   return chart;
 }
 
 Series curve_series(Series s, const CsvTable &curve, const char *column, double factor) {
-  const std::vector<double> x = curve.numbers("displacement_um"), y = curve.numbers(column);
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    s.x.push_back(x[i]);
-    s.y.push_back(factor * y[i]);
-  }
+  s.x = curve.numbers("displacement_um");
+  s.y = curve.numbers(column);
+  for (double &y : s.y)
+    y *= factor;
   s.symbol = Symbol::none;
   return s;
 }
 
 /// The paper's Figure 4b of the first packing of each setting.
 Chart curve_chart(const StudyTable &table, const CurveOfRun &curve_of) {
-  Chart chart;
-  chart.id = "curves";
-  chart.title = "Pressure and broken bonds against displacement";
-  chart.x_label = "Displacement of the platen (µm)";
-  chart.y_label = "Pressure on the platen (MPa)";
-  chart.right_label = "Broken bonds (% of initial)";
+  Chart chart{"curves", "Pressure and broken bonds against displacement",
+              "Displacement of the platen (µm)", "Pressure on the platen (MPa)",
+              "Broken bonds (% of initial)"};
   const std::vector<StudyGroup> groups = table.groups();
   for (std::size_t k = 0;
        k < groups.size() && chart.series.size() < 2 * report::kSeriesColours.size(); ++k) {
@@ -150,13 +116,11 @@ Chart curve_chart(const StudyTable &table, const CurveOfRun &curve_of) {
 /// One result against one setting; a line for every combination of the others.
 Chart against(const StudyTable &table, const std::string &setting, const std::string &result,
               const std::string &title, double factor) {
-  Chart chart;
-  chart.id = setting + "-" + result;
   const std::string words = setting_in_words(setting);
-  chart.title = fmt::format("{} against {}", title.substr(0, title.rfind(" (")),
-                            words.substr(0, words.rfind(" (")));
-  chart.x_label = words;
-  chart.y_label = title;
+  Chart chart{setting + "-" + result,
+              fmt::format("{} against {}", title.substr(0, title.rfind(" (")),
+                          words.substr(0, words.rfind(" ("))),
+              words, title};
   std::size_t k = 0;
   for (const StudyGroup &line : table.groups({setting})) {
     std::map<double, std::vector<double>> by_value;
@@ -203,10 +167,9 @@ std::string setting_in_words(const std::string &key) {
   std::string path = key.substr(key.find('.') + 1);
   if (path.rfind("effects.", 0) == 0)
     path.erase(0, 8);
-  const auto fact = report::facts_of({{path, nullptr}}, {})[0];
-  std::string name = fact["name"], unit = fact["unit"];
+  auto [name, unit] = in_words(path);
   std::replace(name.begin(), name.end(), '.', ' ');
-  return unit.empty() ? name : name + " (" + unit + ")";
+  return unit.empty() ? name : fmt::format("{} ({})", name, unit.substr(1));
 }
 
 std::vector<Chart> study_charts(const StudyTable &table, const CurveOfRun &curve) {

@@ -2,7 +2,9 @@
 #include "report/study_page.h"
 #include "base/messages.h"
 #include "base/provenance.h"
+#include "base/registry.h"
 #include "base/run_folder.h"
+#include "base/shown.h"
 #include "effects/effects.h"
 #include "report/page.h"
 #include "report/tables.h"
@@ -103,11 +105,9 @@ std::vector<StudyGroup> StudyTable::groups(const std::vector<std::string> &apart
 std::string StudyTable::label(const StudyGroup &group) {
   std::string out;
   for (const auto &[column, value] : group.settings) {
-    const auto fact = report::facts_of({{column.substr(column.rfind('.') + 1), nullptr}}, {})[0];
-    const std::string name = fact["name"], unit = fact["unit"];
+    const auto [name, unit] = in_words(last_part(column));
     out += (out.empty() ? "" : ", ") + name;
-    out += is_off(column, value) ? " off"
-                                 : fmt::format(" = {}{}", value, unit.empty() ? "" : " " + unit);
+    out += is_off(column, value) ? " off" : fmt::format(" = {}{}", value, unit);
   }
   return out;
 }
@@ -228,14 +228,14 @@ std::string study_page(const StudyTable &table, const std::vector<report::Chart>
 
 void draw_study(const std::vector<std::string> &columns, const std::string &folder) {
   if (!std::filesystem::exists(folder + "/study.csv"))
-    throw Failure(kBadInput,
-                  fmt::format("{} holds no study.csv. Make it with calendem study.", folder));
+    throw Failure(kBadInput, "{} holds no study.csv. Make it with calendem study.", folder);
   const nlohmann::json description =
       nlohmann::json::parse(text_of_file(folder + "/study.json"), nullptr, false);
   if (!description.is_object() || !description.contains("provenance"))
-    throw Failure(kBadInput, fmt::format("{}/study.json is missing or damaged. Make it again with "
-                                         "calendem study ... --table.",
-                                         folder));
+    throw Failure(
+        kBadInput,
+        "{}/study.json is missing or damaged. Make it again with calendem study ... --table.",
+        folder);
   const StudyTable table(CsvTable::parse(text_of_file(folder + "/study.csv")), columns);
   const auto curve = [&](const std::string &run) {
     return RunFolder(folder + "/runs/" + run).table("curve.csv");

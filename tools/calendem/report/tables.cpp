@@ -7,13 +7,10 @@
 #include "simulate/collect.h"
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fmt/format.h>
 #include <iterator>
 #include <limits>
 #include <map>
-#include <optional>
-#include <regex>
 
 namespace calendem::report {
 
@@ -31,13 +28,6 @@ constexpr double kSamePressure = 0.02;
 constexpr double kPressureError = 0.1;
 /// Scatter of the porosity over packings of the demo's cell [points], assumed: docs/validation/demo.md.
 constexpr double kPackingError = 1.0;
-
-double number_in(const json &object, const char *key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_number() ? found->get<double>() : kNaN;
-}
-
-json or_null(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
 /// What the labels of the headline stand for.
 std::string meaning_of(const std::string &label) {
@@ -74,10 +64,6 @@ json figure(const char *label, double value, const char *unit, int decimals,
 
 double max_pressure(const Run &run) {
   return run.curve["pressure_MPa"][run.curve.row_of_max_pressure()];
-}
-
-double porosity_after(const Run &run) {
-  return kPercent * number_in(run.summary, "porosity_after_relaxation");
 }
 
 /// Presses of summary.json; a sample of cells has only the one that its summary is of.
@@ -196,58 +182,22 @@ json breaks_row(const std::vector<Run> &runs, const PublishedBreaks &point) {
 
 /// The recipe of the paper is that of every key's default. One that is not known counts as it.
 bool is_of_paper(const Run &run) {
-  std::map<std::string, std::string> paper, recipe;
+  std::map<std::string, std::string> paper;
   for (const Key &key : recipe_keys())
     paper[key.name] = key.fallback;
-  const json given = run.electrode.value("recipe", json::object());
-  for (const auto &[key, value] : given.items())
-    if (value.is_string())
-      recipe[key] = value.get<std::string>();
-  return other_electrode(paper, recipe).empty();
+  return other_electrode(paper, recipe_in(run.electrode)).empty();
 }
 
-bool ends_with(const std::string &text, const std::string &end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-json fact(std::string name, const json &value) {
-  static const std::pair<const char *, const char *> kUnits[] = {{"_MPa", "MPa"},
-                                                                 {"_GPa", "GPa"},
-                                                                 {"_kPa", "kPa"},
-                                                                 {"_um2", "µm²"},
-                                                                 {"_um3", "µm³"},
-                                                                 {"_um", "µm"},
-                                                                 {"_us", "µs"},
-                                                                 {"_fJ", "fJ"},
-                                                                 {"_mg_cm2", "mg/cm²"},
-                                                                 {"_percent", "%"},
-                                                                 {"_m_s", "m/s"},
-                                                                 {"_J_m3", "J/m³"},
-                                                                 {"_g_cm3", "g/cm³"},
-                                                                 {"_per_second", "1/s"},
-                                                                 {"_nN", "nN"},
-                                                                 {"_seconds", "s"},
-                                                                 {"_s", "s"}};
-  std::string unit;
-  // the unit of a threshold is not that of the value: "difference above 5 MPa"
-  static const std::regex threshold("_(above|below|at)_[0-9.]+_[a-zA-Z0-9]+$");
-  const bool of_threshold = std::regex_search(name, threshold);
-  for (const auto &[suffix, shown_as] : kUnits)
-    if (!of_threshold && ends_with(name, suffix)) {
-      unit = shown_as;
-      name.resize(name.size() - std::string(suffix).size());
-      break;
-    }
-  std::replace(name.begin(), name.end(), '_', ' ');
-  std::string text = value.is_string() ? value.get<std::string>() : value.dump();
-  if (value.is_number_float()) {
-    char digits[40];
-    std::snprintf(digits, sizeof digits, "%.5g", value.get<double>());
-    text = digits;
-  } else if (value.is_boolean()) {
-    text = value.get<bool>() ? "yes" : "no";
-  }
-  return {{"name", name}, {"value", value}, {"text", text}, {"unit", unit}};
+json fact(const std::string &name, const json &value) {
+  const NameAndUnit words = in_words(name);
+  const std::string text = value.is_string()         ? value.get<std::string>()
+                           : value.is_number_float() ? fmt::format("{:.5g}", value.get<double>())
+                           : value.is_boolean()      ? (value.get<bool>() ? "yes" : "no")
+                                                     : value.dump();
+  return {{"name", words.name},
+          {"value", value},
+          {"text", text},
+          {"unit", words.unit.empty() ? "" : words.unit.substr(1)}};
 }
 
 void collect_facts(const json &object, const std::string &prefix,
@@ -266,34 +216,31 @@ void collect_facts(const json &object, const std::string &prefix,
 } // namespace
 
 std::string shown(double value, int decimals) {
-  if (!std::isfinite(value))
-    return "–";
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "–";
 }
 
 json headline_of(const Run &run) {
   const Curve &c = run.curve;
   const std::size_t top = c.row_of_max_pressure();
   const json &s = run.summary;
-  const double cracked = number_in(s, "cracked_bodies"), bodies = number_in(s, "bodies");
-  const std::string of_bodies = std::isfinite(bodies) ? "of " + shown(bodies, 0) : "";
-  const double bonds = number_in(s, "bonds_initial");
-  const double springback = number_in(s, "springback");
-  json figures = json::array();
-  figures.push_back(figure("Maximum pressure", max_pressure(run), "MPa", 1));
-  figures.push_back(
-      figure("Total porosity before", kPercent * c["porosity_total"].front(), "%", 1));
-  figures.push_back(
-      figure("Total porosity at maximum", kPercent * c["porosity_total"][top], "%", 1));
-  figures.push_back(figure("Total porosity after relaxation", porosity_after(run), "%", 1));
-  figures.push_back(
-      figure("Thickness after relaxation", number_in(s, "thickness_after_relaxation_um"), "µm", 1));
-  figures.push_back(figure("Springback", kPercent * springback, "%", 1));
-  figures.push_back(figure("Bonds broken at maximum", kPercent * c["broken_fraction"][top], "%", 1,
-                           std::isfinite(bonds) ? "of " + shown(bonds, 0) : ""));
-  figures.push_back(figure("Cracked bodies", cracked, "", 0, of_bodies));
+  const auto percent = [&](const char *column, std::size_t row) {
+    return kPercent * c[column][row];
+  };
+  const auto of_all = [&](const char *key) {
+    const double all = number_in(s, key);
+    return std::isfinite(all) ? "of " + shown(all, 0) : "";
+  };
+  json figures = {
+      figure("Maximum pressure", max_pressure(run), "MPa", 1),
+      figure("Total porosity before", percent("porosity_total", 0), "%", 1),
+      figure("Total porosity at maximum", percent("porosity_total", top), "%", 1),
+      figure("Total porosity after relaxation",
+             kPercent * number_in(s, "porosity_after_relaxation"), "%", 1),
+      figure("Thickness after relaxation", number_in(s, "thickness_after_relaxation_um"), "µm", 1),
+      figure("Springback", kPercent * number_in(s, "springback"), "%", 1),
+      figure("Bonds broken at maximum", percent("broken_fraction", top), "%", 1,
+             of_all("bonds_initial")),
+      figure("Cracked bodies", number_in(s, "cracked_bodies"), "", 0, of_all("bodies"))};
   if (s.contains("imposed"))
     figures.push_back(figure("CBD nanoporosity", kPercent * number_in(s["imposed"], "final"), "%",
                              1, s["imposed"].value("what", "imposed")));
@@ -359,22 +306,18 @@ json facts_of(const json &object, const std::vector<std::string> &left_out) {
 
 std::vector<MeasuredPorosity> paper_porosity() {
   const CsvTable table = CsvTable::parse(embedded::kTable1);
-  const auto pressure = table.numbers("pressure_MPa");
-  const auto porosity = table.numbers("porosity_percent");
-  const auto sd = table.numbers("porosity_sd_percent");
   std::vector<MeasuredPorosity> points;
-  for (std::size_t i = 0; i < pressure.size(); ++i)
-    points.push_back({pressure[i], porosity[i], sd[i]});
+  for (std::size_t i = 0; i < table.rows(); ++i)
+    points.push_back({table.numbers("pressure_MPa")[i], table.numbers("porosity_percent")[i],
+                      table.numbers("porosity_sd_percent")[i]});
   return points;
 }
 
 std::vector<PublishedBreaks> paper_breaks() {
   const CsvTable table = CsvTable::parse(embedded::kPaperBonds);
-  const auto pressure = table.numbers("pressure_MPa");
-  const auto broken = table.numbers("broken_percent");
   std::vector<PublishedBreaks> points;
-  for (std::size_t i = 0; i < pressure.size(); ++i)
-    points.push_back({pressure[i], broken[i]});
+  for (std::size_t i = 0; i < table.rows(); ++i)
+    points.push_back({table.numbers("pressure_MPa")[i], table.numbers("broken_percent")[i]});
   return points;
 }
 

@@ -15,12 +15,17 @@ using nlohmann::json;
 constexpr double kPerMille = 1000;
 constexpr double kUnderLoad = 5; // MPa
 
-struct RangeLimit {
+/// A line of a column of the curve.
+struct CurveLine {
   const char *column, *name, *colour, *dash;
 };
-const RangeLimit kLimits[] = {{"force_beyond_0.1_R", "beyond 0.1 R", "#0064b0", ""},
-                              {"force_beyond_0.2_R", "beyond 0.2 R", "#c8500a", "9 4"},
-                              {"force_beyond_0.3_R", "beyond 0.3 R", "#00845a", "2 3"}};
+const CurveLine kLimits[] = {{"force_beyond_0.1_R", "beyond 0.1 R", "#0064b0", ""},
+                             {"force_beyond_0.2_R", "beyond 0.2 R", "#c8500a", "9 4"},
+                             {"force_beyond_0.3_R", "beyond 0.3 R", "#00845a", "2 3"}};
+
+const std::pair<CurveLine, bool> kInertia[] = { // and whether on the right axis
+    {{"inertial_number", "inertial number", "#0064b0", ""}, false},
+    {{"kinetic_to_elastic", "kinetic over elastic (right)", "#00845a", "2 3"}, true}};
 
 struct Kind {
   const char *key, *name;
@@ -50,71 +55,46 @@ const ContactQuantity kContactQuantities[] = {
     {"force_beyond_0.3_R", kPercent, 1},
 };
 
-/// Column against pressure over the rows before the release; `from`: only above that pressure.
-Series before_release(const Run &run, const char *column, double factor, double from) {
-  Series series;
-  const Curve &c = run.curve;
+/// A column against pressure over the rows before the release; `from`: only above that pressure.
+Series &add_before_release(Chart &chart, const std::vector<Run> &runs, std::size_t i,
+                           const CurveLine &of, double factor, double from) {
+  const Curve &c = runs[i].curve;
+  Column x, y;
   for (const std::size_t row : c.compression())
     if (c["pressure_MPa"][row] > from) {
-      series.x.push_back(c["pressure_MPa"][row]);
-      series.y.push_back(factor * c[column][row]);
+      x.push_back(c["pressure_MPa"][row]);
+      y.push_back(factor * c[of.column][row]);
     }
-  return series;
-}
-
-void set_look(Series &series, const std::vector<Run> &runs, std::size_t run, const char *colour) {
-  series.colour = runs.size() == 1 ? colour : kSeriesColours[run % kSeriesColours.size()];
-  series.symbol = runs.size() == 1 ? Symbol::none : kSeriesSymbols[run % kSeriesSymbols.size()];
+  return add_line(chart, runs, i, of.name, x, y, of.colour, of.dash);
 }
 
 } // namespace
 
 Chart force_beyond_range(const std::vector<Run> &runs) {
-  Chart chart;
-  chart.id = "contact-range";
-  chart.title = "Contact force beyond the range of the contact law";
-  chart.x_label = "Pressure on the platen (MPa)";
-  chart.y_label = "Share of the contact force (%)";
+  Chart chart{"contact-range", "Contact force beyond the range of the contact law",
+              "Pressure on the platen (MPa)", "Share of the contact force (%)"};
   chart.note =
       "Elastic normal forces of contacts whose overlap exceeds a fraction of R, as a share of all "
       "contacts except those inside bodies. R: smaller radius of the pair; at a wall, the radius "
       "of the sphere. Hertz' law requires contacts that are small compared with both spheres.";
   for (std::size_t i = 0; i < runs.size(); ++i)
-    for (const RangeLimit &limit : kLimits)
-      if (runs[i].curve.has(limit.column)) {
-        Series series = before_release(runs[i], limit.column, kPercent, 0.0);
-        series.name = prefix(runs, runs[i]) + limit.name;
-        series.dash = limit.dash;
-        set_look(series, runs, i, limit.colour);
-        chart.series.push_back(std::move(series));
-      }
+    for (const CurveLine &limit : kLimits)
+      if (runs[i].curve.has(limit.column))
+        add_before_release(chart, runs, i, limit, kPercent, 0.0);
   return chart;
 }
 
 Chart inertial_numbers(const std::vector<Run> &runs) {
-  Chart chart;
-  chart.id = "inertia";
-  chart.title = "Inertial number and kinetic energy";
-  chart.x_label = "Pressure on the platen (MPa)";
-  chart.y_label = "Inertial number × 1000";
-  chart.right_label = "Kinetic over elastic energy × 1000";
+  Chart chart{"inertia", "Inertial number and kinetic energy", "Pressure on the platen (MPa)",
+              "Inertial number × 1000", "Kinetic over elastic energy × 1000"};
   chart.limits = {{kPerMille * kQuasiStaticInertialNumber, "quasi-static below"}};
   chart.note = "Inertial number: platen speed over gap × mean diameter of the primaries × (their "
                "density over pressure)^½, above 5 MPa before the release. Elastic energy: in bonds "
                "and contacts.";
   for (std::size_t i = 0; i < runs.size(); ++i)
-    for (const bool kinetic : {false, true}) {
-      const char *column = kinetic ? "kinetic_to_elastic" : "inertial_number";
-      if (!runs[i].curve.has(column))
-        continue;
-      Series series = before_release(runs[i], column, kPerMille, kUnderLoad);
-      series.name =
-          prefix(runs, runs[i]) + (kinetic ? "kinetic over elastic (right)" : "inertial number");
-      series.dash = kinetic ? "2 3" : "";
-      series.right_axis = kinetic;
-      set_look(series, runs, i, kinetic ? "#00845a" : "#0064b0");
-      chart.series.push_back(std::move(series));
-    }
+    for (const auto &[of, right] : kInertia)
+      if (runs[i].curve.has(of.column))
+        add_before_release(chart, runs, i, of, kPerMille, kUnderLoad).right_axis = right;
   return chart;
 }
 

@@ -238,13 +238,8 @@ std::optional<double> gap_at_loss(const std::vector<RawRow> &rows, double fracti
   return std::nullopt;
 }
 
-namespace {
-
-using Rows = std::vector<RawRow>;
-
-/// Gaps and porosities of the model, and what the press's instruments make of them.
-nlohmann::json thickness(const Rows &rows, const RawRow &top, const Settings &settings,
-                         const ElectrodeFacts &e) {
+nlohmann::json gaps_and_porosities(const std::vector<RawRow> &rows, const RawRow &top,
+                                   const Settings &settings, const ElectrodeFacts &e) {
   const double lost = settings.number("platen.contact_lost_fraction");
   // a run that was stopped has no gap after relaxation: the last one stands for it
   const double gap = gap_at_loss(rows, lost, top.p_top).value_or(rows.back().gap);
@@ -274,6 +269,10 @@ nlohmann::json thickness(const Rows &rows, const RawRow &top, const Settings &se
     s["porosity_after_relaxation_by_threshold"] = by_threshold;
   return s;
 }
+
+namespace {
+
+using Rows = std::vector<RawRow>;
 
 /// How the run went, and of what.
 nlohmann::json provenance(const std::string &folder, const Rows &rows, const Settings &settings,
@@ -334,7 +333,7 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
                        const RunFacts &facts) {
   Rows rows = read_raw(folder + "/curve_raw.csv");
   if (rows.size() < 2)
-    throw Failure(kSimulationFailed, fmt::format("'{}/curve_raw.csv' holds no curve", folder));
+    throw Failure(kSimulationFailed, "'{}/curve_raw.csv' holds no curve", folder);
   const bool elongates = add_elongation(folder, rows);
   const auto frames = write_series(folder, rows.back().time / rows.back().step);
   const UnionVolume filled = union_volumes(folder, e, frames, rows);
@@ -347,7 +346,7 @@ nlohmann::json collect(const std::string &folder, const Settings &settings, cons
       write_bodies(folder, e, settings.text("electrode"), frames, moments, last);
 
   const RawRow top = top_of(rows);
-  nlohmann::json s = thickness(rows, top, settings, e);
+  nlohmann::json s = gaps_and_porosities(rows, top, settings, e);
   s.update(provenance(folder, rows, settings, e, facts));
   if (!frames.empty())
     s["height_of_tops_after_um"] = height_of_tops(folder, frames.back().first);

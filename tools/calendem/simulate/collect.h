@@ -16,6 +16,9 @@
 #include <string>
 #include <vector>
 
+class vtkPolyData;
+template <class T> class vtkSmartPointer;
+
 namespace calendem {
 
 /// Contacts of one kind by overlap over the smaller radius (physics/contact_range.h), as `compute
@@ -67,6 +70,11 @@ struct UnionVolume {
 /// Porosity with the platen at `gap` [um].
 double total_porosity(const ElectrodeFacts &electrode, double gap, double elongation = 0.0);
 
+/// For summary.json: largest pressure, gaps and porosities, of the model and as the press's
+/// instruments show them.
+nlohmann::json gaps_and_porosities(const std::vector<RawRow> &rows, const RawRow &top,
+                                   const Settings &settings, const ElectrodeFacts &electrode);
+
 /// "presses" of summary.json, of curve.csv and cracks.csv in the folder: what each press of a run
 /// gave that was released. What no frame or table tells is null.
 nlohmann::json presses_of(const std::string &folder, const std::vector<RawRow> &rows,
@@ -100,6 +108,8 @@ void stop_if_checks_failed(const nlohmann::json &summary, const std::string &fol
 /// vtk/{particles,bonds,platen}.pvd over the frames; frames that
 /// were not written to their end are left out. Returns step -> time of the particle frames.
 std::vector<std::pair<long, double>> write_series(const std::string &folder, double dt);
+/// The particles of a frame.
+vtkSmartPointer<vtkPolyData> particles_of(const std::string &folder, long step);
 /// Height [um] below which 99.9 % of the particle tops of a frame lie.
 double height_of_tops(const std::string &folder, long step);
 UnionVolume union_volumes(const std::string &folder, const ElectrodeFacts &electrode,

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Reads the folder that `calendem pack` made and finds out whether it is whole.
+#include "electrode/pack/packing_state.h"
 #include "simulate/run.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fmt/format.h>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <sstream>
 
 namespace calendem {
@@ -36,81 +36,77 @@ bool numbers(const std::string &line, std::vector<double> &out) {
   return true;
 }
 
-/// Mean of the spheres of active material, one row of electrode.data after the other.
-class PrimaryMean {
-public:
-  void add(const std::vector<double> &row) {
-    if (row[1] != kActiveMaterial)
-      return;
-    const double volume = std::pow(row[2], 3);
-    ++n_;
-    diameters_ += row[2];
-    volumes_ += volume;
-    masses_ += row[3] * volume;
-  }
-  MeanSphere mean() const {
-    return n_ > 0 ? MeanSphere{diameters_ / n_, masses_ / volumes_} : MeanSphere();
-  }
+/// Mean of the spheres of active material.
+MeanSphere primary_of(const std::vector<Particle> &particles) {
+  constexpr int kActiveMaterial = 1; // atom type
+  double n = 0.0, diameters = 0.0, volumes = 0.0, masses = 0.0;
+  for (const Particle &p : particles)
+    if (p.type == kActiveMaterial) {
+      const double volume = std::pow(p.diameter, 3);
+      n += 1.0;
+      diameters += p.diameter;
+      volumes += volume;
+      masses += p.density * volume;
+    }
+  return n > 0.0 ? MeanSphere{diameters / n, masses / volumes} : MeanSphere();
+}
 
-private:
-  static constexpr double kActiveMaterial = 1; // atom type
-  long n_ = 0;
-  double diameters_ = 0.0, volumes_ = 0.0, masses_ = 0.0;
-};
-
-/// Tags of the atoms; number and mean of them in `e`; mistakes of electrode.data.
-std::set<long> read_atoms(const std::string &file, ElectrodeFacts &e, Mistakes &mistakes) {
-  long &announced = e.atoms;
-  PrimaryMean primaries;
+/// Particles by tag; mistakes of electrode.data.
+std::vector<Particle> read_atoms(const std::string &file, Mistakes &mistakes) {
   std::ifstream in(file);
-  std::set<long> tags;
+  std::map<int, Particle> found;
   std::vector<double> row;
   std::string line;
-  announced = 0;
+  long announced = 0;
   int number = 1;
   for (; std::getline(in, line) && line != "Atoms"; ++number)
     if (line.find(" atoms") != std::string::npos && announced == 0)
       announced = std::atol(line.c_str());
-  for (++number; std::getline(in, line); ++number) {
+  bool whole = true;
+  for (++number; whole && std::getline(in, line); ++number) {
     if (line.empty())
       continue;
-    if (!numbers(line, row) || row.size() != 7 || row[2] <= 0.0 || row[3] <= 0.0) {
-      mistakes.add(number, fmt::format("'{}' is not a row 'id type diameter density x y z'. {}",
-                                       line.substr(0, 80), kAgain));
-      return tags;
-    }
-    if (!tags.insert(static_cast<long>(row[0])).second)
-      mistakes.add(number, fmt::format("particle {} occurs twice. {}", row[0], kAgain));
-    primaries.add(row);
+    whole = numbers(line, row) && row.size() == 7 && row[2] > 0.0 && row[3] > 0.0;
+    if (!whole)
+      mistakes.add(number, "'{}' is not a row 'id type diameter density x y z'. {}",
+                   line.substr(0, 80), kAgain);
+    else if (const int tag = int(row[0]);
+             !found
+                  .emplace(tag,
+                           Particle{tag, int(row[1]), row[2], row[3], {row[4], row[5], row[6]}, 0})
+                  .second)
+      mistakes.add(number, "particle {} occurs twice. {}", tag, kAgain);
   }
-  e.primary = primaries.mean();
-  if (announced <= 0)
-    mistakes.add(0, fmt::format("has no line 'N atoms' with N > 0. {}", kAgain));
-  else if (static_cast<long>(tags.size()) != announced || !ends_with_newline(file))
-    mistakes.add(0, fmt::format("announces {} atoms and holds {} complete rows: it is cut. {}",
-                                announced,
-                                static_cast<long>(tags.size()) - !ends_with_newline(file), kAgain));
-  return tags;
+  const long rows = long(found.size()), cut = !ends_with_newline(file);
+  if (whole && announced <= 0)
+    mistakes.add(0, "has no line 'N atoms' with N > 0. {}", kAgain);
+  else if (whole && (rows != announced || cut))
+    mistakes.add(0, "announces {} atoms and holds {} complete rows: it is cut. {}", announced,
+                 rows - cut, kAgain);
+  std::vector<Particle> out;
+  for (const auto &[tag, particle] : found)
+    out.push_back(particle);
+  return out;
 }
 
-/// Rows of bodies.map; mistakes in it.
-long read_body_map(const std::string &file, const std::set<long> &tags, Mistakes &mistakes) {
+/// Gives the particles their bodies; mistakes of bodies.map.
+void read_body_map(const std::string &file, std::vector<Particle> &particles, Mistakes &mistakes) {
   std::ifstream in(file);
-  std::set<long> seen;
   std::vector<double> row;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     if (line.empty() || line[0] == '#')
       continue;
-    if (!numbers(line, row) || row.size() != 2 || row[1] < 1 ||
-        !seen.insert(static_cast<long>(row[0])).second || !tags.count(static_cast<long>(row[0]))) {
-      mistakes.add(number, fmt::format("'{}' is not a row 'tag body' with a tag of electrode.data "
-                                       "(each once) and a body >= 1. {}",
-                                       line.substr(0, 80), kAgain));
-      break;
-    }
+    const bool good = numbers(line, row) && row.size() == 2 && row[1] >= 1;
+    const auto at = std::lower_bound(particles.begin(), particles.end(), good ? row[0] : HUGE_VAL,
+                                     [](const Particle &p, double tag) { return p.tag < tag; });
+    if (at == particles.end() || at->tag != row[0] || at->body > 0)
+      return mistakes.add(number,
+                          "'{}' is not a row 'tag body' with a tag of electrode.data (each once) "
+                          "and a body >= 1. {}",
+                          line.substr(0, 80), kAgain);
+    at->body = int(row[1]);
   }
-  return static_cast<long>(seen.size());
 }
 
 void stop_if_files_are_missing(const std::string &folder) {
@@ -125,10 +121,10 @@ void stop_if_files_are_missing(const std::string &folder) {
   for (const char *name :
        {"electrode.data", "bodies.map", "electrode.in", "electrode.json", "bodies.csv"})
     if (!fs::is_regular_file(fs::path(folder) / name, none))
-      mistakes.add(0, fmt::format("'{}' is missing. {}", name,
-                                  rejected ? "The packing missed its targets, see "
-                                             "electrode.rejected.json; pack with other settings."
-                                           : "Make the electrode with calendem pack."));
+      mistakes.add(0, "'{}' is missing. {}", name,
+                   rejected ? "The packing missed its targets, see "
+                              "electrode.rejected.json; pack with other settings."
+                            : "Make the electrode with calendem pack.");
   mistakes.stop_if_any();
 }
 
@@ -157,6 +153,14 @@ ElectrodeFacts describe_electrode(const nlohmann::json &j) {
   return e;
 }
 
+std::vector<Particle> electrode_particles(const std::string &folder, Mistakes &data,
+                                          Mistakes &map) {
+  std::vector<Particle> particles = read_atoms(folder + "/electrode.data", data);
+  if (data.empty())
+    read_body_map(folder + "/bodies.map", particles, map);
+  return particles;
+}
+
 ElectrodeFacts read_electrode(const std::string &folder) {
   stop_if_files_are_missing(folder);
   ElectrodeFacts e;
@@ -166,16 +170,18 @@ ElectrodeFacts read_electrode(const std::string &folder) {
     std::ifstream in(folder + "/electrode.json");
     e = describe_electrode(nlohmann::json::parse(in));
   } catch (const std::exception &x) { // cut, edited, or of another program
-    description.add(0, fmt::format("cannot be used: {}. {}", x.what(), kAgain));
+    description.add(0, "cannot be used: {}. {}", x.what(), kAgain);
   }
-  const std::set<long> tags = read_atoms(folder + "/electrode.data", e, data);
-  const long rows = data.empty() ? read_body_map(folder + "/bodies.map", tags, map) : 0;
+  const std::vector<Particle> particles = electrode_particles(folder, data, map);
+  e.atoms = long(particles.size());
+  e.primary = primary_of(particles);
+  const auto rows = std::count_if(particles.begin(), particles.end(),
+                                  [](const Particle &p) { return p.body > 0; });
   if (data.empty() && map.empty() && description.empty() && rows != e.primaries)
-    map.add(0, fmt::format("holds {} primaries, electrode.json says {}: it is cut or of another "
-                           "electrode. {}",
-                           rows, e.primaries, kAgain));
+    map.add(0, "holds {} primaries, electrode.json says {}: it is cut or of another electrode. {}",
+            rows, e.primaries, kAgain);
   if (!ends_with_newline(folder + "/electrode.in"))
-    script.add(0, fmt::format("is cut. {}", kAgain));
+    script.add(0, "is cut. {}", kAgain);
   Mistakes all;
   for (const Mistakes *of_file : {&description, &data, &map, &script})
     all.add(*of_file);

@@ -8,8 +8,6 @@
 #include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 
 namespace calendem {
 
@@ -180,8 +178,7 @@ nlohmann::json write_bridges(const std::string &folder, const std::vector<RawRow
 }
 
 nlohmann::json dried_film(const std::string &folder) {
-  std::ifstream in(folder + "/drying.csv");
-  const CsvTable rows = CsvTable::parse({std::istreambuf_iterator<char>(in), {}});
+  const CsvTable rows = CsvTable::parse(text_of_file(folder + "/drying.csv"));
   if (rows.rows() == 0)
     return nullptr;
   const auto last = [&](const char *column) { return rows.numbers(column).back(); };

@@ -12,37 +12,14 @@
 #include <map>
 #include <sstream>
 #include <vtkDataArray.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkXMLPolyDataReader.h>
+#include <vtkSmartPointer.h>
 
 namespace calendem {
 namespace {
 
 constexpr double kEndOfRun = std::numeric_limits<double>::max();
-
-std::vector<Particle> read_particles(const std::string &folder) {
-  std::vector<Particle> particles;
-  std::ifstream data(folder + "/electrode.data"), map(folder + "/bodies.map");
-  std::string line;
-  while (std::getline(data, line) && line != "Atoms")
-    ;
-  while (std::getline(data, line)) {
-    std::istringstream row(line);
-    Particle p;
-    if (row >> p.tag >> p.type >> p.diameter >> p.density >> p.x.x() >> p.x.y() >> p.x.z())
-      particles.push_back(p);
-  }
-  std::sort(particles.begin(), particles.end(),
-            [](const Particle &a, const Particle &b) { return a.tag < b.tag; });
-  while (std::getline(map, line)) {
-    int tag = 0, body = 0;
-    if (std::istringstream(line) >> tag >> body)
-      particles.at(tag - 1).body = body;
-  }
-  return particles;
-}
 
 using Breaks = std::map<std::pair<int, int>, double>; // tags -> time [us]
 
@@ -88,14 +65,12 @@ std::map<int, Member> members_of(const std::vector<Particle> &particles, const B
   return out;
 }
 
-std::map<int, Eigen::Vector3d> positions(const std::string &file) {
+std::map<int, Eigen::Vector3d> positions(const std::string &folder, long step) {
   std::map<int, Eigen::Vector3d> out;
-  vtkNew<vtkXMLPolyDataReader> reader;
-  reader->SetFileName(file.c_str());
-  reader->Update();
-  vtkDataArray *id = reader->GetOutput()->GetPointData()->GetArray("id");
-  for (vtkIdType i = 0; id && i < reader->GetOutput()->GetNumberOfPoints(); ++i)
-    out[static_cast<int>(id->GetTuple1(i))] = Eigen::Vector3d(reader->GetOutput()->GetPoint(i));
+  const vtkSmartPointer<vtkPolyData> frame = particles_of(folder, step);
+  vtkDataArray *id = frame->GetPointData()->GetArray("id");
+  for (vtkIdType i = 0; id && i < frame->GetNumberOfPoints(); ++i)
+    out[static_cast<int>(id->GetTuple1(i))] = Eigen::Vector3d(frame->GetPoint(i));
   return out;
 }
 
@@ -163,15 +138,16 @@ std::pair<int, int> write_bodies(const std::string &folder, const ElectrodeFacts
   const double face = e.facet;
   std::map<int, Eigen::Vector3d> first, last;
   if (!frames.empty()) {
-    first = positions(fmt::format("{}/vtk/particles_{}.vtp", folder, frames.front().first));
-    last = positions(fmt::format("{}/vtk/particles_{}.vtp", folder, frames.back().first));
+    first = positions(folder, frames.front().first);
+    last = positions(folder, frames.back().first);
   }
   std::string out = "body,primaries,bonds,broken,broken_fraction,fragments,largest_fragment,"
                     "shape_change,depth_um,cracked,crack_surface_um2,parted_surface_um2,"
                     "deformation_um,apart_at_MPa,cracked_at_MPa\n";
   int cracked = 0;
   std::vector<BodyBonds> bodies;
-  for (const auto &[body, m] : members_of(read_particles(electrode_folder),
+  Mistakes none; // the electrode was read before
+  for (const auto &[body, m] : members_of(electrode_particles(electrode_folder, none, none),
                                           read_breaks(folder + "/breaks.csv"), e.lx, e.ly)) {
     const FractureState s = state_at(m.bonds, kEndOfRun);
     const ShapeChange shape = shape_of(together(m.tags, first, e.lx, e.ly),

@@ -9,15 +9,12 @@
 #include "simulate/study.h"
 #include <algorithm>
 #include <chrono>
-#include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sys/file.h>
-#include <unistd.h>
 
 namespace calendem {
 namespace fs = std::filesystem;
@@ -49,17 +46,6 @@ std::string ended_with(int exit_status) {
 }
 
 } // namespace
-
-WaitingLock::WaitingLock(const std::string &file)
-    : file_(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
-  if (file_ >= 0)
-    flock(file_, LOCK_EX);
-}
-
-WaitingLock::~WaitingLock() {
-  if (file_ >= 0)
-    close(file_);
-}
 
 Making::Making(const Study &study, const StudyOptions &options)
     : study_(study), o_(options), states_(study.runs.size()) {

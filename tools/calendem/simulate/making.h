@@ -4,6 +4,7 @@
 #ifndef CALENDEM_SIMULATE_MAKING_H
 #define CALENDEM_SIMULATE_MAKING_H
 
+#include "base/output_folder.h"
 #include "simulate/study.h"
 #include <map>
 #include <mutex>
@@ -15,18 +16,6 @@ namespace calendem {
 
 /// Status of a run that ended, but not as it should.
 inline constexpr const char *kChecksFailed = "checks failed";
-
-/// Keeps other programs out as long as it lives, where the file system knows locks; waits for them.
-class WaitingLock {
-public:
-  explicit WaitingLock(const std::string &file);
-  ~WaitingLock();
-  WaitingLock(const WaitingLock &) = delete;
-  WaitingLock &operator=(const WaitingLock &) = delete;
-
-private:
-  int file_;
-};
 
 /// Runs count from 0 here, in the order of the study.
 class Making {

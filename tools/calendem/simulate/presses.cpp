@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/case.h"
 #include "base/run_folder.h"
+#include "base/shown.h"
 #include "simulate/collect.h"
 #include <algorithm>
 #include <cmath>
@@ -10,8 +11,6 @@ namespace {
 
 /// A frame so near to a release's end knows how large the spheres are then [us].
 constexpr double kNearFrame = 0.1;
-
-nlohmann::json or_null(double v) { return std::isfinite(v) ? nlohmann::json(v) : nullptr; }
 
 /// Nanoporosity of CBD at a time, whose spheres keep their solid.
 double nanoporosity_at(const UnionVolume &filled, double initial, double time) {

@@ -10,8 +10,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 namespace calendem {
@@ -63,12 +61,11 @@ void stop_if_of_others(const RunOptions &o) {
   const std::string found = result_in(o.folder);
   if (found.empty() || o.force || (o.resume && fs::exists(o.folder + "/time_step.in")))
     return;
-  throw Failure(
-      kBadInput,
-      fmt::format("'{}' holds '{}' but no summary.json that can be read: the run of a "
-                  "script that was not collected, or files of your own. They would be "
-                  "lost. Give another -o, calendem collect, or --force to overwrite them.",
-                  o.folder, found));
+  throw Failure(kBadInput,
+                "'{}' holds '{}' but no summary.json that can be read: the run of a script that "
+                "was not collected, or files of your own. They would be lost. Give another -o, "
+                "calendem collect, or --force to overwrite them.",
+                o.folder, found);
 }
 
 } // namespace
@@ -92,25 +89,24 @@ bool holds_this_run(const RunOptions &o, const Settings &settings, const std::st
   const std::string differs = differences(o.folder + "/case.toml", settings);
   if (!same && (finished || (o.resume && !differs.empty())))
     throw Failure(kBadInput,
-                  fmt::format("'{}' holds a run of another case. Give another -o, or --force to "
-                              "overwrite it. What differs:{}",
-                              o.folder,
-                              differs.empty()
-                                  ? "\n  the electrode, the program or the input scripts"
-                                  : differs));
+                  "'{}' holds a run of another case. Give another -o, or --force to overwrite it. "
+                  "What differs:{}",
+                  o.folder,
+                  differs.empty() ? "\n  the electrode, the program or the input scripts"
+                                  : differs);
   const std::string then =
       old.value("provenance", nlohmann::json::object()).value("electrode_data", electrode);
   if (!finished && o.resume && then != electrode)
     throw Failure(kBadInput,
-                  fmt::format("'{}' holds a run of another electrode (electrode.data then {}, now "
-                              "{}): its restart files do not belong to '{}'. Give the electrode "
-                              "that it began with, another -o, or --force to overwrite it.",
-                              o.folder, then, electrode, settings.text("electrode")));
+                  "'{}' holds a run of another electrode (electrode.data then {}, now {}): its "
+                  "restart files do not belong to '{}'. Give the electrode that it began with, "
+                  "another -o, or --force to overwrite it.",
+                  o.folder, then, electrode, settings.text("electrode"));
   if (!finished && !o.resume && fs::exists(o.folder + "/running.restart"))
-    throw Failure(kBadInput,
-                  fmt::format("'{}' holds an unfinished run: {}. Go on with --resume, or "
-                              "start again with --force.",
-                              o.folder, why));
+    throw Failure(
+        kBadInput,
+        "'{}' holds an unfinished run: {}. Go on with --resume, or start again with --force.",
+        o.folder, why);
   return false;
 }
 
@@ -123,10 +119,9 @@ bool find_restart(const std::string &folder, long atoms) {
   if (!restart_is_whole(before, atoms))
     throw Failure(
         kBadInput,
-        fmt::format("'{}' is cut or damaged ({} bytes) and there is no older one: the run "
-                    "cannot be continued. What was computed is kept; start again with --force, "
-                    "or in another folder with -o.",
-                    newest, fs::exists(newest) ? fs::file_size(newest) : 0));
+        "'{}' is cut or damaged ({} bytes) and there is no older one: the run cannot be continued. "
+        "What was computed is kept; start again with --force, or in another folder with -o.",
+        newest, fs::exists(newest) ? fs::file_size(newest) : 0);
   fmt::print("run: {} is cut; going on from the one before it\n", newest);
   std::error_code none;
   fs::rename(newest, folder + "/running.damaged", none);
@@ -194,8 +189,7 @@ size_t last_chunk(const std::string &bytes, size_t end) {
 // before it. Ranks without atoms leave counts of 0, which the last value of an atom may look like
 // too: they are taken for such only where no chunk fits.
 bool restart_is_whole(const std::string &file, long atoms) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::string bytes = text_of_file(file);
   int empty_ranks = 0;
   size_t end = bytes.size();
   while (atoms > 0) {

@@ -23,16 +23,16 @@ namespace {
 void check_cell(const ElectrodeFacts &e, int ranks, Mistakes &mistakes) {
   const double cut_off = neighbour_cut_off(e.widest);
   if (std::min(e.lx, e.ly) < 2.0 * cut_off)
-    mistakes.add(0, fmt::format("the cell is {} x {} um; a periodic side must be at least two "
-                                "cut-offs, {:.2f} um, or a particle touches two images of another. "
-                                "Pack a larger cell.",
-                                e.lx, e.ly, 2.0 * cut_off));
+    mistakes.add(0,
+                 "the cell is {} x {} um; a periodic side must be at least two cut-offs, {:.2f} "
+                 "um, or a particle touches two images of another. Pack a larger cell.",
+                 e.lx, e.ly, 2.0 * cut_off);
   const int most = most_ranks(e.lx, e.ly, e.widest);
   if (ranks > most)
     mistakes.add(0,
-                 fmt::format("--ranks {}: a cell of {} x {} um can be shared by at most {} ranks "
-                             "whose parts are wider than a cut-off ({:.2f} um).",
-                             ranks, e.lx, e.ly, most, cut_off));
+                 "--ranks {}: a cell of {} x {} um can be shared by at most {} ranks whose parts "
+                 "are wider than a cut-off ({:.2f} um).",
+                 ranks, e.lx, e.ly, most, cut_off);
 }
 
 double lowest_gap(const ElectrodeFacts &e) { return 1.02 * e.solid / e.area; }
@@ -46,18 +46,20 @@ void check_target(const Settings &s, const ElectrodeFacts &e, Mistakes &mistakes
   const double target = control == "displacement" ? e.thickness - s.number(key) : s.number(key);
   if (target < lowest)
     mistakes.add(0,
-                 fmt::format("{} = {} sends the platen to {:.2f} um, but the solid alone fills "
-                             "{:.2f} um: no film can be thinner. Ask for a thickness above that.",
-                             key, s.text(key), target, lowest));
+                 "{} = {} sends the platen to {:.2f} um, but the solid alone fills {:.2f} um: no "
+                 "film can be thinner. Ask for a thickness above that.",
+                 key, s.text(key), target, lowest);
   if (target >= e.thickness)
-    mistakes.add(0, fmt::format("{} = {} sends the platen to {:.2f} um and it starts at {:.2f} um: "
-                                "nothing would be compressed.",
-                                key, s.text(key), target, e.thickness));
+    mistakes.add(0,
+                 "{} = {} sends the platen to {:.2f} um and it starts at {:.2f} um: nothing would "
+                 "be compressed.",
+                 key, s.text(key), target, e.thickness);
   const std::string first = "roll.first_gap_um";
   if (control == "roll_gap" && s.number(first) >= e.thickness)
-    mistakes.add(0, fmt::format("{} = {} is not below the electrode's {:.2f} um: the first pass "
-                                "would compress nothing. Give a smaller one, or 0.",
-                                first, s.text(first), e.thickness));
+    mistakes.add(0,
+                 "{} = {} is not below the electrode's {:.2f} um: the first pass would compress "
+                 "nothing. Give a smaller one, or 0.",
+                 first, s.text(first), e.thickness);
 }
 
 /// Where nanopores may fall, they start from what the electrode was packed with.
@@ -67,9 +69,10 @@ void check_nanoporosity(const Settings &s, const ElectrodeFacts &e, Mistakes &mi
   const bool falls = s.number("effects.cbd_collapse.yield_pressure_MPa") > 0.0 ||
                      s.number("imposed.cbd_nanoporosity_until_MPa") > 0.0;
   if (falls && e.nanoporosity > 0.0 && std::fabs(e.nanoporosity - s.number(key)) > kSame)
-    mistakes.add(0, fmt::format("{} is {}, but the electrode was packed with a nanoporosity of "
-                                "{:.3g} (cbd.nanoporosity_percent of its recipe). Give that.",
-                                key, s.text(key), e.nanoporosity));
+    mistakes.add(0,
+                 "{} is {}, but the electrode was packed with a nanoporosity of {:.3g} "
+                 "(cbd.nanoporosity_percent of its recipe). Give that.",
+                 key, s.text(key), e.nanoporosity);
 }
 
 void check_case(const Settings &s, const ElectrodeFacts &e, const RunOptions &o) {
@@ -183,12 +186,12 @@ void stop_if_packed_anew(const Settings &settings, const std::string &then) {
   const std::string file = settings.text("electrode") + "/electrode.data";
   const std::string now = hash_of_file(file);
   if (now != then)
-    throw Failure(kBadInput,
-                  fmt::format("'{}' has changed while the run went on (hash then {}, now {}): the "
-                              "electrode was packed anew. What was computed is kept as LIGGGHTS "
-                              "wrote it and is of neither. Run again with --force, and pack into "
-                              "another folder while a run is under way.",
-                              file, then, now));
+    throw Failure(
+        kBadInput,
+        "'{}' has changed while the run went on (hash then {}, now {}): the electrode was packed "
+        "anew. What was computed is kept as LIGGGHTS wrote it and is of neither. Run again with "
+        "--force, and pack into another folder while a run is under way.",
+        file, then, now);
 }
 
 /// Runs LIGGGHTS to its end; a run that fails is collected as far as it came.

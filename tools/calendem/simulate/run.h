@@ -8,13 +8,13 @@
 #include "physics/inertial_number.h"
 #include <chrono>
 #include <cmath>
-#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 namespace calendem {
 
+struct Particle;
 struct RawRow;
 
 struct RunOptions {
@@ -61,6 +61,10 @@ struct ElectrodeFacts {
 
 /// From electrode.json; the atoms are not in it. Throws std::exception where a field is missing.
 ElectrodeFacts describe_electrode(const nlohmann::json &electrode);
+
+/// The particles of an electrode's folder, by tag, and their bodies; what is wrong with electrode.data
+/// and bodies.map.
+std::vector<Particle> electrode_particles(const std::string &folder, Mistakes &data, Mistakes &map);
 
 /// Throws Failure(2) if a file is missing or cut.
 ElectrodeFacts read_electrode(const std::string &folder);

@@ -18,18 +18,6 @@ namespace {
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
-/// Linear between points of rising x; `below` before the first, the last y beyond the last.
-double value_at(const std::vector<double> &x, const std::vector<double> &y, double at,
-                double below) {
-  const auto next = std::lower_bound(x.begin(), x.end(), at);
-  if (next == x.end())
-    return y.back();
-  const std::size_t k = std::size_t(next - x.begin());
-  if (x[k] == at)
-    return y[k];
-  return k == 0 ? below : y[k - 1] + (y[k] - y[k - 1]) * (at - x[k - 1]) / (x[k] - x[k - 1]);
-}
-
 std::vector<double> turned(std::vector<double> v) {
   std::reverse(v.begin(), v.end());
   return v;
@@ -46,18 +34,18 @@ struct GapOfPressure {
         gap.push_back(h[k]);
       }
   }
-  double at(double p) const { return value_at(pressure, gap, p, gap.front()); }
+  double at(double p) const { return along_points(pressure, gap, p, gap.front()); }
 };
 
 /// Down, a cell bears nothing before its first point; up, nothing after its last.
 double pressure_down(const PressedCell &c, double gap) {
-  return gap > c.down.gap.front()
-             ? 0.0
-             : value_at(turned(c.down.gap), turned(c.down.pressure), gap, c.down.pressure.back());
+  return gap > c.down.gap.front() ? 0.0
+                                  : along_points(turned(c.down.gap), turned(c.down.pressure), gap,
+                                                 c.down.pressure.back());
 }
 double pressure_up(const PressedCell &c, double gap) {
   return gap > c.up.gap.back() ? 0.0
-                               : value_at(c.up.gap, c.up.pressure, gap, c.up.pressure.front());
+                               : along_points(c.up.gap, c.up.pressure, gap, c.up.pressure.front());
 }
 
 template <class Cells, class Value> double mean(const Cells &cells, Value value) {
@@ -84,6 +72,17 @@ std::vector<double> between(std::vector<double> v, double low, double high) {
 }
 
 } // namespace
+
+double along_points(const std::vector<double> &x, const std::vector<double> &y, double at,
+                    double below) {
+  const auto next = std::lower_bound(x.begin(), x.end(), at);
+  if (next == x.end())
+    return y.back();
+  const std::size_t k = std::size_t(next - x.begin());
+  if (x[k] == at)
+    return y[k];
+  return k == 0 ? below : y[k - 1] + (y[k] - y[k - 1]) * (at - x[k - 1]) / (x[k] - x[k - 1]);
+}
 
 PressPath monotone(const PressPath &path, bool rises) {
   PressPath out;
@@ -200,74 +199,54 @@ void check_turns(const std::vector<std::string> &folders, const std::vector<Cell
   const char *unit = shared == OneFor::Gap ? "um" : "MPa";
   for (std::size_t k = 1; k < cells.size(); ++k)
     if (const double turn = turning_point(cells[k], shared); !(std::fabs(turn - first) <= apart))
-      mistakes.add(0, fmt::format("{} was pressed to {:.3f} {}, {} to {:.3f} {}; cells of one {} "
-                                  "turn within {:.2g} {} of each other. Press them all with the "
-                                  "same {}.",
-                                  folders[0], first, unit, folders[k], turn, unit,
-                                  shared == OneFor::Gap ? "gap" : "pressure", apart, unit,
-                                  shared == OneFor::Gap
-                                      ? "platen.thickness_um, control = \"thickness\""
-                                      : "platen.max_pressure_MPa"));
+      mistakes.add(0,
+                   "{} was pressed to {:.3f} {}, {} to {:.3f} {}; cells of one {} turn within "
+                   "{:.2g} {} of each other. Press them all with the same {}.",
+                   folders[0], first, unit, folders[k], turn, unit,
+                   shared == OneFor::Gap ? "gap" : "pressure", apart, unit,
+                   shared == OneFor::Gap ? "platen.thickness_um, control = \"thickness\""
+                                         : "platen.max_pressure_MPa");
+}
+
+/// The sample as a run: its rows, and its means as an electrode of 1 um2.
+struct Pressed {
+  std::vector<RawRow> rows;
+  ElectrodeFacts means;
+
+  RawRow top() const { return top_of(rows); }
+};
+
+Pressed pressed_sample(const std::vector<Cell> &cells, OneFor shared) {
+  std::vector<PressedCell> pressed;
+  for (const Cell &c : cells)
+    pressed.push_back(c.pressed);
+  Pressed out;
+  out.means.area = 1.0;
+  out.means.thickness = mean(cells, [](const Cell &c) { return c.pressed.thickness; });
+  out.means.solid = mean(cells, [](const Cell &c) { return c.solid; });
+  for (const SampleRow &r :
+       shared == OneFor::Gap ? under_one_gap(pressed) : under_one_pressure(pressed)) {
+    RawRow &row = out.rows.emplace_back();
+    row.stage = r.released ? 3.0 : 1.0;
+    row.displacement = out.means.thickness - r.gap;
+    row.gap = r.gap;
+    row.p_top = r.pressure;
+  }
+  return out;
 }
 
 /// The sample's own numbers, and what a press with these instruments shows of them.
-struct Pressed {
-  std::vector<SampleRow> rows;
-  double thickness, solid; ///< means before [um]
-  PressInstruments press;
-
-  double porosity(double gap) const { return 1.0 - solid / gap; }
-
-  std::string curve() const {
-    std::string out = "stage,displacement_um,thickness_um,pressure_MPa,porosity_total,"
-                      "displacement_shown_um,thickness_shown_um,pressure_shown_MPa\n";
-    for (const SampleRow &r : rows)
-      out += fmt::format("{},{:.6f},{:.6f},{:.6g},{:.6f},{:.6f},{:.6f},{:.6g}\n",
-                         r.released ? "relaxation" : "compression", thickness - r.gap, r.gap,
-                         r.pressure, porosity(r.gap),
-                         press.displacement_shown(thickness - r.gap, r.pressure),
-                         press.thickness_shown(r.gap), press.pressure_shown(r.pressure));
-    return out;
-  }
-
-  SampleRow top() const {
-    return *std::max_element(rows.begin(), rows.end(), [](const SampleRow &a, const SampleRow &b) {
-      return a.pressure < b.pressure;
-    });
-  }
-
-  /// Gap at which the pressure first falls below this one in the release; of the last row if it
-  /// never does.
-  double gap_at_loss(double pressure) const {
-    for (std::size_t k = 1; k < rows.size(); ++k) {
-      const SampleRow &a = rows[k - 1], &b = rows[k];
-      if (b.released && b.pressure < pressure)
-        return a.pressure <= pressure
-                   ? a.gap
-                   : a.gap + (b.gap - a.gap) * (a.pressure - pressure) / (a.pressure - b.pressure);
-    }
-    return rows.back().gap;
-  }
-
-  nlohmann::json summary(double lost) const {
-    const SampleRow most = top();
-    const double after = gap_at_loss(lost * most.pressure);
-    return {{"max_pressure_MPa", most.pressure},
-            {"thickness_at_max_um", most.gap},
-            {"porosity_at_max", porosity(most.gap)},
-            {"thickness_after_relaxation_um", after},
-            {"porosity_after_relaxation", porosity(after)},
-            {"porosity_initial", porosity(thickness)},
-            {"springback", (after - most.gap) / most.gap},
-            {"contact_lost_fraction", lost},
-            {"max_pressure_shown_MPa", press.pressure_shown(most.pressure)},
-            {"thickness_at_max_shown_um", press.thickness_shown(most.gap)},
-            {"thickness_after_relaxation_shown_um", press.thickness_shown(after)},
-            {"porosity_initial_shown", porosity(press.thickness_shown(thickness))},
-            {"porosity_after_relaxation_shown", porosity(press.thickness_shown(after))},
-            {"finished", true}};
-  }
-};
+std::string curve_of(const Pressed &sample, const PressInstruments &press) {
+  std::string out = "stage,displacement_um,thickness_um,pressure_MPa,porosity_total,"
+                    "displacement_shown_um,thickness_shown_um,pressure_shown_MPa\n";
+  for (const RawRow &r : sample.rows)
+    out += fmt::format("{},{:.6f},{:.6f},{:.6g},{:.6f},{:.6f},{:.6f},{:.6g}\n",
+                       r.stage > 2.5 ? "relaxation" : "compression", r.displacement, r.gap, r.p_top,
+                       total_porosity(sample.means, r.gap),
+                       press.displacement_shown(r.displacement, r.p_top),
+                       press.thickness_shown(r.gap), press.pressure_shown(r.p_top));
+  return out;
+}
 
 nlohmann::json description(const std::vector<std::string> &folders, const std::vector<Cell> &cells,
                            OneFor shared) {
@@ -295,7 +274,9 @@ nlohmann::json electrode_of(const std::vector<Cell> &cells, const nlohmann::json
 /// The bodies are those of all cells.
 nlohmann::json summary_of(const std::vector<Cell> &cells, const Pressed &sample,
                           const nlohmann::json &what) {
-  nlohmann::json j = sample.summary(cells[0].settings.number("platen.contact_lost_fraction"));
+  nlohmann::json j =
+      gaps_and_porosities(sample.rows, sample.top(), cells[0].settings, sample.means);
+  j["finished"] = true;
   for (const char *key : {"bodies", "cracked_bodies"}) {
     double sum = 0.0;
     for (const Cell &c : cells)
@@ -313,7 +294,7 @@ std::string case_of(const std::vector<Cell> &cells, const Pressed &sample) {
   for (const char *other : {"platen.thickness_um", "platen.displacement_um", "platen.roll_gap_um"})
     settings.set(other, "0");
   settings.set("platen.control", "pressure");
-  settings.set("platen.max_pressure_MPa", fmt::format("{:.6g}", sample.top().pressure));
+  settings.set("platen.max_pressure_MPa", fmt::format("{:.6g}", sample.top().p_top));
   return write_toml(settings, case_keys(), fmt::format("# a sample of {} cells\n", cells.size()));
 }
 
@@ -337,9 +318,10 @@ void check_alike(const std::vector<std::string> &runs, const std::vector<Cell> &
     const auto all = common_to_cells(cells[k]);
     for (const auto &[key, value] : common_to_cells(cells[0]))
       if (const auto other = all.find(key); other != all.end() && other->second != value)
-        mistakes.add(0, fmt::format("'{}' has {} = {}, '{}' has {}: cells of one sample are of one "
-                                    "recipe and material, whatever their loading.",
-                                    runs[0], key, value, runs[k], other->second));
+        mistakes.add(0,
+                     "'{}' has {} = {}, '{}' has {}: cells of one sample are of one recipe and "
+                     "material, whatever their loading.",
+                     runs[0], key, value, runs[k], other->second);
   }
 }
 
@@ -365,22 +347,16 @@ void must_not_hold_another(const std::string &folder) {
   const bool run = fs::exists(folder + "/curve_raw.csv"),
              electrode = fs::exists(folder + "/electrode.data");
   if (run || electrode)
-    throw Failure(kBadInput, fmt::format("'{}' holds {}, which a sample would overwrite. Give "
-                                         "another folder with -o.",
-                                         folder, run ? "a run" : "an electrode"));
+    throw Failure(kBadInput,
+                  "'{}' holds {}, which a sample would overwrite. Give another folder with -o.",
+                  folder, run ? "a run" : "an electrode");
 }
 
 } // namespace
 
 void make_sample(const std::vector<std::string> &runs, OneFor shared, const std::string &folder) {
   const std::vector<Cell> cells = read_cells(runs, shared);
-  std::vector<PressedCell> pressed;
-  for (const Cell &c : cells)
-    pressed.push_back(c.pressed);
-  const Pressed sample = {
-      shared == OneFor::Gap ? under_one_gap(pressed) : under_one_pressure(pressed),
-      mean(cells, [](const Cell &c) { return c.pressed.thickness; }),
-      mean(cells, [](const Cell &c) { return c.solid; }), instruments_of(cells[0].settings)};
+  const Pressed sample = pressed_sample(cells, shared);
   const nlohmann::json what = description(runs, cells, shared),
                        electrode = electrode_of(cells, what),
                        summary = summary_of(cells, sample, what);
@@ -388,14 +364,14 @@ void make_sample(const std::vector<std::string> &runs, OneFor shared, const std:
   for (const std::string &run : runs)
     must_not_be(folder, run, "a run of the sample");
   must_not_hold_another(folder);
-  write_file(folder + "/curve.csv", sample.curve());
+  write_file(folder + "/curve.csv", curve_of(sample, instruments_of(cells[0].settings)));
   write_file(folder + "/electrode.json", electrode.dump(2) + "\n");
   write_file(folder + "/case.toml", case_of(cells, sample));
   write_summary(folder, summary);
   fmt::print("sample: {} cells under one {}, {:.2f} mg/cm2, {:.1f} MPa at {:.2f} um, {:.2f} um and "
              "{:.2f} % porosity after release -> {}\n",
              cells.size(), what["one"].get<std::string>(),
-             electrode["loading_mg_cm2"].get<double>(), sample.top().pressure, sample.top().gap,
+             electrode["loading_mg_cm2"].get<double>(), sample.top().p_top, sample.top().gap,
              summary["thickness_after_relaxation_um"].get<double>(),
              100.0 * summary["porosity_after_relaxation"].get<double>(), folder);
 }

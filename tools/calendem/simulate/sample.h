@@ -43,6 +43,10 @@ struct SampleRow {
   double gap = 0.0, pressure = 0.0; ///< mean of the cells [um], [MPa]
 };
 
+/// Linear between points of rising x; `below` before the first, the last y beyond the last.
+double along_points(const std::vector<double> &x, const std::vector<double> &y, double at,
+                    double below);
+
 /// Keeps the points in which the gap moves on: falls, or rises.
 PressPath monotone(const PressPath &path, bool rises);
 

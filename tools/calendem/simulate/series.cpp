@@ -3,6 +3,7 @@
 #include "base/provenance.h"
 #include "physics/pi.h"
 #include "simulate/collect.h"
+#include "simulate/sample.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -45,13 +46,6 @@ std::vector<long> steps_of(const std::string &folder, const std::string &family)
   return steps;
 }
 
-vtkSmartPointer<vtkPolyData> particles_of(const std::string &folder, long step) {
-  vtkNew<vtkXMLPolyDataReader> reader;
-  reader->SetFileName(fmt::format("{}/vtk/particles_{}.vtp", folder, step).c_str());
-  reader->Update();
-  return reader->GetOutput();
-}
-
 /// Cell of voxels, periodic in x and y.
 class Voxels {
 public:
@@ -85,6 +79,13 @@ private:
 };
 
 } // namespace
+
+vtkSmartPointer<vtkPolyData> particles_of(const std::string &folder, long step) {
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName(fmt::format("{}/vtk/particles_{}.vtp", folder, step).c_str());
+  reader->Update();
+  return reader->GetOutput();
+}
 
 std::vector<std::pair<long, double>> write_series(const std::string &folder, double dt) {
   std::vector<std::pair<long, double>> frames;
@@ -146,16 +147,7 @@ double height_of_tops(const std::string &folder, long step) {
 }
 
 double UnionVolume::at(double t) const {
-  if (time.empty())
-    return NAN;
-  const auto above = std::lower_bound(time.begin(), time.end(), t);
-  if (above == time.begin())
-    return volume.front();
-  if (above == time.end())
-    return volume.back();
-  const size_t i = above - time.begin();
-  const double f = (t - time[i - 1]) / (time[i] - time[i - 1]);
-  return volume[i - 1] + f * (volume[i] - volume[i - 1]);
+  return time.empty() ? NAN : along_points(time, volume, t, volume.front());
 }
 
 } // namespace calendem

@@ -110,11 +110,11 @@ long submit_array(const SlurmArray &a, const std::vector<long> &after) {
   for (std::string line; std::getline(lines, line);)
     if (const long job = std::strtol(line.c_str(), nullptr, 10); answer.status == 0 && job > 0)
       return job;
-  throw Failure(kBadInput,
-                fmt::format("sbatch refused {}/{}.sh (exit status {}):\n{}Give what it asks for "
-                            "with --sbatch; the array may have more tasks than the cluster allows "
-                            "(MaxArraySize, MaxSubmitJobs).",
-                            a.folder, a.file, answer.status, answer.text));
+  throw Failure(
+      kBadInput,
+      "sbatch refused {}/{}.sh (exit status {}):\n{}Give what it asks for with --sbatch; the array "
+      "may have more tasks than the cluster allows (MaxArraySize, MaxSubmitJobs).",
+      a.folder, a.file, answer.status, answer.text);
 }
 
 void check_slurm(const std::string &scratch) { ask({"sbatch", "--version"}, scratch); }
@@ -125,9 +125,10 @@ std::map<int, SlurmTask> tasks_of(const std::string &name, const std::string &sc
            "--name=" + name, "--format=%F|%K|%T|%r"},
           scratch);
   if (answer.status != 0)
-    throw Failure(kBadInput, fmt::format("squeue failed (exit status {}): {}What is in the queue "
-                                         "is not known; try again when Slurm answers.",
-                                         answer.status, answer.text));
+    throw Failure(kBadInput,
+                  "squeue failed (exit status {}): {}What is in the queue is not known; try again "
+                  "when Slurm answers.",
+                  answer.status, answer.text);
   std::map<int, SlurmTask> tasks;
   std::istringstream lines(answer.text);
   for (std::string line; std::getline(lines, line);) {
@@ -316,10 +317,9 @@ private:
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     if (stop_requested())
       throw Failure(kSimulationFailed,
-                    fmt::format("study: stopped on request. Its jobs stay in Slurm's queue; the "
-                                "same command waits for them again. To end them: scancel "
-                                "--name={},{}",
-                                packings_.name, runs_.name));
+                    "study: stopped on request. Its jobs stay in Slurm's queue; the same command "
+                    "waits for them again. To end them: scancel --name={},{}",
+                    packings_.name, runs_.name);
   }
 
   static std::string shown(const Tasks &tasks) {

@@ -26,10 +26,6 @@ void stop_if_failed(const Making &making) {
                   "study: some runs are not usable:" + failures);
 }
 
-} // namespace
-
-namespace {
-
 StudyOptions at_whole_paths(StudyOptions o) {
   o.folder = fs::absolute(o.folder).lexically_normal().string();
   o.liggghts = fs::absolute(o.liggghts).lexically_normal().string();
@@ -41,7 +37,7 @@ StudyOptions at_whole_paths(StudyOptions o) {
 void prepare(const Study &study, const StudyOptions &o) {
   const int n = static_cast<int>(study.runs.size());
   if (o.only > n)
-    throw Failure(kBadInput, fmt::format("--only {}: the study has {} runs.", o.only, n));
+    throw Failure(kBadInput, "--only {}: the study has {} runs.", o.only, n);
   if (const std::string wrong = wrong_program(o.liggghts); !wrong.empty())
     throw Failure(kBadInput, wrong);
   make_output_folder(o.folder);
@@ -70,19 +66,14 @@ void make(Making &making, const Study &study, const StudyOptions &o) {
 
 } // namespace
 
-std::vector<std::string> finished_runs(const Study &study, const StudyOptions &options) {
-  return Making(study, at_whole_paths(options)).finished();
-}
-
 std::vector<RunPlace> places_of(const Study &study, const StudyOptions &options) {
   const StudyOptions o = at_whole_paths(options);
   const CsvTable table = CsvTable::parse(text_of_file(o.folder + "/study.csv"));
   const std::vector<std::string> run = table.texts("run"), packing = table.texts("packing"),
                                  status = table.texts("status");
   if (run.size() != study.runs.size())
-    throw Failure(kBadInput, fmt::format("{}/study.csv is that of another study. Give an empty "
-                                         "folder: -o DIR.",
-                                         o.folder));
+    throw Failure(kBadInput, "{}/study.csv is that of another study. Give an empty folder: -o DIR.",
+                  o.folder);
   std::vector<RunPlace> out;
   for (std::size_t k = 0; k < run.size(); ++k)
     out.push_back({o.folder + "/runs/" + run[k], o.folder + "/packings/" + packing[k],
@@ -115,57 +106,37 @@ std::vector<std::string> make_what_runs(const Study &study, const StudyOptions &
 
 namespace {
 
-const char *const kNumbers[] = {"max_pressure_MPa",
-                                "broken_fraction_at_max",
-                                "broken_fraction_after",
-                                "porosity_initial",
-                                "porosity_at_max",
-                                "porosity_after_relaxation",
-                                "thickness_at_max_um",
-                                "thickness_after_relaxation_um",
-                                "springback",
-                                "bodies",
-                                "cracked_bodies",
-                                "bonds_initial",
-                                "ranks",
-                                "steps",
-                                "wall_clock_s"};
-/// Where in summary.json, and the column's name.
-struct Nested {
-  const char *place, *name;
+/// A number of summary.json: its place, and the column's name where that is not its last part.
+struct Number {
+  const char *place, *column = nullptr;
+  std::string name() const {
+    return column ? column : std::string(place).substr(std::string(place).rfind('/') + 1);
+  }
 };
-const Nested kNested[] = {
-    {"/quasi_static/pressure_difference_max_above_5_MPa", "pressure_difference_max_above_5_MPa"},
-    {"/quasi_static/inertial_number_max_above_5_MPa", "inertial_number_max_above_5_MPa"},
-    {"/quasi_static/kinetic_to_elastic_max_above_5_MPa", "kinetic_to_elastic_max_above_5_MPa"},
+const Number kNumbers[] = {
+    {"/max_pressure_MPa"},
+    {"/broken_fraction_at_max"},
+    {"/broken_fraction_after"},
+    {"/porosity_initial"},
+    {"/porosity_at_max"},
+    {"/porosity_after_relaxation"},
+    {"/thickness_at_max_um"},
+    {"/thickness_after_relaxation_um"},
+    {"/springback"},
+    {"/bodies"},
+    {"/cracked_bodies"},
+    {"/bonds_initial"},
+    {"/ranks"},
+    {"/steps"},
+    {"/wall_clock_s"},
+    {"/quasi_static/pressure_difference_max_above_5_MPa"},
+    {"/quasi_static/inertial_number_max_above_5_MPa"},
+    {"/quasi_static/kinetic_to_elastic_max_above_5_MPa"},
     {"/contact_range/at_max_pressure/all/force_beyond_0.2_R", "force_beyond_0.2_R_at_max"}};
 const char *const kAtPressure[] = {"displacement_um", "thickness_um", "broken_fraction",
                                    "porosity_total"};
 
 std::string number(double v) { return std::isfinite(v) ? fmt::format("{:.10g}", v) : ""; }
-
-/// Values of `columns` where the compression first reaches `pressure`, linear between rows.
-std::vector<double> at_pressure(const CsvTable &curve, double pressure) {
-  std::vector<double> out(std::size(kAtPressure), std::nan(""));
-  if (!curve.has("pressure_MPa") || !curve.has("stage"))
-    return out;
-  const std::vector<std::string> stage = curve.texts("stage");
-  const std::vector<double> p = curve.numbers("pressure_MPa");
-  for (std::size_t k = 1; k < p.size() && stage[k] == "compression"; ++k) {
-    if (p[k] < pressure)
-      continue;
-    const double share = p[k] > p[k - 1] ? (pressure - p[k - 1]) / (p[k] - p[k - 1]) : 1.0;
-    for (std::size_t c = 0; c < out.size(); ++c)
-      if (curve.has(kAtPressure[c])) {
-        const std::vector<double> v = curve.numbers(kAtPressure[c]);
-        out[c] = v[k - 1] + share * (v[k] - v[k - 1]);
-      }
-    return out;
-  }
-  return out;
-}
-
-constexpr std::size_t kOwn = std::size(kNumbers) + std::size(kNested);
 
 } // namespace
 
@@ -173,10 +144,8 @@ std::string study_header(const Study &study) {
   std::string out = "number,status,run,packing";
   for (const std::string &c : study.columns)
     out += "," + c;
-  for (const char *key : kNumbers)
-    out += std::string(",") + key;
-  for (const Nested &n : kNested)
-    out += std::string(",") + n.name;
+  for (const Number &n : kNumbers)
+    out += "," + n.name();
   for (const double p : study.at_pressure)
     for (const char *key : kAtPressure)
       out += fmt::format(",{}_at_{:g}_MPa", key, p);
@@ -184,7 +153,7 @@ std::string study_header(const Study &study) {
 }
 
 std::string no_results(const std::vector<double> &pressures) {
-  return std::string(kOwn + pressures.size() * std::size(kAtPressure), ',');
+  return std::string(std::size(kNumbers) + pressures.size() * std::size(kAtPressure), ',');
 }
 
 std::string results_of(const std::string &folder, const std::vector<double> &pressures) {
@@ -197,15 +166,13 @@ std::string results_of(const std::string &folder, const std::vector<double> &pre
     return s.contains(at) && s[at].is_number() ? s[at].get<double>() : std::nan("");
   };
   std::string out;
-  for (const char *key : kNumbers)
-    out += "," + number(value(std::string("/") + key));
-  for (const Nested &n : kNested)
+  for (const Number &n : kNumbers)
     out += "," + number(value(n.place));
-  if (pressures.empty())
-    return out;
+  Mistakes none; // a curve that is not there leaves empty cells
+  const Curve curve = run.curve({"pressure_MPa"}, none, none);
   for (const double p : pressures)
-    for (const double v : at_pressure(run.table("curve.csv"), p))
-      out += "," + number(v);
+    for (const char *column : kAtPressure)
+      out += "," + number(at_first_crossing(curve, p, column));
   return out;
 }
 

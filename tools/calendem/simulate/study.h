@@ -34,9 +34,6 @@ struct StudyOptions {
   SlurmOptions slurm;
 };
 
-/// Folders of the runs in their order; empty where a run is not done or its checks did not hold.
-std::vector<std::string> finished_runs(const Study &study, const StudyOptions &options);
-
 /// Where a run and its packing lie, and whether its making is over: done, its checks did not hold, or
 /// it failed.
 struct RunPlace {
@@ -47,9 +44,9 @@ struct RunPlace {
 std::vector<RunPlace> places_of(const Study &study, const StudyOptions &options);
 
 /// Writes packings/, runs/, study.csv (after every run) and study.json into the folder; with Slurm
-/// also slurm/, the scripts and what its jobs said. Returns finished_runs(), of the program and
-/// scripts that it began with. Throws Failure: 2 bad input, or Slurm refused the jobs; 3 a run failed
-/// (the others were made), 4 checks of a run did not hold.
+/// also slurm/, the scripts and what its jobs said. Returns the folders of the runs in their order;
+/// empty where a run is not done or its checks did not hold. Throws Failure: 2 bad input, or Slurm
+/// refused the jobs; 3 a run failed (the others were made), 4 checks of a run did not hold.
 std::vector<std::string> make_study(const Study &study, const StudyOptions &options);
 
 /// Makes the study and goes on where runs fail, saying that `parts` ("Draws") with such runs are

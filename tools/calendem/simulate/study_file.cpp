@@ -25,15 +25,12 @@ struct Group {
 };
 
 /// The key "case.…" or "recipe.…" is the name of; null if there is none.
-const Key *find_key(const std::string &name) {
-  const bool of_recipe = name.rfind("recipe.", 0) == 0;
-  if (!of_recipe && name.rfind("case.", 0) != 0)
-    return nullptr;
-  const std::vector<Key> &keys = of_recipe ? recipe_keys() : case_keys();
+const Key *varied_key(const std::string &name) {
   const std::string bare = name.substr(name.find('.') + 1);
-  const auto at =
-      std::find_if(keys.begin(), keys.end(), [&](const Key &k) { return k.name == bare; });
-  return at == keys.end() || bare == "electrode" || bare == "material" ? nullptr : &*at;
+  const Key *key = name == "recipe." + bare ? find_key(recipe_keys(), bare)
+                   : name == "case." + bare ? find_key(case_keys(), bare)
+                                            : nullptr;
+  return bare == "electrode" || bare == "material" ? nullptr : key;
 }
 
 std::string unknown_key(const std::string &name) {
@@ -64,30 +61,29 @@ public:
     std::sort(out.at_pressure.begin(), out.at_pressure.end());
   }
 
-  Group read_group(const toml::node &node) {
-    const toml::table *t = node.as_table();
-    if (!t) {
-      mistakes_.add(line_of(node), "write what is varied as tables: [[vary]].");
-      return {};
-    }
-    report_unknown(*t, {"keys", "values", "normal", "design"});
-    if (t->contains("design") && (t->contains("keys") || t->contains("values"))) {
-      mistakes_.add(line_of(node), "give either keys and values, or a design.");
-      return {};
-    }
-    return t->contains("design") ? read_design(*t) : read_values(*t, line_of(node));
+  std::vector<Group> read_groups(const toml::table &root) {
+    std::vector<Group> out;
+    each_table(root, "vary", [&](const toml::table &t) {
+      report_unknown(t, {"keys", "values", "normal", "design"});
+      if (t.contains("design") && (t.contains("keys") || t.contains("values")))
+        refuse(t, "give either keys and values, or a design.");
+      else
+        out.push_back(t.contains("design") ? read_design(t) : read_values(t, line_of(t)));
+    });
+    return out;
   }
 
 private:
   /// The value as text if the key may hold it.
   std::string checked(const std::string &name, const std::string &cell, int line) {
-    const Key *key = find_key(name);
+    const Key *key = varied_key(name);
     if (const auto wrong = key ? wrong_cell(*key, cell) : std::nullopt)
       mistakes_.add(line, *wrong);
     else if (cell.find_first_of(",\n\"") != std::string::npos)
-      mistakes_.add(line, fmt::format("{}: '{}' holds a comma, a quote or a line's end, which the "
-                                      "table of results cannot hold.",
-                                      name, cell));
+      mistakes_.add(line,
+                    "{}: '{}' holds a comma, a quote or a line's end, which the table of results "
+                    "cannot hold.",
+                    name, cell);
     return cell;
   }
 
@@ -99,9 +95,8 @@ private:
     std::vector<std::string> row;
     if (const toml::array *list = value.as_array()) {
       if (list->size() != group.keys.size())
-        return mistakes_.add(line_of(value), fmt::format("a row of values has {} entries for {} "
-                                                         "keys.",
-                                                         list->size(), group.keys.size()));
+        return refuse(value, "a row of values has {} entries for {} keys.", list->size(),
+                      group.keys.size());
       for (std::size_t k = 0; k < group.keys.size(); ++k)
         row.push_back(checked(group.keys[k], cell_of((*list)[k]), line_of((*list)[k])));
     } else {
@@ -144,7 +139,7 @@ private:
     }
     for (const toml::node &k : *keys) {
       group.keys.push_back(cell_of(k));
-      if (!find_key(group.keys.back()))
+      if (!varied_key(group.keys.back()))
         mistakes_.add(line_of(k), unknown_key(group.keys.back()));
     }
     if (normal)
@@ -160,20 +155,19 @@ private:
     const int line = line_of(*t.get("design"));
     const std::string file = path(t, {"design", "", "", 0, 0, "", "table (CSV)", "", true});
     if (!std::filesystem::is_regular_file(file)) {
-      mistakes_.add(line, fmt::format("design: there is no file '{}'.", file));
+      mistakes_.add(line, "design: there is no file '{}'.", file);
       return group;
     }
     const CsvTable table = CsvTable::parse(text_of_file(file));
     if (const std::string wrong = table.ambiguous(); !wrong.empty())
-      mistakes_.add(line, fmt::format("{} {}", file, wrong));
+      mistakes_.add(line, "{} {}", file, wrong);
     if (table.rows() == 0)
-      mistakes_.add(line, fmt::format("{} holds no rows.", file));
+      mistakes_.add(line, "{} holds no rows.", file);
     for (const int bad : table.bad_lines())
-      mistakes_.add(line, fmt::format("{}:{}: the row has another number of cells than the header.",
-                                      file, bad));
+      mistakes_.add(line, "{}:{}: the row has another number of cells than the header.", file, bad);
     for (const std::string &name : table.header())
-      if (!find_key(name))
-        mistakes_.add(line, fmt::format("{}: column {}", file, unknown_key(name)));
+      if (!varied_key(name))
+        mistakes_.add(line, "{}: column {}", file, unknown_key(name));
     group.keys = table.header();
     group.rows.resize(table.rows());
     for (const std::string &name : group.keys) {
@@ -204,7 +198,7 @@ StudyRun make_run(const Study &study, const Recipe &recipe, const Settings &sett
   Settings changed = recipe.settings;
   for (std::size_t k = 0; k < values.size(); ++k) {
     const std::string &name = study.columns[k], bare = name.substr(name.find('.') + 1);
-    if (const auto wrong = wrong_cell(*find_key(name), values[k]))
+    if (const auto wrong = wrong_cell(*varied_key(name), values[k]))
       mistakes.add(0, *wrong);
     (name[0] == 'r' ? changed : run.settings).set(bare, values[k]);
   }
@@ -231,7 +225,7 @@ std::vector<std::vector<std::string>> combinations(const std::vector<Group> &gro
       }
     rows = next;
     if (rows.size() > kMostRuns) {
-      mistakes.add(0, fmt::format("the study has more than {} runs.", kMostRuns));
+      mistakes.add(0, "the study has more than {} runs.", kMostRuns);
       return {};
     }
   }
@@ -243,7 +237,7 @@ void stop_at_twice(const std::vector<Group> &groups, Mistakes &mistakes) {
   for (const Group &group : groups)
     for (const std::string &key : group.keys) {
       if (std::find(keys.begin(), keys.end(), key) != keys.end())
-        mistakes.add(0, fmt::format("'{}' is varied twice; a key belongs to one group.", key));
+        mistakes.add(0, "'{}' is varied twice; a key belongs to one group.", key);
       keys.push_back(key);
     }
 }
@@ -251,7 +245,7 @@ void stop_at_twice(const std::vector<Group> &groups, Mistakes &mistakes) {
 } // namespace
 
 void check_column(const std::string &name, Mistakes &mistakes) {
-  if (!find_key(name))
+  if (!varied_key(name))
     mistakes.add(0, unknown_key(name));
 }
 
@@ -298,7 +292,7 @@ void add_runs(Study &out, const std::vector<std::vector<std::string>> &rows, Mis
       mistakes.add(0, of_run.text());
   }
   if (wrong > kMostRunsListed)
-    mistakes.add(0, fmt::format("{} more runs have mistakes.", wrong - kMostRunsListed));
+    mistakes.add(0, "{} more runs have mistakes.", wrong - kMostRunsListed);
 }
 
 Study read_study(const std::string &file) {
@@ -307,17 +301,13 @@ Study read_study(const std::string &file) {
   out.file = file;
   const TomlFile parsed = parse_toml(file, FileKind::Study, mistakes);
   Reader reader(file, parsed.whole, mistakes);
-  std::vector<Group> groups;
+  const std::vector<Group> groups = reader.read_groups(parsed.root);
   for (const auto &[key, node] : parsed.root) {
     if (key.str() == "study" && node.is_table())
       reader.read_head(*node.as_table(), out);
-    else if (key.str() == "vary" && node.is_array())
-      for (const toml::node &group : *node.as_array())
-        groups.push_back(reader.read_group(group));
-    else
-      mistakes.add(line_of(node), fmt::format("unknown '{}'; a study has a table [study] and "
-                                              "groups [[vary]].",
-                                              key.str()));
+    else if (key.str() != "vary")
+      mistakes.add(line_of(node), "unknown '{}'; a study has a table [study] and groups [[vary]].",
+                   key.str());
   }
   if (parsed.whole && !parsed.root.empty() && !parsed.root.contains("study"))
     mistakes.add(0, "has no table [study].");

@@ -58,16 +58,17 @@ void check_cell(const FilmRecipe &f, const DryOptions &o, double largest) {
   Mistakes mistakes(f.recipe.file);
   const double cut_off = largest + 0.3, side = std::min(f.recipe.cell_x, f.recipe.cell_y);
   if (side < 2.0 * cut_off)
-    mistakes.add(0, fmt::format("the largest sphere of the slurry is {:.2f} um wide, but in a cell "
-                                "of {} x {} um at most {:.2f} um are allowed: it would touch two "
-                                "images of another. Make the cell larger or lower "
-                                "particles.max_um.",
-                                largest, f.recipe.cell_x, f.recipe.cell_y, 0.5 * side - 0.3));
+    mistakes.add(0,
+                 "the largest sphere of the slurry is {:.2f} um wide, but in a cell of {} x {} um "
+                 "at most {:.2f} um are allowed: it would touch two images of another. Make the "
+                 "cell larger or lower particles.max_um.",
+                 largest, f.recipe.cell_x, f.recipe.cell_y, 0.5 * side - 0.3);
   else if (const int most = int(f.recipe.cell_x / cut_off) * int(f.recipe.cell_y / cut_off);
            o.ranks > most)
-    mistakes.add(0, fmt::format("--ranks {}: a cell of {} x {} um can be shared by at most {} "
-                                "ranks whose parts are wider than a cut-off of {:.2f} um.",
-                                o.ranks, f.recipe.cell_x, f.recipe.cell_y, most, cut_off));
+    mistakes.add(0,
+                 "--ranks {}: a cell of {} x {} um can be shared by at most {} ranks whose parts "
+                 "are wider than a cut-off of {:.2f} um.",
+                 o.ranks, f.recipe.cell_x, f.recipe.cell_y, most, cut_off);
   if (const std::string wrong = wrong_program(o.liggghts); !wrong.empty())
     mistakes.add(0, wrong);
   mistakes.stop_if_any();
@@ -191,11 +192,11 @@ void check_swelling(const Settings &s, const FilmRecipe &f, Mistakes &mistakes) 
   const double most = (f.recipe.am_column() + f.recipe.cbd_solid_column() + f.solvent_column()) / h;
   if (f.sphere_fraction > dry && f.sphere_fraction < std::min(most, kJams + 1e-9))
     return;
-  mistakes.add(s.line("slurry.sphere_fraction"),
-               fmt::format("slurry.sphere_fraction is {}: dry spheres fill {:.3f} of a slurry of "
-                           "{} % solids already, and above {} they jam. Give a value between, or "
-                           "lower slurry.solid_content_percent.",
-                           f.sphere_fraction, dry, 100.0 * f.solid_content, kJams));
+  mistakes.add(
+      s.line("slurry.sphere_fraction"),
+      "slurry.sphere_fraction is {}: dry spheres fill {:.3f} of a slurry of {} % solids already, "
+      "and above {} they jam. Give a value between, or lower slurry.solid_content_percent.",
+      f.sphere_fraction, dry, 100.0 * f.solid_content, kJams);
 }
 
 } // namespace

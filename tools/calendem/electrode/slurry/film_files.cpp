@@ -42,15 +42,13 @@ double rms_speed(const LastRow &end, const std::vector<Particle> &particles) {
 
 void at_most(Mistakes &missed, const char *what, double value, double limit, const char *advice) {
   if (!(value <= limit))
-    missed.add(0,
-               fmt::format("{} {:.4g}; at most {:.4g} is allowed. {}", what, value, limit, advice));
+    missed.add(0, "{} {:.4g}; at most {:.4g} is allowed. {}", what, value, limit, advice);
 }
 
 void stop(const Mistakes &missed, const char *what) {
   if (!missed.empty())
-    throw Failure(kCheckFailed,
-                  fmt::format("{} misses its targets; its files are kept for inspection\n{}", what,
-                              missed.text()));
+    throw Failure(kCheckFailed, "{} misses its targets; its files are kept for inspection\n{}",
+                  what, missed.text());
 }
 
 } // namespace
@@ -85,9 +83,9 @@ void read_state(const FilmRecipe &f, const std::string &dump, std::vector<Partic
     const Particle &p = particles.at(tag - 1);
     if (!(std::fabs(2.0 * radius - p.diameter) <= 1e-6 * p.diameter))
       throw Failure(kSimulationFailed,
-                    fmt::format("'{}': particle {} is {:.6g} um wide instead of {:.6g}: the input "
-                                "script did not give it its size",
-                                dump, tag, 2.0 * radius, p.diameter));
+                    "'{}': particle {} is {:.6g} um wide instead of {:.6g}: the input script did "
+                    "not give it its size",
+                    dump, tag, 2.0 * radius, p.diameter);
   }
   for (Particle &p : particles)
     p.x = in_cell(f.recipe, p.x);
@@ -152,14 +150,14 @@ void check_film(const nlohmann::json &d, const FilmRecipe &f, const std::string 
   Mistakes missed(folder);
   const double difference = d["porosity_difference_points"];
   if (f.to_thickness && !(std::fabs(difference) <= f.tolerance_points))
-    missed.add(
-        0, fmt::format("the dried film has {:.2f} % total porosity and {:.2f} um, the recipe "
-                       "{:.2f} % and {:.2f} um: {:+.2f} points, at most {:.2f} are allowed; drying "
-                       "ended by the {}. Correct the recipe's porosity, raise "
-                       "drying.capillary_pressure_MPa or drying.porosity_tolerance_points.",
-                       100.0 * d["porosity_total"].get<double>(), d["thickness_um"].get<double>(),
-                       100.0 * f.recipe.porosity_total, f.recipe.thickness(), difference,
-                       f.tolerance_points, d["stopped_by"].get<std::string>()));
+    missed.add(0,
+               "the dried film has {:.2f} % total porosity and {:.2f} um, the recipe {:.2f} % and "
+               "{:.2f} um: {:+.2f} points, at most {:.2f} are allowed; drying ended by the {}. "
+               "Correct the recipe's porosity, raise drying.capillary_pressure_MPa or "
+               "drying.porosity_tolerance_points.",
+               100.0 * d["porosity_total"].get<double>(), d["thickness_um"].get<double>(),
+               100.0 * f.recipe.porosity_total, f.recipe.thickness(), difference,
+               f.tolerance_points, d["stopped_by"].get<std::string>());
   at_most(missed, "relative error of the film's loading is",
           std::fabs(d["loading_mg_cm2"].get<double>() / f.recipe.loading - 1.0), 0.01,
           "Make the cell larger: whole particles cannot come nearer.");

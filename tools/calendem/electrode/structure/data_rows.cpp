@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <memory>
+#include <regex>
 #include <sstream>
 #include <vtk_zlib.h>
 
@@ -107,14 +108,16 @@ bool AtomRows::has_its_columns(int line, size_t words) {
   const Columns &c = columns(style_);
   const auto fits = [&](size_t n) { return n >= c.fewest && n <= c.most; };
   if (!fits(words) && !(words > 3 && fits(words - 3)))
-    mistakes_.add(line, fmt::format("the row has {} columns; atom_style {} has '{}' and, if "
-                                    "wanted, 3 image flags. Give structure.atom_style as in the "
-                                    "script that wrote the file, and the whole file.",
-                                    words, style_, c.names));
+    mistakes_.add(
+        line,
+        "the row has {} columns; atom_style {} has '{}' and, if wanted, 3 image flags. Give "
+        "structure.atom_style as in the script that wrote the file, and the whole file.",
+        words, style_, c.names);
   else if (width_ != 0 && words != width_)
-    mistakes_.add(line, fmt::format("the row has {} columns, those before it {}: it is cut or of "
-                                    "another file. Give the file as it was written.",
-                                    words, width_));
+    mistakes_.add(line,
+                  "the row has {} columns, those before it {}: it is cut or of another file. Give "
+                  "the file as it was written.",
+                  words, width_);
   else {
     width_ = words;
     return true;
@@ -146,16 +149,15 @@ void AtomRows::read(int line, std::vector<std::string> words, long types) {
   for (int axis = 0; flags && axis < 3; ++axis)
     row.whole("image flag", words.size() - 3 + axis, -1000000, 1000000);
   if (!row.wrong().empty()) {
-    mistakes_.add(line, fmt::format("{} (columns: {}).", row.wrong(), columns_));
+    mistakes_.add(line, "{} (columns: {}).", row.wrong(), columns_);
     return;
   }
   const auto [seen, fresh] = line_of_id_.emplace(p.id, line);
   if (!fresh)
     mistakes_.add(
         line,
-        fmt::format(
-            "particle {} occurs twice, first in line {}. Every id may occur once; remove the copy.",
-            p.id, seen->second));
+        "particle {} occurs twice, first in line {}. Every id may occur once; remove the copy.",
+        p.id, seen->second);
   else
     good_.push_back(p);
 }
@@ -165,24 +167,13 @@ namespace {
 const char *const kSides[] = {"xlo xhi", "ylo yhi", "zlo zhi"};
 
 // Sections of other atom styles and of settings: their numbers are not needed here.
-const char *const kOthers[] = {"bonds",
-                               "angles",
-                               "dihedrals",
-                               "impropers",
-                               "crossterms",
-                               "ellipsoids",
-                               "lines",
-                               "triangles",
-                               "bodies",
-                               "bond types",
-                               "angle types",
-                               "dihedral types",
-                               "improper types",
-                               "extra bond per atom",
-                               "extra angle per atom",
-                               "extra dihedral per atom",
-                               "extra improper per atom",
-                               "extra special per atom"};
+bool is_of_others(const std::string &name) {
+  static const std::regex kOthers(
+      "(bond|angle|dihedral|improper)(s| types)|(crossterm|ellipsoid|line|"
+      "triangle)s|bodies|extra (bond|angle|dihedral|improper|special) "
+      "per atom");
+  return std::regex_match(name, kOthers);
+}
 
 } // namespace
 
@@ -212,11 +203,11 @@ void DataHeader::read(int line, const std::vector<std::string> &words) {
     read_edge(line, words, numbers);
   else if (name == "xy xz yz")
     read_tilt(line, words, numbers);
-  else if (std::find(std::begin(kOthers), std::end(kOthers), name) == std::end(kOthers))
+  else if (!is_of_others(name))
     mistakes_.add(line,
-                  fmt::format("'{}' is not a header line such as '100 atoms', '4 atom types' or "
-                              "'0 12 xlo xhi'. Correct or remove it.",
-                              joined(words).substr(0, 60)));
+                  "'{}' is not a header line such as '100 atoms', '4 atom types' or '0 12 xlo "
+                  "xhi'. Correct or remove it.",
+                  joined(words).substr(0, 60));
 }
 
 void DataHeader::read_count(int line, const std::string &name, const std::string &word,
@@ -225,9 +216,8 @@ void DataHeader::read_count(int line, const std::string &name, const std::string
   (name == "atoms" ? atoms_ : types_) = n;
   (name == "atoms" ? atoms_line_ : types_line_) = line;
   if (n < 1 || n > INT_MAX)
-    mistakes_.add(line, fmt::format("the number of {} is '{}'; it must be one whole number from 1 "
-                                    "to {}.",
-                                    name, word.substr(0, 40), INT_MAX));
+    mistakes_.add(line, "the number of {} is '{}'; it must be one whole number from 1 to {}.", name,
+                  word.substr(0, 40), INT_MAX);
 }
 
 void DataHeader::read_side(int line, int axis, const std::vector<std::string> &words,
@@ -240,8 +230,8 @@ void DataHeader::read_side(int line, int axis, const std::vector<std::string> &w
   if (std::isfinite(high_[axis] - low_[axis]) && high_[axis] > low_[axis])
     return;
   low_[axis] = high_[axis] = NAN;
-  mistakes_.add(line, fmt::format("the box side '{}' needs two finite numbers, the lower first.",
-                                  joined(words).substr(0, 80)));
+  mistakes_.add(line, "the box side '{}' needs two finite numbers, the lower first.",
+                joined(words).substr(0, 80));
 }
 
 // "ax ay az avec" and so on, "x y z abc origin"
@@ -273,9 +263,10 @@ void DataHeader::read_tilt(int line, const std::vector<std::string> &words, size
   for (size_t k = 0; k < numbers; ++k)
     straight = straight && *number_in(words[k]) == 0.0;
   if (!straight)
-    mistakes_.add(line, fmt::format("the box is tilted ('{}'); only boxes with right angles are "
-                                    "read. Run the simulation in such a box.",
-                                    joined(words).substr(0, 80)));
+    mistakes_.add(line,
+                  "the box is tilted ('{}'); only boxes with right angles are read. Run the "
+                  "simulation in such a box.",
+                  joined(words).substr(0, 80));
 }
 
 void DataHeader::check() {
@@ -286,9 +277,8 @@ void DataHeader::check() {
     mistakes_.add(0, "no line 'N atom types' stands before its first section.");
   for (int axis = 0; axis < 3; ++axis)
     if (!side_[axis])
-      mistakes_.add(0, fmt::format("no line 'lo hi {}' with the box stands before its first "
-                                   "section.",
-                                   kSides[axis]));
+      mistakes_.add(0, "no line 'lo hi {}' with the box stands before its first section.",
+                    kSides[axis]);
 }
 
 } // namespace calendem

@@ -4,7 +4,6 @@
 #include "electrode/structure/particle_data.h"
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <fstream>
 #include <map>
 
@@ -23,18 +22,18 @@ void check_types(const StructureSource &s, const ParticleData &data, Mistakes &m
   for (const auto &[type, seen] : found)
     if (!s.am_types.count(type) && !s.cbd_types.count(type) && !s.left_out_types.count(type))
       mistakes.add(0,
-                   fmt::format("type {} (particles: {}, first in line {}) is in none of "
-                               "structure.am_types, cbd_types and left_out_types. Name it in one "
-                               "of them.",
-                               type, seen.first, seen.second));
+                   "type {} (particles: {}, first in line {}) is in none of structure.am_types, "
+                   "cbd_types and left_out_types. Name it in one of them.",
+                   type, seen.first, seen.second);
   for (const auto &[name, types] :
        {std::pair("am_types", &s.am_types), std::pair("cbd_types", &s.cbd_types),
         std::pair("left_out_types", &s.left_out_types)})
     for (int type : *types)
       if (!data.particles.empty() && !found.count(type))
-        mistakes.add(0, fmt::format("structure.{} names type {}, but no particle is of that type. "
-                                    "Name the types that the file has.",
-                                    name, type));
+        mistakes.add(0,
+                     "structure.{} names type {}, but no particle is of that type. Name the types "
+                     "that the file has.",
+                     name, type);
 }
 
 // id -> body, of rows 'id body'.
@@ -49,12 +48,10 @@ std::map<long, long> read_body_map(const std::string &file, Mistakes &mistakes) 
     const long id = whole_number_in(words[0]).value_or(0);
     const long body = words.size() == 2 ? whole_number_in(words[1]).value_or(0) : 0;
     if (id < 1 || body < 1)
-      mistakes.add(number, fmt::format("'{}' is not a row 'id body' with whole numbers from 1.",
-                                       joined(words).substr(0, 60)));
+      mistakes.add(number, "'{}' is not a row 'id body' with whole numbers from 1.",
+                   joined(words).substr(0, 60));
     else if (!out.emplace(id, body).second)
-      mistakes.add(number, fmt::format("particle {} occurs twice; every primary belongs to one "
-                                       "body.",
-                                       id));
+      mistakes.add(number, "particle {} occurs twice; every primary belongs to one body.", id);
   }
   return out;
 }
@@ -69,14 +66,16 @@ void set_clusters(std::map<long, long> body, std::vector<ExistingSphere> &am, Mi
       p.cluster = at->second;
       body.erase(at);
     } else if (missing++ == 0)
-      mistakes.add(0, fmt::format("particle {} of the active material is not in the map. Give the "
-                                  "map of this data file.",
-                                  p.id));
+      mistakes.add(
+          0,
+          "particle {} of the active material is not in the map. Give the map of this data file.",
+          p.id);
   }
   if (!body.empty())
-    mistakes.add(0, fmt::format("{} rows name particles that are not active material in the data "
-                                "file, first {}. Give the map of this data file.",
-                                body.size(), body.begin()->first));
+    mistakes.add(0,
+                 "{} rows name particles that are not active material in the data file, first {}. "
+                 "Give the map of this data file.",
+                 body.size(), body.begin()->first);
 }
 
 // z from the lowest point; how high the film is.
@@ -129,10 +128,9 @@ ExistingStructure read_structure(const StructureSource &s) {
       set_clusters(bodies, g.am, in_map);
   } else if (s.clusters && !data.molecules)
     mistakes.add(0,
-                 fmt::format("its rows ({}) have no molecule ids that identify the clusters. Give "
-                             "structure.body_map, or write it with atom_style hybrid sphere "
-                             "molecular.",
-                             columns_of(s.atom_style)));
+                 "its rows ({}) have no molecule ids that identify the clusters. Give "
+                 "structure.body_map, or write it with atom_style hybrid sphere molecular.",
+                 columns_of(s.atom_style));
   mistakes.add(in_map);
   mistakes.stop_if_any();
   measure_height(data.box.z(), s.z_periodic, g);

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
+#include <regex>
 #include <vector>
 #include <vtk_zlib.h>
 
@@ -23,7 +24,7 @@ std::string trimmed(const std::string &text) {
 } // namespace
 
 void refuse_image(const std::string &file, const std::string &what) {
-  throw Failure(kBadInput, fmt::format("{}: {}", file, what));
+  throw Failure(kBadInput, "{}: {}", file, what);
 }
 
 ImageHeader::ImageHeader(const std::string &file, const std::string &separator)
@@ -55,14 +56,13 @@ bool ImageHeader::take(int number, const std::string &line) {
   const size_t at = line.find(separator_);
   const std::string name = trimmed(line.substr(0, at));
   if (at == std::string::npos || name.empty() || name.find_first_of(":=") != std::string::npos)
-    refuse_image(file_, fmt::format("line {} of the header is not 'name{} value': '{}'; it is "
-                                    "damaged or of another format. Give the file "
-                                    "as the program that segmented it wrote it.",
-                                    number, separator_ == "=" ? " =" : ":", line.substr(0, 60)));
-  if (!fields_.emplace(name, trimmed(line.substr(at + separator_.size()))).second)
     refuse_image(file_,
-                 fmt::format("line {}: '{}' occurs twice in the header. Save the image again.",
-                             number, name));
+                 "line {} of the header is not 'name{} value': '{}'; it is damaged or of another "
+                 "format. Give the file as the program that segmented it wrote it.",
+                 number, separator_ == "=" ? " =" : ":", line.substr(0, 60));
+  if (!fields_.emplace(name, trimmed(line.substr(at + separator_.size()))).second)
+    refuse_image(file_, "line {}: '{}' occurs twice in the header. Save the image again.", number,
+                 name);
   return name == "ElementDataFile";
 }
 
@@ -81,12 +81,12 @@ std::array<long, 3> ImageHeader::axes(const std::string &name) const {
 
 long ImageHeader::type_size(const std::string &name, const std::vector<Type> &types) const {
   for (const Type &t : types)
-    if (text(name) == t.name)
+    if (std::regex_match(text(name), std::regex(t.names)))
       return t.bytes;
   refuse_image(file_,
-               fmt::format("the header's '{}' is '{}', which is not read. Save the labels as "
-                           "whole numbers of 1, 2 or 4 bytes.",
-                           name, text(name).substr(0, 60)));
+               "the header's '{}' is '{}', which is not read. Save the labels as whole numbers of "
+               "1, 2 or 4 bytes.",
+               name, text(name).substr(0, 60));
 }
 
 void ImageHeader::check_numbers(const std::string &name, size_t wanted) const {
@@ -95,25 +95,21 @@ void ImageHeader::check_numbers(const std::string &name, size_t wanted) const {
     return std::isfinite(number_in(w).value_or(NAN));
   };
   if (has(name) && (words.size() != wanted || !std::all_of(words.begin(), words.end(), finite)))
-    refuse_image(
-        file_,
-        fmt::format("the header's '{}' is '{}'; it must be {} numbers. Save the image again.", name,
-                    text(name).substr(0, 60), wanted));
+    refuse_image(file_, "the header's '{}' is '{}'; it must be {} numbers. Save the image again.",
+                 name, text(name).substr(0, 60), wanted);
 }
 
 void ImageHeader::check_is(const std::string &name, const std::vector<std::string> &allowed) const {
   if (has(name) && std::find(allowed.begin(), allowed.end(), text(name)) == allowed.end())
-    refuse_image(file_,
-                 fmt::format("the header's '{}' is '{}'; allowed is {}. Save the image again.",
-                             name, text(name).substr(0, 60), fmt::join(allowed, " or ")));
+    refuse_image(file_, "the header's '{}' is '{}'; allowed is {}. Save the image again.", name,
+                 text(name).substr(0, 60), fmt::join(allowed, " or "));
 }
 
 void ImageHeader::need(const std::string &name) const {
   if (!has(name))
-    refuse_image(
-        file_,
-        fmt::format("the header has no '{}': it is cut or of another format. Save the image again.",
-                    name));
+    refuse_image(file_,
+                 "the header has no '{}': it is cut or of another format. Save the image again.",
+                 name);
 }
 
 void check_axes(const std::string &file, const std::array<long, 3> &n, long bytes,
@@ -121,22 +117,22 @@ void check_axes(const std::string &file, const std::array<long, 3> &n, long byte
   const double voxels = double(n[0]) * double(n[1]) * double(n[2]);
   if (std::min({n[0], n[1], n[2]}) < 1 || voxels > double(kMostVoxels))
     refuse_image(file,
-                 fmt::format("the header announces {} x {} x {} voxels; three whole numbers from 1 "
-                             "are needed, at most {} voxels in all. Save the image again, or a "
-                             "part of it.",
-                             n[0], n[1], n[2], kMostVoxels));
+                 "the header announces {} x {} x {} voxels; three whole numbers from 1 are needed, "
+                 "at most {} voxels in all. Save the image again, or a part of it.",
+                 n[0], n[1], n[2], kMostVoxels);
   if (voxels > most_per_byte * double(bytes))
     refuse_image(file,
-                 fmt::format("the header announces {} x {} x {} voxels, more than {} bytes of "
-                             "data can hold: the file is cut. Copy it again.",
-                             n[0], n[1], n[2], bytes));
+                 "the header announces {} x {} x {} voxels, more than {} bytes of data can hold: "
+                 "the file is cut. Copy it again.",
+                 n[0], n[1], n[2], bytes);
 }
 
 void check_length(const std::string &file, double announced, long there) {
   if (announced > double(there))
-    refuse_image(file, fmt::format("the header announces {:.0f} bytes of voxels, {} are there: the "
-                                   "file is cut. Copy it again.",
-                                   announced, std::max(there, 0L)));
+    refuse_image(file,
+                 "the header announces {:.0f} bytes of voxels, {} are there: the file is cut. Copy "
+                 "it again.",
+                 announced, std::max(there, 0L));
 }
 
 // Headers of MetaImage and NRRD files, as VTK's readers use them (vtkNrrdReader, MetaIO).
@@ -147,26 +143,12 @@ namespace {
 // Not MET_LONG: VTK 9.1 reads every other voxel of it. Not MET_LONG_LONG: it writes past its
 // memory.
 const std::vector<ImageHeader::Type> kMetaTypes = {
-    {"MET_CHAR", 1}, {"MET_UCHAR", 1}, {"MET_SHORT", 2}, {"MET_USHORT", 2},
-    {"MET_INT", 4},  {"MET_UINT", 4},  {"MET_FLOAT", 4}, {"MET_DOUBLE", 8}};
-const std::vector<ImageHeader::Type> kNrrdTypes = {{"signed char", 1},   {"int8", 1},
-                                                   {"int8_t", 1},        {"uchar", 1},
-                                                   {"unsigned char", 1}, {"uint8", 1},
-                                                   {"uint8_t", 1},       {"short", 2},
-                                                   {"short int", 2},     {"signed short", 2},
-                                                   {"int16", 2},         {"int16_t", 2},
-                                                   {"ushort", 2},        {"unsigned short", 2},
-                                                   {"uint16", 2},        {"uint16_t", 2},
-                                                   {"int", 4},           {"signed int", 4},
-                                                   {"int32", 4},         {"int32_t", 4},
-                                                   {"uint", 4},          {"unsigned int", 4},
-                                                   {"uint32", 4},        {"uint32_t", 4},
-                                                   {"float", 4},         {"double", 8},
-                                                   {"longlong", 8},      {"long long", 8},
-                                                   {"long long int", 8}, {"signed long long", 8},
-                                                   {"int64", 8},         {"int64_t", 8},
-                                                   {"ulonglong", 8},     {"unsigned long long", 8},
-                                                   {"uint64", 8},        {"uint64_t", 8}};
+    {"MET_U?CHAR", 1}, {"MET_U?SHORT", 2}, {"MET_U?INT|MET_FLOAT", 4}, {"MET_DOUBLE", 8}};
+const std::vector<ImageHeader::Type> kNrrdTypes = {
+    {"(signed |unsigned |u)?char|u?int8(_t)?", 1},
+    {"(signed |unsigned |u)?short( int)?|u?int16(_t)?", 2},
+    {"(signed |unsigned |u)?int|u?int32(_t)?|float", 4},
+    {"(signed |unsigned |u)?long ?long( int)?|u?int64(_t)?|double", 8}};
 
 double count(const std::array<long, 3> &n) { return double(n[0]) * double(n[1]) * double(n[2]); }
 
@@ -189,9 +171,9 @@ void check_packed(const std::string &file, const ImageHeader &h, double wanted, 
           : unpacked_bytes(data, 0, stated > 0.0 ? long(stated) : there, long(wanted));
   if (double(unpacked) != wanted)
     refuse_image(file,
-                 fmt::format("the compressed voxels do not unpack to the {:.0f} bytes that the "
-                             "header announces: the file is cut or damaged. Copy it again.",
-                             wanted));
+                 "the compressed voxels do not unpack to the {:.0f} bytes that the header "
+                 "announces: the file is cut or damaged. Copy it again.",
+                 wanted);
 }
 
 } // namespace
@@ -228,9 +210,9 @@ void check_nrrd(const std::string &file) {
   const std::string encoding = h.text("encoding");
   if (encoding == "ascii" || encoding == "text" || encoding == "txt" || encoding == "ASCII")
     refuse_image(file,
-                 fmt::format("encoding: {} is not read, because VTK's reader takes wrong numbers "
-                             "from it; allowed are raw and gzip. Save it again (unu save -e gzip).",
-                             encoding));
+                 "encoding: {} is not read, because VTK's reader takes wrong numbers from it; "
+                 "allowed are raw and gzip. Save it again (unu save -e gzip).",
+                 encoding);
   h.need("encoding");
   h.need("dimension");
   h.check_is("encoding", {"raw", "gzip", "gz"});
@@ -245,9 +227,9 @@ void check_nrrd(const std::string &file) {
   check_axes(file, n, there, encoding == "raw" ? kAnyNumber : kDeflate / double(size));
   if (n[0] < 10)
     refuse_image(file,
-                 fmt::format("the first axis has {} voxels; VTK takes fewer than 10 for colours. "
-                             "Save the image with an empty border, or as .mhd.",
-                             n[0]));
+                 "the first axis has {} voxels; VTK takes fewer than 10 for colours. Save the "
+                 "image with an empty border, or as .mhd.",
+                 n[0]);
   if (encoding == "raw")
     check_length(file, count(n) * double(size), there);
 }

@@ -6,6 +6,7 @@
 #ifndef CALENDEM_ELECTRODE_STRUCTURE_IMAGE_HEADER_H
 #define CALENDEM_ELECTRODE_STRUCTURE_IMAGE_HEADER_H
 
+#include "base/messages.h"
 #include <array>
 #include <limits>
 #include <map>
@@ -20,8 +21,14 @@ namespace calendem {
 /// A label takes four bytes in memory.
 constexpr long kMostVoxels = 2147483647;
 
-/// Failure(2) with the name of the file.
+/// Failure(2) with the name of the file; values are put into the text as by fmt::format.
 [[noreturn]] void refuse_image(const std::string &file, const std::string &what);
+template <class First, class... Others>
+[[noreturn]] void refuse_image(const std::string &file, fmt::format_string<First, Others...> what,
+                               First &&first, Others &&...others) {
+  refuse_image(file,
+               fmt::format(what, std::forward<First>(first), std::forward<Others>(others)...));
+}
 
 /// Each throws Failure(2) unless the file has three axes and one number per voxel, is as long as it
 /// announces and says nothing that VTK takes otherwise than the format's description.
@@ -49,7 +56,7 @@ public:
   std::array<long, 3> axes(const std::string &name) const;
   /// Bytes of a voxel whose type is one of `types`.
   struct Type {
-    const char *name;
+    const char *names; ///< a pattern
     long bytes;
   };
   long type_size(const std::string &name, const std::vector<Type> &types) const;

@@ -57,9 +57,9 @@ std::string gist(std::string text) {
   return text.empty() ? "it is cut or not of that format" : text;
 }
 
-template <class Reader>
-vtkSmartPointer<vtkImageData> read_with(const std::string &file, vtkNew<Reader> &reader) {
+template <class Reader> vtkSmartPointer<vtkImageData> read_with(const std::string &file) {
   Complaints complaints;
+  vtkNew<Reader> reader;
   if (!reader->CanReadFile(file.c_str()))
     refuse_image(file,
                  "this is not a file of the format that its ending says, or its header is cut. "
@@ -71,9 +71,9 @@ vtkSmartPointer<vtkImageData> read_with(const std::string &file, vtkNew<Reader> 
   if (said.find("ERR") != std::string::npos || said.find("rror") != std::string::npos ||
       reader->GetErrorCode() != 0)
     refuse_image(file,
-                 fmt::format("VTK cannot read it: {}. Give the whole file, and the data file that "
-                             "a header names beside it.",
-                             gist(said)));
+                 "VTK cannot read it: {}. Give the whole file, and the data file that a header "
+                 "names beside it.",
+                 gist(said));
   return image;
 }
 
@@ -84,23 +84,17 @@ vtkSmartPointer<vtkImageData> read_one(const std::string &file) {
   vtkSmartPointer<vtkImageData> image;
   if (ending == ".vti") {
     check_vti(file);
-    vtkNew<vtkXMLImageDataReader> reader;
-    image = read_with(file, reader);
+    image = read_with<vtkXMLImageDataReader>(file);
   } else if (ending == ".mhd" || ending == ".mha") {
     check_meta_image(file);
-    vtkNew<vtkMetaImageReader> reader;
-    image = read_with(file, reader);
+    image = read_with<vtkMetaImageReader>(file);
   } else if (ending == ".nrrd" || ending == ".nhdr") {
     check_nrrd(file);
-    vtkNew<vtkNrrdReader> reader;
-    image = read_with(file, reader);
-  } else if (ending == ".png") {
-    image = read_png(file);
-  } else if (ending == ".npy" || ending == ".npz") {
-    image = read_numpy(file);
-  } else {
-    image = read_tiff(file);
-  }
+    image = read_with<vtkNrrdReader>(file);
+  } else
+    image = ending == ".png"                       ? read_png(file)
+            : ending == ".npy" || ending == ".npz" ? read_numpy(file)
+                                                   : read_tiff(file);
   if (!image || image->GetNumberOfPoints() == 0 || !image->GetPointData()->GetScalars())
     refuse_image(file,
                  "it holds no voxels. Point data with one whole number per voxel are needed.");
@@ -112,16 +106,16 @@ void append_labels(const std::string &file, vtkImageData &image, LabelImage &out
   vtkDataArray &values = *image.GetPointData()->GetScalars();
   if (values.GetNumberOfComponents() != 1)
     refuse_image(file,
-                 fmt::format("a voxel has {} numbers (a colour picture?); a label image has one. "
-                             "Export the labels, not a rendering.",
-                             values.GetNumberOfComponents()));
+                 "a voxel has {} numbers (a colour picture?); a label image has one. Export the "
+                 "labels, not a rendering.",
+                 values.GetNumberOfComponents());
   for (vtkIdType p = 0; p < values.GetNumberOfTuples(); ++p) {
     const double v = values.GetComponent(p, 0);
     if (v != std::floor(v) || std::fabs(v) > 2147483647.0)
-      refuse_image(file, fmt::format("voxel ({}, {}, {}) is {}; a label is a whole number up to "
-                                     "2147483647. Give the label image, not grey values.",
-                                     p % out.n[0], p / out.n[0] % out.n[1],
-                                     p / out.n[0] / out.n[1] + out.n[2], v));
+      refuse_image(file,
+                   "voxel ({}, {}, {}) is {}; a label is a whole number up to 2147483647. Give the "
+                   "label image, not grey values.",
+                   p % out.n[0], p / out.n[0] % out.n[1], p / out.n[0] / out.n[1] + out.n[2], v);
     out.label.push_back(static_cast<std::int32_t>(v));
   }
 }
@@ -132,9 +126,9 @@ void append(const std::string &file, LabelImage &out) {
   image->GetDimensions(n);
   if (out.n[2] > 0 && (n[0] != out.n[0] || n[1] != out.n[1]))
     refuse_image(file,
-                 fmt::format("this slice has {} x {} voxels, those before it {} x {}. All slices "
-                             "of a series must be of one size.",
-                             n[0], n[1], out.n[0], out.n[1]));
+                 "this slice has {} x {} voxels, those before it {} x {}. All slices of a series "
+                 "must be of one size.",
+                 n[0], n[1], out.n[0], out.n[1]);
   out.n[0] = n[0];
   out.n[1] = n[1];
   image->GetSpacing(out.voxel.data());
@@ -163,13 +157,13 @@ void set_voxel_size(const std::string &file, double voxel_um, LabelImage &image)
     if (stated[axis] == 0.0)
       missing += fmt::format("{}{}", missing.empty() ? " along " : ", ", "xyz"[axis]);
   if (voxel_um <= 0.0 && !known)
-    refuse_image(file,
-                 fmt::format("the file states no voxel size{}. Give {}.", missing, kVoxelSizeKeys));
+    refuse_image(file, "the file states no voxel size{}. Give {}.", missing, kVoxelSizeKeys);
   image.voxel = voxel_um > 0.0 ? Eigen::Vector3d::Constant(voxel_um) : stated;
   if (image.voxel.minCoeff() < 1e-3 || image.voxel.maxCoeff() > 10.0)
-    refuse_image(file, fmt::format("a voxel is {} by its header; allowed is 0.001 to 10 um. If the "
-                                   "header is in mm or m, give {}.",
-                                   in_words(image.voxel), kVoxelSizeKeys));
+    refuse_image(file,
+                 "a voxel is {} by its header; allowed is 0.001 to 10 um. If the header is in mm "
+                 "or m, give {}.",
+                 in_words(image.voxel), kVoxelSizeKeys);
   if (voxel_um <= 0.0)
     fmt::print(
         stderr, "note: {}: voxels of {} by its header{}\n", file, in_words(stated),
@@ -257,9 +251,8 @@ void write_in_place(const LabelImage &image, const std::string &file) {
 LabelImage read_label_image(const std::string &file, double voxel_um) {
   if (!is_readable_image(file))
     refuse_image(file,
-                 fmt::format("label images with the ending '{}' are not read; allowed are {}. "
-                             "Convert it.",
-                             image_ending(file), readable_images()));
+                 "label images with the ending '{}' are not read; allowed are {}. Convert it.",
+                 image_ending(file), readable_images());
   LabelImage image;
   image.file = file;
   for (const std::string &slice : files_of_series(file))
@@ -275,21 +268,18 @@ void refuse_negative_labels(const LabelImage &image,
     if (const std::int32_t label = image.label[v];
         label < 0 && std::find(known.begin(), known.end(), label) == known.end())
       refuse_image(image.file,
-                   fmt::format("voxel ({}, {}, {}) has the label {}; a particle's is above 0. Name "
-                               "it if it is the background's or CBD's (shapes.background, "
-                               "labels_pore, labels_cbd, --background, --cbd-label), or save the "
-                               "labels as unsigned numbers.",
-                               v % size_t(image.n[0]), v / size_t(image.n[0]) % size_t(image.n[1]),
-                               v / size_t(image.n[0]) / size_t(image.n[1]), label));
+                   "voxel ({}, {}, {}) has the label {}; a particle's is above 0. Name it if it is "
+                   "the background's or CBD's (shapes.background, labels_pore, labels_cbd, "
+                   "--background, --cbd-label), or save the labels as unsigned numbers.",
+                   v % size_t(image.n[0]), v / size_t(image.n[0]) % size_t(image.n[1]),
+                   v / size_t(image.n[0]) / size_t(image.n[1]), label);
 }
 
 void write_label_image(const LabelImage &image, const std::string &file) {
   const std::string ending = image_ending(file);
   if (ending != ".vti" && ending != ".mhd" && ending != ".mha" && !is_tiff(file))
-    refuse_image(file,
-                 fmt::format("'{}' is not written; give a name that ends in .mhd, .mha, .vti or "
-                             ".tif.",
-                             ending));
+    refuse_image(file, "'{}' is not written; give a name that ends in .mhd, .mha, .vti or .tif.",
+                 ending);
   write_in_place(image, file);
 }
 
@@ -321,16 +311,15 @@ std::string data_file_of(const std::string &header) {
     return "";
   if (name.find('%') != std::string::npos || name.rfind("LIST", 0) == 0)
     refuse_image(header,
-                 fmt::format("the voxels are spread over several files ('{}'), which is not "
-                             "read. Save them to one file.",
-                             name.substr(0, 60)));
+                 "the voxels are spread over several files ('{}'), which is not read. Save them to "
+                 "one file.",
+                 name.substr(0, 60));
   const fs::path data = fs::path(header).parent_path() / name;
   std::error_code none;
   if (!fs::is_regular_file(data, none))
     refuse_image(header,
-                 fmt::format("the data file '{}' that the header names is not there. Put it "
-                             "beside the header.",
-                             name.substr(0, 200)));
+                 "the data file '{}' that the header names is not there. Put it beside the header.",
+                 name.substr(0, 200));
   return data.string();
 }
 

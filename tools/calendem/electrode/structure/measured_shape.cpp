@@ -4,7 +4,6 @@
 #include "physics/pi.h"
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <unordered_map>
@@ -239,9 +238,9 @@ MeasuredShape shape_from_json(const nlohmann::json &j) {
   s.cell = j.at("cell_um");
   const size_t size = size_t(std::max(0, s.n[0])) * std::max(0, s.n[1]) * std::max(0, s.n[2]);
   if (size < 27 || size > 1000000 || !(s.cell > 0.0) || !(s.volume > 0.0) || !(s.weight > 0.0))
-    throw Failure(kBadInput, fmt::format("cells {} x {} x {} of {} um, volume {} um3, weight {}: "
-                                         "all must be positive",
-                                         s.n[0], s.n[1], s.n[2], s.cell, s.volume, s.weight));
+    throw Failure(kBadInput,
+                  "cells {} x {} x {} of {} um, volume {} um3, weight {}: all must be positive",
+                  s.n[0], s.n[1], s.n[2], s.cell, s.volume, s.weight);
   char value = 0;
   for (const int length : j.at("runs_outside_inside")) {
     if (length < 0 || s.inside.size() + length > size)
@@ -250,8 +249,7 @@ MeasuredShape shape_from_json(const nlohmann::json &j) {
     value = value ? 0 : 1;
   }
   if (s.inside.size() != size)
-    throw Failure(kBadInput,
-                  fmt::format("runs_outside_inside fill {} of {} cells", s.inside.size(), size));
+    throw Failure(kBadInput, "runs_outside_inside fill {} of {} cells", s.inside.size(), size);
   complete(s);
   return s;
 }

@@ -127,16 +127,17 @@ public:
       return {};
     }
     if (long(rows_.size()) != atoms_ || !ends_with_newline)
-      mistakes_.add(0, fmt::format("the frame of the dump is cut: it announces {} atoms and has {} "
-                                   "rows{}. Name an earlier one by structure.frame.",
-                                   atoms_, rows_.size(),
-                                   ends_with_newline ? "" : ", the last without an end"));
+      mistakes_.add(0,
+                    "the frame of the dump is cut: it announces {} atoms and has {} rows{}. Name "
+                    "an earlier one by structure.frame.",
+                    atoms_, rows_.size(), ends_with_newline ? "" : ", the last without an end");
     AtomRows rows(kStyle, mistakes_, joined(names_));
     for (const auto &[number, words] : rows_)
       if (words.size() != columns_.size())
-        mistakes_.add(number, fmt::format("the row has {} columns, ITEM: ATOMS names {}. Give the "
-                                          "file as it was written.",
-                                          words.size(), columns_.size()));
+        mistakes_.add(
+            number,
+            "the row has {} columns, ITEM: ATOMS names {}. Give the file as it was written.",
+            words.size(), columns_.size());
       else
         rows.read(number,
                   columns_.row([&w = words](size_t k) { return w[k]; }, 0,
@@ -167,12 +168,12 @@ private:
       const std::string missing = columns_.missing(true, format_.densities);
       if (!missing.empty() || !columns_.has({"id"}))
         mistakes_.add(number,
-                      fmt::format("the dump has no column {}{}; it has '{}'. Write a dump custom "
-                                  "with id type x y z radius density{}.",
-                                  columns_.has({"id"}) ? "" : "id ", missing, joined(names_),
-                                  missing.find("density") == std::string::npos
-                                      ? ""
-                                      : ", or take structure.densities = \"recipe\""));
+                      "the dump has no column {}{}; it has '{}'. Write a dump custom with id type "
+                      "x y z radius density{}.",
+                      columns_.has({"id"}) ? "" : "id ", missing, joined(names_),
+                      missing.find("density") == std::string::npos
+                          ? ""
+                          : ", or take structure.densities = \"recipe\"");
       if (!missing.empty() || !columns_.has({"id"}))
         columns_ = NamedColumns({});
     } else if (item_.rfind("BOX BOUNDS", 0) == 0) {
@@ -188,10 +189,10 @@ private:
       return;
     for (int axis = 0; axis < 3; ++axis)
       if (const bool wanted = axis < 2 || format_.z_periodic; (last[axis] == "pp") != wanted)
-        mistakes_.add(number, fmt::format("the dump's box is {}periodic along {} ('{}'). {}",
-                                          wanted ? "not " : "", "xyz"[axis], joined(last),
-                                          axis < 2 ? "Films that are periodic in x and y are read."
-                                                   : "Give structure.boundary as in the script."));
+        mistakes_.add(number, "the dump's box is {}periodic along {} ('{}'). {}",
+                      wanted ? "not " : "", "xyz"[axis], joined(last),
+                      axis < 2 ? "Films that are periodic in x and y are read."
+                               : "Give structure.boundary as in the script.");
   }
 
   void bounds(int number, const Words &words) {
@@ -199,14 +200,11 @@ private:
       return k < words.size() ? number_in(words[k]).value_or(NAN) : NAN;
     };
     if (words.size() == 4 || (words.size() == 3 && value(2) != 0.0))
-      mistakes_.add(number,
-                    fmt::format("the box is tilted ('{}'); only boxes with right angles are "
-                                "read.",
-                                joined(words).substr(0, 80)));
+      mistakes_.add(number, "the box is tilted ('{}'); only boxes with right angles are read.",
+                    joined(words).substr(0, 80));
     else if (side_ == 3 || !std::isfinite(value(1) - value(0)) || !(value(1) > value(0)))
-      mistakes_.add(number, fmt::format("the box side '{}' needs two finite numbers, the lower "
-                                        "first.",
-                                        joined(words).substr(0, 80)));
+      mistakes_.add(number, "the box side '{}' needs two finite numbers, the lower first.",
+                    joined(words).substr(0, 80));
     else {
       low_[side_] = value(0);
       high_[side_++] = value(1);
@@ -285,9 +283,10 @@ ParticleData parse_dump(const std::string &text, const DataFormat &format, Mista
     chosen = std::find_if(frames.begin(), frames.end(),
                           [&](const FrameStart &f) { return f.step == format.frame; });
   if (chosen == frames.end()) {
-    mistakes.add(0, fmt::format("structure.frame is \"{}\", but the dump's frames are of the steps "
-                                "{}. Give one of them, or \"last\".",
-                                format.frame, steps_of(frames)));
+    mistakes.add(0,
+                 "structure.frame is \"{}\", but the dump's frames are of the steps {}. Give one "
+                 "of them, or \"last\".",
+                 format.frame, steps_of(frames));
     return {};
   }
   const size_t end = chosen + 1 == frames.end() ? text.size() : (chosen + 1)->at;
@@ -322,18 +321,16 @@ ParticleData parse_sphere_table(const std::string &text, const DataFormat &forma
     mistakes.add(line,
                  "the row has other columns than the header. Give the file as it was written.");
   if (!(format.side_x > 0.0) || !(format.side_y > 0.0) || format.z_periodic)
-    mistakes.add(0,
-                 fmt::format("a table of spheres has no box: {}.",
-                             format.z_periodic ? "give structure.boundary = \"p p f\""
-                                               : "give the recipe's cell.x_um and cell.y_um, the "
-                                                 "sides along which it is periodic"));
+    mistakes.add(0, "a table of spheres has no box: {}.",
+                 format.z_periodic ? "give structure.boundary = \"p p f\""
+                                   : "give the recipe's cell.x_um and cell.y_um, the "
+                                     "sides along which it is periodic");
   if (format.frame != "last")
     mistakes.add(0, "structure.frame is for dumps; a table has one frame. Remove it.");
   const NamedColumns columns(table.header());
   if (const std::string missing = columns.missing(false, format.densities); !missing.empty())
-    mistakes.add(1, fmt::format("the table has no column {}. Add it, or take structure.densities = "
-                                "\"recipe\".",
-                                missing));
+    mistakes.add(1, "the table has no column {}. Add it, or take structure.densities = \"recipe\".",
+                 missing);
   if (!mistakes.empty())
     return {};
   // As high as its centres lie; a row without a height is refused as such.

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The .npy format of NumPy (numpy.lib.format): magic, version, length of the header, the header as a
 // Python dictionary, the numbers. A .npz file is a ZIP archive of them, read by minizip.
+#include "base/provenance.h"
 #include "electrode/structure/image_header.h"
 #include "electrode/structure/particle_data.h"
 #include <algorithm>
-#include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fmt/format.h>
-#include <fstream>
 #include <memory>
 #include <minizip/unzip.h>
 #include <vtkImageData.h>
@@ -43,9 +41,10 @@ std::array<long, 3> axes_of(const std::string &file, const std::string &shape) {
   std::replace(numbers.begin(), numbers.end(), ',', ' ');
   const std::vector<std::string> words = words_of(numbers);
   if (words.size() != 3)
-    refuse_image(file, fmt::format("the array's shape is {}); a label image has three axes (z, y, "
-                                   "x). Save one image without channels.",
-                                   shape.substr(0, 60)));
+    refuse_image(file,
+                 "the array's shape is {}); a label image has three axes (z, y, x). Save one image "
+                 "without channels.",
+                 shape.substr(0, 60));
   return {whole_number_in(words[0]).value_or(0), whole_number_in(words[1]).value_or(0),
           whole_number_in(words[2]).value_or(0)};
 }
@@ -87,9 +86,10 @@ vtkSmartPointer<vtkImageData> image_of_npy(const std::string &file, const std::s
   const NpyHeader h = header_of(file, bytes);
   const auto [type, size] = type_of(h.type);
   if (size == 0)
-    refuse_image(file, fmt::format("its numbers are of type '{}', which is not read. Save whole "
-                                   "numbers (labels.astype(\"uint16\")).",
-                                   h.type.substr(0, 40)));
+    refuse_image(file,
+                 "its numbers are of type '{}', which is not read. Save whole numbers "
+                 "(labels.astype(\"uint16\")).",
+                 h.type.substr(0, 40));
   check_axes(file, h.n, long(bytes.size()));
   const size_t voxels = size_t(h.n[0]) * size_t(h.n[1]) * size_t(h.n[2]);
   check_length(file, double(voxels) * size, long(bytes.size() - h.length));
@@ -109,11 +109,6 @@ vtkSmartPointer<vtkImageData> image_of_npy(const std::string &file, const std::s
   return image;
 }
 
-std::string bytes_of_file(const std::string &file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 // The only array of the archive.
 std::string unpacked_array(const std::string &file) {
   const std::unique_ptr<void, int (*)(void *)> zip(unzOpen64(file.c_str()), unzClose);
@@ -124,8 +119,8 @@ std::string unpacked_array(const std::string &file) {
     refuse_image(file, "this is not a .npz file, or it is cut. Save it with "
                        "numpy.savez_compressed.");
   if (all.number_entry != 1)
-    refuse_image(file, fmt::format("it holds {} arrays; a label image is one. Save it alone.",
-                                   all.number_entry));
+    refuse_image(file, "it holds {} arrays; a label image is one. Save it alone.",
+                 all.number_entry);
   std::string out;
   bool whole =
       unzGetCurrentFileInfo64(zip.get(), &info, nullptr, 0, nullptr, 0, nullptr, 0) == UNZ_OK;
@@ -149,7 +144,7 @@ std::string unpacked_array(const std::string &file) {
 
 vtkSmartPointer<vtkImageData> read_numpy(const std::string &file) {
   const bool packed = std::filesystem::path(file).extension() == ".npz";
-  return image_of_npy(file, packed ? unpacked_array(file) : bytes_of_file(file));
+  return image_of_npy(file, packed ? unpacked_array(file) : text_of_file(file));
 }
 
 } // namespace calendem

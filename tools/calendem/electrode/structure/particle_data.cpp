@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -15,25 +15,12 @@ namespace calendem {
 namespace {
 
 // Sections of other atom styles and of settings: their rows are not needed here.
-const char *const kOtherSections[] = {"Velocities",
-                                      "Masses",
-                                      "Pair Coeffs",
-                                      "PairIJ Coeffs",
-                                      "Bond Coeffs",
-                                      "Angle Coeffs",
-                                      "Dihedral Coeffs",
-                                      "Improper Coeffs",
-                                      "Bonds",
-                                      "Angles",
-                                      "Dihedrals",
-                                      "Impropers",
-                                      "Ellipsoids",
-                                      "Lines",
-                                      "Triangles",
-                                      "Bodies",
-                                      "Atom Type Labels",
-                                      "Bond Type Labels",
-                                      "Angle Type Labels"};
+bool is_of_others(const std::string &section) {
+  static const std::regex kOthers("(Pair|PairIJ|Bond|Angle|Dihedral|Improper) Coeffs|(Atom|Bond|"
+                                  "Angle) Type Labels|(Bond|Angle|Dihedral|Improper|Ellipsoid|Line|"
+                                  "Triangle)s|Bodies|Velocities|Masses");
+  return std::regex_match(section, kOthers);
+}
 
 // One go through a file, line by line.
 class Reader {
@@ -81,16 +68,16 @@ private:
     if (name == "Atoms" && atoms_.rows() > 0)
       mistakes_.add(number_, "a second section Atoms: every particle may occur once. Give one "
                              "structure for each file.");
-    else if (name == "Atoms" || std::find(std::begin(kOtherSections), std::end(kOtherSections),
-                                          name) != std::end(kOtherSections)) {
+    else if (name == "Atoms" || is_of_others(name)) {
       section_ = name;
       rows_[name];
       if (name == "Atoms")
         style_ = joined(words_of(comment));
     } else
-      mistakes_.add(number_, fmt::format("'{}' is neither a row of numbers nor a section of a data "
-                                         "file (Atoms, Velocities, ...). Correct or remove it.",
-                                         name.substr(0, 60)));
+      mistakes_.add(number_,
+                    "'{}' is neither a row of numbers nor a section of a data file (Atoms, "
+                    "Velocities, ...). Correct or remove it.",
+                    name.substr(0, 60));
   }
 
   void check_counts(bool ends_with_newline) {
@@ -99,23 +86,21 @@ private:
       mistakes_.add(0, "it has no section Atoms: it is cut or not a data file. A dump is not one; "
                        "write the structure with write_data.");
     else if (announced > 0 && rows != announced)
-      mistakes_.add(0, fmt::format("line {} announces {} atoms, the section Atoms has {} rows: the "
-                                   "file is cut or was changed by hand. Give the whole file.",
-                                   header_.atoms_line(), announced, rows));
+      mistakes_.add(0,
+                    "line {} announces {} atoms, the section Atoms has {} rows: the file is cut or "
+                    "was changed by hand. Give the whole file.",
+                    header_.atoms_line(), announced, rows);
     else if (section_ == "Atoms" && !ends_with_newline)
       mistakes_.add(number_,
                     "the last row does not end with a newline: its last number may be cut. "
                     "Give the whole file, or end it with a newline if it is whole.");
     if (rows_.count("Velocities") && announced > 0 && rows_["Velocities"] != announced)
-      mistakes_.add(0, fmt::format("the section Velocities has {} rows for {} atoms: the file is "
-                                   "cut. Give the whole file.",
-                                   rows_["Velocities"], announced));
+      mistakes_.add(
+          0,
+          "the section Velocities has {} rows for {} atoms: the file is cut. Give the whole file.",
+          rows_["Velocities"], announced);
   }
 };
-
-} // namespace
-
-namespace {
 
 constexpr const char *kColumnsAreNamed = "by the file itself";
 
@@ -133,12 +118,12 @@ bool put_into_box(DataParticle &p, const Eigen::Vector3d &low, const Eigen::Vect
       return false;
     if (std::fabs(from - 0.5 * side) > (periodic ? kFarthest : 0.5 + kRounding) * side) {
       const char name = char('x' + axis);
-      mistakes.add(p.line, fmt::format("particle {} lies outside the box: {} = {:g}, {}lo and "
-                                       "{}hi are {:g} and {:g}{}.",
-                                       p.id, name, p.x[axis], name, name, lo, hi,
-                                       periodic ? ", more than 10000 boxes away"
-                                                : ", not periodic. Give structure.boundary as "
-                                                  "in the script, or the right box"));
+      mistakes.add(
+          p.line, "particle {} lies outside the box: {} = {:g}, {}lo and {}hi are {:g} and {:g}{}.",
+          p.id, name, p.x[axis], name, name, lo, hi,
+          periodic ? ", more than 10000 boxes away"
+                   : ", not periodic. Give structure.boundary as "
+                     "in the script, or the right box");
       return false;
     }
     p.x[axis] = format.length_um * (periodic ? from - side * std::floor(from / side) : from);
@@ -175,9 +160,9 @@ ParticleData parse_particle_data(const std::string &file, const DataFormat &form
                                       : parse_sphere_table(text, format, mistakes);
   }
   if (format.frame != "last")
-    mistakes.add(0, fmt::format("structure.frame is \"{}\", but a data file has one frame. Remove "
-                                "it, or give a dump.",
-                                format.frame));
+    mistakes.add(
+        0, "structure.frame is \"{}\", but a data file has one frame. Remove it, or give a dump.",
+        format.frame);
   std::istringstream in(text);
   Reader reader(format, mistakes);
   std::string line;
@@ -234,15 +219,16 @@ bool named_style_fits(const std::string &stated, const std::string &style, Mista
   const auto is = [&](const char *known) { return name == known; };
   if (std::any_of(std::begin(kNoSpheres), std::end(kNoSpheres), is))
     mistakes.add(0,
-                 fmt::format("its section says 'Atoms # {}'; atoms of that style are not spheres "
-                             "with diameter and density. Write it with atom_style sphere.",
-                             style));
+                 "its section says 'Atoms # {}'; atoms of that style are not spheres with diameter "
+                 "and density. Write it with atom_style sphere.",
+                 style);
   else if (std::none_of(std::begin(kStyles), std::end(kStyles), is))
     return false;
   else if (columns_name(stated) != name)
-    mistakes.add(0, fmt::format("its section says 'Atoms # {0}', structure.atom_style is \"{1}\". "
-                                "Give structure.atom_style = \"{0}\".",
-                                style, stated));
+    mistakes.add(0,
+                 "its section says 'Atoms # {0}', structure.atom_style is \"{1}\". Give "
+                 "structure.atom_style = \"{0}\".",
+                 style, stated);
   return true;
 }
 
@@ -263,12 +249,11 @@ void check_columns(const std::string &file, const DataFormat &format, const std:
     Mistakes wrong(file, 0);
     const ParticleData theirs = parse_particle_data(file, tried, none, wrong);
     if (wrong.empty() && (!sound || (of_file > 3 && of_file >= 2 * densities(theirs))))
-      mistakes.add(0, fmt::format("its columns look like those of atom_style {0} ({1}), not of {2} "
-                                  "({3}){4}. Give structure.atom_style as in the script that wrote "
-                                  "it.",
-                                  other, columns_of(other), format.atom_style,
-                                  columns_of(format.atom_style),
-                                  sound ? ": the densities differ as places do" : ""));
+      mistakes.add(0,
+                   "its columns look like those of atom_style {0} ({1}), not of {2} ({3}){4}. Give "
+                   "structure.atom_style as in the script that wrote it.",
+                   other, columns_of(other), format.atom_style, columns_of(format.atom_style),
+                   sound ? ": the densities differ as places do" : "");
   }
 }
 
@@ -288,10 +273,11 @@ void check_units(const DataFormat &format, const ParticleData &data, Mistakes &m
                            diameter / format.length_um * f.length_um,
                            density / format.density_g_cm3 * f.density_g_cm3);
   }
-  mistakes.add(0, fmt::format("the median sphere is {:.4g} um wide and weighs {:.4g} g/cm3 in the "
-                              "units stated; 0.05 to 100 um and 0.01 to 25 g/cm3 are plausible. "
-                              "Give structure.units as in the script that wrote the file.{}",
-                              diameter, density, looks));
+  mistakes.add(0,
+               "the median sphere is {:.4g} um wide and weighs {:.4g} g/cm3 in the units stated; "
+               "0.05 to 100 um and 0.01 to 25 g/cm3 are plausible. Give structure.units as in the "
+               "script that wrote the file.{}",
+               diameter, density, looks);
 }
 
 } // namespace calendem

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <climits>
 #include <cmath>
-#include <fmt/format.h>
 #include <functional>
 #include <map>
 
@@ -153,9 +152,10 @@ PhaseImage empty_phases(const std::array<int, 3> &n, const Eigen::Vector3d &voxe
   constexpr double kMost = 4e8; // 1.6 GB of labels
   const double voxels = double(n[0]) * n[1] * n[2];
   if (voxels > kMost)
-    throw Failure(kBadInput, fmt::format("voxels of {:.3g} x {:.3g} x {:.3g} um make {:.3g} of "
-                                         "them; allowed are {:.0e}. Take larger voxels.",
-                                         voxel[0], voxel[1], voxel[2], voxels, kMost));
+    throw Failure(kBadInput,
+                  "voxels of {:.3g} x {:.3g} x {:.3g} um make {:.3g} of them; allowed are {:.0e}. "
+                  "Take larger voxels.",
+                  voxel[0], voxel[1], voxel[2], voxels, kMost);
   PhaseImage image;
   image.n = n;
   image.voxel = voxel;

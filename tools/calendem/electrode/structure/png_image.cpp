@@ -4,7 +4,6 @@
 #include <csetjmp>
 #include <cstdio>
 #include <filesystem>
-#include <fmt/format.h>
 #include <fstream>
 #include <memory>
 #include <png.h>
@@ -72,9 +71,8 @@ vtkSmartPointer<vtkImageData> read_png(const std::string &file) {
                       width * bits / 8, height);
   png_destroy_read_struct(&png, &info, nullptr);
   if (!whole)
-    refuse_image(file, fmt::format("libpng cannot read it: {}. The file is cut or damaged. Copy it "
-                                   "again.",
-                                   said));
+    refuse_image(file, "libpng cannot read it: {}. The file is cut or damaged. Copy it again.",
+                 said);
   return image;
 }
 

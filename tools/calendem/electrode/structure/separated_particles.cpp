@@ -70,18 +70,16 @@ void check_phases(const LabelImage &image, const PhaseLabels &phases) {
                             100.0 * double(voxels) / double(image.label.size()));
   Mistakes mistakes(image.file);
   if (!others.empty())
-    mistakes.add(0, fmt::format("the labels {} are none of shapes.phases (pore {}, am {}, cbd {}). "
-                                "Name every phase; leave shapes.phases out if the labels are "
-                                "particles.",
-                                others, phases.pore, phases.am, phases.cbd));
+    mistakes.add(0,
+                 "the labels {} are none of shapes.phases (pore {}, am {}, cbd {}). Name every "
+                 "phase; leave shapes.phases out if the labels are particles.",
+                 others, phases.pore, phases.am, phases.cbd);
   for (const auto &[name, label] :
        {std::pair("pore", phases.pore), std::pair("am", phases.am), std::pair("cbd", phases.cbd)})
     if (count.count(label) == 0)
       mistakes.add(0,
-                   fmt::format("no voxel has the label {} of shapes.phases.{}. Give the label of "
-                               "that phase{}.",
-                               label, name,
-                               label == phases.cbd ? ", or leave cbd out if there is none" : ""));
+                   "no voxel has the label {} of shapes.phases.{}. Give the label of that phase{}.",
+                   label, name, label == phases.cbd ? ", or leave cbd out if there is none" : "");
   mistakes.stop_if_any();
 }
 

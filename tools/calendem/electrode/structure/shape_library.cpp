@@ -113,19 +113,17 @@ ShapeLibrary make_library(const LabelImage &image, std::int32_t background,
   }
   constexpr int kPhases = 3;
   if (l.shapes.empty() && l.labels <= kPhases)
-    throw Failure(
-        kBadInput,
-        fmt::format("{}: {} labels beside the background {}, and no whole particle: these "
-                    "look like phases. Name them, and the active material is separated into "
-                    "particles: shapes.phases = {{ pore = 0, am = 1, cbd = 2 }} (of a binary image "
-                    "without cbd). Else give the right shapes.background.",
-                    source, l.labels, background));
+    throw Failure(kBadInput,
+                  "{}: {} labels beside the background {}, and no whole particle: these look like "
+                  "phases. Name them, and the active material is separated into particles: "
+                  "shapes.phases = {{ pore = 0, am = 1, cbd = 2 }} (of a binary image without "
+                  "cbd). Else give the right shapes.background.",
+                  source, l.labels, background);
   if (l.shapes.empty())
     throw Failure(kBadInput,
-                  fmt::format("{}: of {} labels {} are cut by the border and {} have fewer than {} "
-                              "voxels: no particle is left. Give a larger or finer image, or the "
-                              "right shapes.background.",
-                              source, l.labels, l.cut.size(), l.coarse.size(), kFewestVoxels));
+                  "{}: of {} labels {} are cut by the border and {} have fewer than {} voxels: no "
+                  "particle is left. Give a larger or finer image, or the right shapes.background.",
+                  source, l.labels, l.cut.size(), l.coarse.size(), kFewestVoxels);
   sort_by_size(l);
   return l;
 }
@@ -166,9 +164,8 @@ ShapeLibrary read_library(const std::string &folder) {
       l.shapes.push_back(shape_from_json(nlohmann::json::parse(in)));
       l.source_hash = hash_of_text(l.source_hash + hash_of_file(file));
     } catch (const std::exception &e) {
-      mistakes.add(
-          0, fmt::format("'{}' is not a shape: {}. Make the library again, or remove the file.",
-                         fs::path(file).filename().string(), e.what()));
+      mistakes.add(0, "'{}' is not a shape: {}. Make the library again, or remove the file.",
+                   fs::path(file).filename().string(), e.what());
     }
   if (files.empty())
     mistakes.add(0, "it holds no shapes (shape_*.json). Give a folder 'shapes' that calendem pack "

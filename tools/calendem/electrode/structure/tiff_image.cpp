@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Label images as TIFF, read and written, with the voxel size where Fiji and Python's programs have it.
 #include "electrode/structure/image_header.h"
+#include "electrode/structure/label_image.h"
 #include "electrode/structure/particle_data.h"
 #include <algorithm>
 #include <cstdarg>
@@ -7,7 +9,6 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fmt/format.h>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -152,9 +153,10 @@ public:
     const Page first = page();
     const Description description = description_of_first();
     if (description.times() > 1.0)
-      refuse_image(file_, fmt::format("it holds {:.0f} channels or moments of the image; a label "
-                                      "image has one. Save one of them (Fiji: Image > Duplicate).",
-                                      description.times()));
+      refuse_image(file_,
+                   "it holds {:.0f} channels or moments of the image; a label image has one. Save "
+                   "one of them (Fiji: Image > Duplicate).",
+                   description.times());
     const double stated = description.pages(double(first.width) * first.height);
     long pages = count_pages(first);
     const long row = long(first.width) * first.bits / 8;
@@ -189,9 +191,10 @@ private:
   std::unique_ptr<TIFF, Close> tiff_;
 
   [[noreturn]] void refuse_page(long number) const {
-    refuse_image(file_, fmt::format("page {} cannot be read: {}. The file is cut, damaged or not a "
-                                    "TIFF file. Copy it again.",
-                                    number, said.empty() ? "it contradicts itself" : said));
+    refuse_image(
+        file_,
+        "page {} cannot be read: {}. The file is cut, damaged or not a TIFF file. Copy it again.",
+        number, said.empty() ? "it contradicts itself" : said);
   }
   Description description_of_first() const { // before a second page is asked for
     const char *text = nullptr;
@@ -214,11 +217,11 @@ private:
         (last == 0 || double(offset(last) - from + TIFFRawStripSize64(tiff_.get(), last)) == page);
     if (pages != 1 || compression != COMPRESSION_NONE || stated != std::floor(stated) || !dense ||
         double(from) + stated * page > double(file_size()))
-      refuse_image(file_,
-                   fmt::format("its description announces {:.10g} pages, {} can be read: the "
-                               "file is cut or only a part of the image. Copy it again, or "
-                               "save it with a page for each slice.",
-                               stated, pages));
+      refuse_image(
+          file_,
+          "its description announces {:.10g} pages, {} can be read: the file is cut or only a part "
+          "of the image. Copy it again, or save it with a page for each slice.",
+          stated, pages);
     check_axes(file_, {long(p.width), long(p.height), long(stated)}, file_size(), kPacked);
     const auto image = vtkSmartPointer<vtkImageData>::New();
     image->SetDimensions(int(p.width), int(p.height), int(stated));
@@ -253,15 +256,15 @@ private:
       const Page p = page();
       ++number;
       if (p.type() == VTK_VOID)
-        refuse_image(file_, fmt::format("page {} has {} numbers of {} bits per voxel; a label "
-                                        "image has one of 8, 16 or 32. Export the labels, not a "
-                                        "rendering.",
-                                        number, p.samples, p.bits));
+        refuse_image(file_,
+                     "page {} has {} numbers of {} bits per voxel; a label image has one of 8, 16 "
+                     "or 32. Export the labels, not a rendering.",
+                     number, p.samples, p.bits);
       if (p.width != first.width || p.height != first.height || p.type() != first.type())
-        refuse_image(file_, fmt::format("page {} has {} x {} voxels of {} bits, the first {} x {} "
-                                        "of {}. All pages must be of one size.",
-                                        number, p.width, p.height, p.bits, first.width,
-                                        first.height, first.bits));
+        refuse_image(file_,
+                     "page {} has {} x {} voxels of {} bits, the first {} x {} of {}. All pages "
+                     "must be of one size.",
+                     number, p.width, p.height, p.bits, first.width, first.height, first.bits);
     } while (TIFFReadDirectory(tiff_.get()));
     if (!said.empty() || !TIFFLastDirectory(tiff_.get()))
       refuse_page(number + 1);
@@ -299,5 +302,60 @@ private:
 vtkSmartPointer<vtkImageData> read_tiff(const std::string &file) { return Tiff(file).read(); }
 
 std::array<double, 3> voxel_size_of_tiff(const std::string &file) { return Tiff(file).voxel(); }
+
+namespace {
+
+void set_fields(TIFF *tiff, const LabelImage &image, int bits, bool sign) {
+  const std::string description = fmt::format(
+      "ImageJ=1.53t\nimages={0}\nslices={0}\nunit=micron\nspacing={1:.9g}\nloop=false\n",
+      image.n[2], image.voxel[2]);
+  TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, std::uint32_t(image.n[0]));
+  TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, std::uint32_t(image.n[1]));
+  TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, std::uint32_t(image.n[1]));
+  TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, bits);
+  TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 1);
+  TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, sign ? SAMPLEFORMAT_INT : SAMPLEFORMAT_UINT);
+  TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+  TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+  TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE);
+  TIFFSetField(tiff, TIFFTAG_IMAGEDESCRIPTION, description.c_str());
+  TIFFSetField(tiff, TIFFTAG_RESOLUTIONUNIT, RESUNIT_NONE);
+  TIFFSetField(tiff, TIFFTAG_XRESOLUTION, 1.0 / image.voxel[0]);
+  TIFFSetField(tiff, TIFFTAG_YRESOLUTION, 1.0 / image.voxel[1]);
+}
+
+template <class Voxel> bool write_pages(TIFF *tiff, const LabelImage &image, bool sign) {
+  const size_t page = size_t(image.n[0]) * image.n[1];
+  std::vector<Voxel> voxels(page);
+  for (int k = 0; k < image.n[2]; ++k) {
+    set_fields(tiff, image, 8 * int(sizeof(Voxel)), sign);
+    std::transform(image.label.begin() + long(k * page), image.label.begin() + long((k + 1) * page),
+                   voxels.begin(), [](std::int32_t label) { return Voxel(label); });
+    if (TIFFWriteEncodedStrip(tiff, 0, voxels.data(), tmsize_t(page * sizeof(Voxel))) < 0 ||
+        !TIFFWriteDirectory(tiff))
+      return false;
+  }
+  return true;
+}
+
+} // namespace
+
+bool write_tiff(const LabelImage &image, const std::string &file) {
+  constexpr double kClassic = 4e9; // bytes; larger files need another kind of TIFF
+  const Handlers handlers;
+  const auto [low, high] = std::minmax_element(image.label.begin(), image.label.end());
+  const bool large = 4.0 * double(image.label.size()) > kClassic;
+  const std::unique_ptr<TIFF, void (*)(TIFF *)> tiff(TIFFOpen(file.c_str(), large ? "w8" : "w"),
+                                                     TIFFClose);
+  if (!tiff)
+    return false;
+  if (*low >= 0 && *high <= UINT8_MAX)
+    return write_pages<std::uint8_t>(tiff.get(), image, false);
+  if (*low >= 0 && *high <= UINT16_MAX)
+    return write_pages<std::uint16_t>(tiff.get(), image, false);
+  if (*low >= INT16_MIN && *high <= INT16_MAX)
+    return write_pages<std::int16_t>(tiff.get(), image, true);
+  return write_pages<std::int32_t>(tiff.get(), image, true);
+}
 
 } // namespace calendem

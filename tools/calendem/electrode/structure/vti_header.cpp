@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fmt/format.h>
 #include <fstream>
 #include <optional>
 #include <vector>
@@ -41,9 +40,10 @@ Extent extent_of(const std::string &file, const std::string &element, const std:
     good = std::abs(e[k]) <= kMostVoxels;
   }
   if (!good)
-    refuse_image(file, fmt::format("its header has no {}=\"...\" of six whole numbers: it is cut "
-                                   "or not a .vti file. Save the image again.",
-                                   name));
+    refuse_image(file,
+                 "its header has no {}=\"...\" of six whole numbers: it is cut or not a .vti file. "
+                 "Save the image again.",
+                 name);
   return e;
 }
 
@@ -82,9 +82,9 @@ void check_blocks(const std::string &file, const std::string &data, const std::s
       (h[0] > 0.0 && bytes > 8.0 * voxels + h[1]) || h[1] > 8.0 * std::max(voxels, 1e6) ||
       h[2] > h[1])
     refuse_image(file,
-                 fmt::format("its packed data announce {:.0f} blocks of {:.0f} bytes for {:.0f} "
-                             "voxels: the file is damaged. Copy it again.",
-                             h[0], h[1], voxels));
+                 "its packed data announce {:.0f} blocks of {:.0f} bytes for {:.0f} voxels: the "
+                 "file is damaged. Copy it again.",
+                 h[0], h[1], voxels);
 }
 
 // The data of one array: behind its element, or where the appended data begin and the offset says.
@@ -92,9 +92,9 @@ void check_array(const std::string &file, const std::string &text, size_t at, do
   const std::string array = element(text, "DataArray", at), head = element(text, "VTKFile");
   if (const auto n = attribute(array, "NumberOfComponents"); n && *n != "1")
     refuse_image(file,
-                 fmt::format("an array has {} numbers per voxel; a label image has one. Export "
-                             "the labels, not a rendering.",
-                             n->substr(0, 20)));
+                 "an array has {} numbers per voxel; a label image has one. Export the labels, not "
+                 "a rendering.",
+                 n->substr(0, 20));
   if (attribute(array, "NumberOfTuples"))
     refuse_image(
         file, "an array of an image states NumberOfTuples: it is not a .vti file. Save it again.");
@@ -145,8 +145,7 @@ void check_vti(const std::string &file) {
           file,
           "it comes in pieces; a label image must be in one. Save it again as one .vti file.");
   if (pieces != 1)
-    refuse_image(file,
-                 fmt::format("it has {} pieces; a label image has one. Save it again.", pieces));
+    refuse_image(file, "it has {} pieces; a label image has one. Save it again.", pieces);
   const double voxels = double(whole[1] - whole[0] + 1) * double(whole[3] - whole[2] + 1) *
                         double(whole[5] - whole[4] + 1);
   for (size_t at = 0; (at = text.find("<DataArray", at)) != std::string::npos; ++at)
