@@ -179,7 +179,8 @@ TEST(ImageAsElectrode, OverlapsGoAndWhatIsFreeStays) {
   EXPECT_LT(free.largest_move_um, 0.6); // off the bottom, where primaries stand out of the shape
   m.bodies.at[0] = m.bodies.at[1] + Eigen::Vector3d(9.0, 1.0, 0.5); // inside it across x
   const PlacementOfStructure apart = place_in_place(m.in.recipe, m.in.structure, m.bodies);
-  EXPECT_LT(largest_overlap(m.in.recipe, apart.loose.particles), 0.02 * 0.5);
+  EXPECT_LT(largest_overlap(m.in.recipe, apart.loose.particles),
+            0.42 * 0.5);                 // what is left to LIGGGHTS
   EXPECT_LT(apart.largest_move_um, 4.2); // the sum of their radii
   for (const Particle &p : apart.loose.particles) {
     EXPECT_GT(p.x.z(), 0.5 - 0.01);

@@ -46,9 +46,8 @@ struct PlacementOfStructure {
 PlacementOfStructure place_as_in_structure(const Recipe &recipe, const ExistingStructure &structure,
                                            BodiesOfStructure &given);
 
-/// At the places that bodies and CBD have, in the recipe's thickness. What overlaps is pushed apart,
-/// each body as a whole and without a turn, until bodies are free of each other; CBD as far as it
-/// comes free by then.
+/// At the places that bodies and CBD have, in the recipe's thickness. Where they overlap by more than
+/// 0.4 of a primary's radius they are pushed apart, each body as a whole and without a turn.
 PlacementOfStructure place_in_place(const Recipe &recipe, const ExistingStructure &structure,
                                     const BodiesOfStructure &given);
 

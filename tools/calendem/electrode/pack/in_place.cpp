@@ -12,8 +12,11 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kMostRounds = 400;
-constexpr double kFree = 0.02;    // largest overlap of two bodies over a primary's radius
-constexpr double kMostMove = 0.2; // in a round, over a primary's radius
+// Over a primary's radius. Less overlap is left to LIGGGHTS, where bodies turn too: without a turn a dense
+// film has no place near by at which all would be free.
+constexpr double kLeft = 0.4;
+constexpr double kAlmost = 0.02;   // to that
+constexpr double kMostMove = 0.2; // in a round
 
 /// A body or a CBD sphere, moved as a whole.
 struct Unit {
@@ -63,7 +66,7 @@ private:
   std::vector<Ball> balls_;
   double width_ = 0.0;
 
-  // True once bodies are free of each other and of the plates.
+  // True once no bodies overlap by more than is left, nor plates.
   bool step() {
     for (Ball &ball : balls_)
       ball.x = in_cell(recipe_, units_[ball.unit].at + ball.from);
@@ -79,11 +82,11 @@ private:
       if (a.body && b.body)
         deepest = std::max(deepest, o.depth);
     }
-    if (deepest < kFree * R)
+    if (deepest < kAlmost * R)
       return true;
     for (Unit &u : units_) {
       if (u.contacts > 0)
-        u.shift /= std::sqrt(double(u.contacts));
+        u.shift /= double(u.contacts);
       const double length = u.shift.norm();
       u.at += u.shift * std::min(1.0, kMostMove * R / std::max(length, 1e-12));
       u.shift.setZero();
@@ -139,7 +142,8 @@ private:
     if (a.unit == b.unit)
       return;
     const Vector3d d = periodic_difference(recipe_, a.x, b.x);
-    const double r = d.norm(), depth = a.radius + b.radius - r;
+    const double left = kLeft * 0.5 * recipe_.primary_diameter;
+    const double r = d.norm(), depth = a.radius + b.radius - r - left;
     if (depth > 0.0 && r > 0.0)
       out.push_back(a.unit < b.unit ? Overlap{a.unit, b.unit, depth, depth / r * d}
                                     : Overlap{b.unit, a.unit, depth, -depth / r * d});
