@@ -45,7 +45,7 @@ std::vector<std::pair<std::string, std::string>> variables_in_place(const Recipe
   const double primary = mass(r.primary_diameter, primary_density(r)),
                cbd = mass(r.cbd_diameter, cbd_density(r));
   return {{"collapse_um_us", "6"},
-          {"drag_soft", fmt::format("{:.6g}", primary / kDecay)},
+          {"drag", fmt::format("{:.6g}", primary / kDecay)},
           {"drag_cbd", fmt::format("{:.6g}", cbd / primary)}};
 }
 
