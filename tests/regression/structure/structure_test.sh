@@ -25,6 +25,23 @@ case $case in
     cmp "$work/from_image/electrode.data" "$work/from_library/electrode.data" ||
       fail "image and library gave different electrodes"
     grep -q '"D50"' "$work/from_image/electrode.json" || fail "no measured sizes in electrode.json" ;;
+  image_as_electrode) # the image's particles in their places -> pressed
+    "$bin/calendem" tomogram "$work/tomogram.toml" -o "$work/image.mhd"
+    rm -rf "$work/in_place" "$work/pressed"
+    "$bin/calendem" validate "$work/in_place.toml"
+    "$bin/calendem" pack "$work/in_place.toml" -o "$work/in_place" --ranks 1
+    has in_place '"each_am_particle_once": true' '"cbd": "of the recipe, at random places in pores"'
+    number() { grep -o "\"$2\": [0-9.e-]*" "$work/$1" | head -n 1 | cut -d ' ' -f 2; }
+    # bodies keep a particle's volume to half a primary; 1 point is five of them in this cell of 576 um3
+    awk -v image="$(number in_place/electrode.json am_fraction_image)" -v is="$(number in_place/electrode.json am_fraction)" \
+      -v kept="$(number in_place/electrode.json am_in_place)" 'BEGIN {
+        print "active material: image " image ", electrode " is "; in place: " kept
+        exit !(is > image - 0.03 && is < image + 0.03 && kept > image + 0.1) }' || fail "not the image's particles in their places"
+    "$bin/calendem" run "$work/pressed.toml" -o "$work/pressed" --ranks 1
+    awk -v before="$(number in_place/electrode.json porosity_total)" \
+      -v after="$(number pressed/summary.json porosity_after_relaxation)" 'BEGIN {
+        print "porosity before " before ", after " after; exit !(after > 0.1 && after < before - 0.02) }' ||
+      fail "pressing left it as porous as it was" ;;
   structure_to_electrode) # LAMMPS' film -> electrode; that as given clusters -> the same bodies; a cut file -> nothing
     rm -rf "$work/from_film" "$work/from_clusters" "$work/from_cut"
     "$bin/calendem" validate "$work/film.toml"

@@ -4,6 +4,7 @@
 #include "measure/exports.h"
 #include "measure_support.h"
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace {
 using namespace calendem;
@@ -52,6 +53,29 @@ TEST(BpxFragment, TransportIsThatThroughTheThickness) {
               through, 1e-12);
   EXPECT_EQ(more["Positive electrode tortuosity factor of the macro pores"].get<double>(),
             e.macro_porosity / through);
+}
+
+// Schema of BPX 0.4 (bpx/schema.py of FaradayInstitution/BPX): the version is a number, no field that
+// it does not know, every user-defined value a number with a point (whole ones are refused).
+TEST(BpxFragment, KeepsTheRulesOfTheSchema) {
+  const std::set<std::string> electrode = {
+      "Thickness [m]",         "Porosity",
+      "Transport efficiency",  "Conductivity [S.m-1]",
+      "Minimum stoichiometry", "Maximum stoichiometry",
+      "Particle radius [m]",   "Surface area per unit volume [m-1]"};
+  const nlohmann::json j =
+      nlohmann::json::parse(bpx_fragment(electrode_of_bpx(two_bodies(), 0.25), "a").dump());
+  EXPECT_TRUE(j["Header"]["BPX"].is_number_float());
+  EXPECT_EQ(j["Header"]["BPX"], 0.4);
+  EXPECT_EQ(j["Header"]["Model"], "DFN");
+  EXPECT_EQ(j["Header"].size(), 3u);
+  for (const auto &[part, values] : j["Parameterisation"].items()) {
+    EXPECT_TRUE(part == "Positive electrode" || part == "User-defined") << part;
+    for (const auto &[field, value] : values.items()) {
+      EXPECT_TRUE(part == "User-defined" || electrode.count(field)) << field;
+      EXPECT_TRUE(value.is_number_float()) << field;
+    }
+  }
 }
 
 struct Exported {

@@ -57,14 +57,16 @@ TEST(SeparatedParticles, EqualBallsAreCutInEqualParts) {
     EXPECT_EQ(particles.label[p] > 0, image.label[p] == 1);
 }
 
+// Balls above each other, slices twice as far apart as their voxels are wide. Counted in voxels the balls
+// would be flatter than their neck is wide.
 TEST(SeparatedParticles, SidesOfAVoxelMayDiffer) {
-  LabelImage image = empty_image(60, 32, 64, 0.5);
-  image.voxel.z() = 0.25;
-  for (int k = 0; k < 64; ++k)
+  LabelImage image = empty_image(32, 32, 30, 0.5);
+  image.voxel.z() = 1.0;
+  for (int k = 0; k < 30; ++k)
     for (int j = 0; j < 32; ++j)
-      for (int i = 0; i < 60; ++i)
-        for (const double x : {21.0, 39.0})
-          if (Eigen::Vector3d(i + 0.5 - x, j - 15.5, 0.5 * (k - 31.5)).norm() < 12.0)
+      for (int i = 0; i < 32; ++i)
+        for (const double z : {10.5, 19.5})
+          if (Eigen::Vector3d(i - 15.5, j - 15.5, 2.0 * (k + 0.5 - z)).norm() < 12.0)
             image.label[image.index(i, j, k)] = 1;
   EXPECT_EQ(particles_in(separate_particles(image, kBinary, 0.6)), 1);
   EXPECT_EQ(particles_in(separate_particles(image, kBinary, 0.8)), 2);

@@ -82,6 +82,17 @@ std::vector<Key> shape_keys() {
       {"shapes.sizes", "", "measured", 0, 0, "",
        "size distribution of the bodies: that of the image or that of the recipe",
        "measured|recipe"},
+      {"shapes.places", "", "packed", 0, 0, "",
+       "packed: particles of the image at new places; image: a crop of the image is the electrode, "
+       "its particles and its carbon-binder where they are",
+       "packed|image"},
+      {"shapes.crop.x_um", "", "0", -1000, 1000, "um",
+       "of the crop's middle from the image's; its sides are those of the cell, or the image's"},
+      {"shapes.crop.y_um", "", "0", -1000, 1000, "um",
+       "of the crop's middle from the image's; its sides are those of the cell, or the image's"},
+      {"shapes.crop.low_um", "", "0", 0, 1000, "um", "height in the image where the crop begins"},
+      {"shapes.crop.high_um", "", "0", 0, 1000, "um",
+       "height in the image where the crop ends; 0: its top"},
       label_key("pore", "label of the pores in an image of phases"),
       label_key("am",
                 "label of the active material, which is separated into particles; that of the "
@@ -220,6 +231,26 @@ PhaseLabels read_phases(const Settings &s, const std::string &image, Mistakes &m
   return out;
 }
 
+void read_crop(const Settings &s, ShapeSource &out, Mistakes &mistakes) {
+  out.in_place = s.text("shapes.places") == "image";
+  out.middle_x = s.number("shapes.crop.x_um");
+  out.middle_y = s.number("shapes.crop.y_um");
+  out.low = s.number("shapes.crop.low_um");
+  out.high = s.number("shapes.crop.high_um");
+  for (const char *key : {"x_um", "y_um", "low_um", "high_um"})
+    if (const int line = s.line(std::string("shapes.crop.") + key); line > 0 && !out.in_place)
+      return mistakes.add(line, "shapes.crop is of an image that becomes the electrode. Give "
+                                "shapes.places = \"image\", or remove it.");
+  if (out.in_place && out.image.empty())
+    mistakes.add(s.line("shapes.places"),
+                 "shapes.places is \"image\", but shapes.image is missing. Give the image that "
+                 "becomes the electrode.");
+  if (out.high > 0.0 && out.high <= out.low)
+    mistakes.add(
+        s.line("shapes.crop.high_um"),
+        fmt::format("shapes.crop.high_um is {}; it must be above low_um, {}.", out.high, out.low));
+}
+
 } // namespace
 
 ShapeSource read_shapes(const Settings &s, const std::string &file, Mistakes &mistakes) {
@@ -232,6 +263,7 @@ ShapeSource read_shapes(const Settings &s, const std::string &file, Mistakes &mi
   out.phases = read_phases(s, out.image, mistakes);
   out.neck = s.number("shapes.neck");
   out.measured_sizes = s.text("shapes.sizes") == "measured";
+  read_crop(s, out, mistakes);
   if (!out.image.empty() && !out.library.empty())
     mistakes.add(s.line("shapes.library"),
                  "[shapes] gives both an image and a library; give one of them.");
@@ -320,6 +352,7 @@ Recipe read_recipe(const std::string &file) {
   r.material = material;
   r.shapes = read_shapes(s, file, mistakes);
   r.structure = read_structure_source(s, file, mistakes);
+  take_places_of_image(s, r, mistakes);
   check_recipe(s, r, mistakes);
   mistakes.stop_if_any();
   return r;

@@ -23,8 +23,9 @@ struct StructureSource {
   bool densities_of_file = true; ///< else the recipe's
   std::string frame = "last";    ///< of a dump, or its time step
   double side_x = 0.0,
-         side_y = 0.0; ///< of the recipe's cell, for a table without a box [um]; 0: none
-  bool given() const { return !file.empty(); }
+         side_y = 0.0;   ///< of the recipe's cell, for a table or image without a box [um]; 0: none
+  bool of_image = false; ///< [shapes] has the places: the film is cut out of its image
+  bool given() const { return !file.empty() || of_image; }
 };
 
 const std::vector<Key> &structure_keys();
@@ -57,6 +58,9 @@ struct ShapeSource {
   PhaseLabels phases;
   double neck = 0.9;          ///< see separate_particles()
   bool measured_sizes = true; ///< else the recipe's lognormal law
+  bool in_place = false;      ///< the image is the electrode, its particles are where they are
+  double middle_x = 0.0, middle_y = 0.0; ///< of the crop, from the image's [um]
+  double low = 0.0, high = 0.0;          ///< heights of the crop [um]; 0: of the image's top
   bool given() const { return !image.empty() || !library.empty(); }
 };
 
@@ -104,6 +108,9 @@ ShapeSource read_shapes(const Settings &settings, const std::string &file, Mista
 /// The material of the file's settings, whose values they take.
 ReferenceMaterial take_material(Settings &settings, const std::string &file,
                                 const std::vector<Key> &keys, Mistakes &mistakes);
+
+/// Of shapes.places = "image": the film comes from the image as from a structure.
+void take_places_of_image(const Settings &settings, Recipe &recipe, Mistakes &mistakes);
 
 /// The recipe's numbers, without shapes, structure and material; what they contradict.
 Recipe recipe_of(const Settings &settings);

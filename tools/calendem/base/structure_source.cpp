@@ -61,7 +61,7 @@ void check_files(const Settings &s, const StructureSource &source, Mistakes &mis
 }
 
 // Keys that a structure makes idle: whoever gives them expects something else.
-void check_idle(const Settings &s, bool clusters, Mistakes &mistakes) {
+void check_idle(const Settings &s, bool clusters, const std::string &source, Mistakes &mistakes) {
   std::vector<std::string> idle = {"particles.median_um", "particles.sigma_ln", "particles.min_um",
                                    "particles.max_um", "shapes.sizes"};
   if (clusters)
@@ -69,8 +69,8 @@ void check_idle(const Settings &s, bool clusters, Mistakes &mistakes) {
   for (const std::string &key : idle)
     if (s.line(key) > 0)
       mistakes.add(s.line(key),
-                   "{} has no effect beside [structure], which gives the {}. Remove one of them.",
-                   key, clusters ? "bodies" : "sizes");
+                   "{} has no effect beside {}, which gives the {}. Remove one of them.", key,
+                   source, clusters ? "bodies" : "sizes");
 }
 
 void read_units(const Settings &s, StructureSource &out, Mistakes &mistakes) {
@@ -164,8 +164,26 @@ StructureSource read_structure_source(const Settings &s, const std::string &file
   read_units(s, out, mistakes);
   check_types(s, out, mistakes);
   check_files(s, out, mistakes);
-  check_idle(s, out.clusters, mistakes);
+  check_idle(s, out.clusters, "[structure]", mistakes);
   return out;
+}
+
+void take_places_of_image(const Settings &s, Recipe &recipe, Mistakes &mistakes) {
+  if (!recipe.shapes.in_place)
+    return;
+  if (recipe.structure.given())
+    mistakes.add(s.line("shapes.places"), "shapes.places is \"image\", and [structure] has places "
+                                          "too. Give one of them.");
+  recipe.structure = {};
+  recipe.structure.of_image = true;
+  recipe.structure.densities_of_file = false;
+  recipe.structure.side_x = s.line("cell.x_um") > 0 ? s.number("cell.x_um") : 0.0;
+  recipe.structure.side_y = s.line("cell.y_um") > 0 ? s.number("cell.y_um") : 0.0;
+  check_idle(s, false, "shapes.places", mistakes);
+  if (s.line("particles.irregularity") > 0)
+    mistakes.add(s.line("particles.irregularity"),
+                 "particles.irregularity has no effect beside shapes.places, which gives the "
+                 "shapes. Remove one of them.");
 }
 
 } // namespace calendem

@@ -126,8 +126,12 @@ void print(const StructureMeasures &m) {
     const Tortuosity &t = m.tortuosity[axis];
     fmt::print("measure: {}: tau along {} {:.3f}{}\n", m.moment, "xyz"[axis], t.tau,
                t.effective <= 0.0 ? ": no path of pore voxels leads through"
-               : t.extrapolated   ? ""
-                                  : ", an upper bound: no path on voxels of twice the size");
+               : t.extrapolated
+                   ? fmt::format(" for voxels of size 0, {:.3f} on {}", t.tau_on_voxels(),
+                                 t.stride == 1
+                                     ? "all voxels"
+                                     : fmt::format("voxels of {} times the size", t.stride))
+                   : ", an upper bound: no path on voxels of twice the size");
   }
   const double largest = m.voxel.maxCoeff();
   if (largest > kLargestForPorosity + 1e-9)

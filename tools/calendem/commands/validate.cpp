@@ -63,7 +63,7 @@ FileKind kind_of(const std::string &file) {
 /// Prints what its user should know, too.
 std::string recipe_in_words(const Recipe &recipe) {
   read_input(recipe);
-  if (recipe.shapes.given()) // as pack and dry do
+  if (recipe.shapes.given() && !recipe.shapes.in_place) // as pack and dry do
     library_of(recipe);
   for (const std::string &text : notes_of(recipe))
     fmt::print("note: {}: {}\n", recipe.file, text);

@@ -36,7 +36,7 @@ std::vector<int> aggregate(Places &places) {
   return parent;
 }
 
-Matrix coarser(const Matrix &fine, const std::vector<int> &parent, int unknowns) {
+Matrix coarser(const Eigen::Ref<const Matrix> &fine, const std::vector<int> &parent, int unknowns) {
   Matrix collect(fine.rows(), unknowns);
   collect.reserve(Eigen::VectorXi::Constant(fine.rows(), 1));
   for (int i = 0; i < fine.rows(); ++i)
@@ -45,9 +45,10 @@ Matrix coarser(const Matrix &fine, const std::vector<int> &parent, int unknowns)
   return (Matrix(collect.transpose()) * half) / kEnlarged;
 }
 
-void smooth_row(const Matrix &a, const Eigen::VectorXd &right, Eigen::VectorXd &u, int i) {
+void smooth_row(const Eigen::Ref<const Matrix> &a, const Eigen::VectorXd &right, Eigen::VectorXd &u,
+                int i) {
   double sum = right[i], diagonal = 1.0;
-  for (Matrix::InnerIterator e(a, i); e; ++e)
+  for (Eigen::Ref<const Matrix>::InnerIterator e(a, i); e; ++e)
     if (e.col() == i)
       diagonal = e.value();
     else
@@ -58,20 +59,20 @@ void smooth_row(const Matrix &a, const Eigen::VectorXd &right, Eigen::VectorXd &
 } // namespace
 
 Multigrid &Multigrid::compute(const Eigen::Ref<const Matrix> &matrix) {
+  finest_.emplace(matrix);
   levels_.clear();
   levels_.emplace_back();
-  levels_.back().matrix = matrix;
-  while (levels_.back().matrix.rows() > kFewest) {
+  for (size_t at = 0; matrix_of(at).rows() > kFewest; ++at) {
     std::vector<int> parent = aggregate(places_);
     const int unknowns = int(places_.size());
-    if (unknowns == levels_.back().matrix.rows())
+    if (unknowns == matrix_of(at).rows())
       break;
-    Matrix next = coarser(levels_.back().matrix, parent, unknowns);
+    Matrix next = coarser(matrix_of(at), parent, unknowns);
     levels_.back().parent = std::move(parent);
     levels_.emplace_back();
     levels_.back().matrix.swap(next);
   }
-  Eigen::SparseMatrix<double> last = levels_.back().matrix;
+  Eigen::SparseMatrix<double> last = matrix_of(levels_.size() - 1);
   for (int i = 0; i < last.rows(); ++i)
     last.coeffRef(i, i) *= 1.0 + kAlmostNothing;
   coarsest_.compute(last);
@@ -80,7 +81,8 @@ Multigrid &Multigrid::compute(const Eigen::Ref<const Matrix> &matrix) {
 
 void Multigrid::cycle(size_t level, const Eigen::VectorXd &right, Eigen::VectorXd &u) const {
   const Level &at = levels_[level];
-  const int n = int(at.matrix.rows());
+  const View matrix = matrix_of(level);
+  const int n = int(matrix.rows());
   if (at.parent.empty()) {
     u = coarsest_.solve(right);
     return;
@@ -88,8 +90,8 @@ void Multigrid::cycle(size_t level, const Eigen::VectorXd &right, Eigen::VectorX
   const int visits = level == 0 || level + 2 >= levels_.size() ? 1 : 2;
   for (int visit = 0; visit < visits; ++visit) {
     for (int i = 0; i < n; ++i)
-      smooth_row(at.matrix, right, u, i);
-    const Eigen::VectorXd rest = right - at.matrix * u;
+      smooth_row(matrix, right, u, i);
+    const Eigen::VectorXd rest = right - matrix * u;
     Eigen::VectorXd coarse = Eigen::VectorXd::Zero(levels_[level + 1].matrix.rows());
     Eigen::VectorXd correction = coarse;
     for (int i = 0; i < n; ++i)
@@ -98,7 +100,7 @@ void Multigrid::cycle(size_t level, const Eigen::VectorXd &right, Eigen::VectorX
     for (int i = 0; i < n; ++i)
       u[i] += correction[at.parent[i]];
     for (int i = n; i-- > 0;)
-      smooth_row(at.matrix, right, u, i);
+      smooth_row(matrix, right, u, i);
   }
 }
 
@@ -254,11 +256,11 @@ Diffusion diffusion(const DiffusionGrid &grid, int axis) {
 }
 
 Tortuosity tortuosity(const PhaseImage &whole, int axis) {
-  constexpr double kMostPores = 3e6;
+  constexpr double kMostPores = 1.2e7;
   const double pores = phase_fractions(whole).pore * double(whole.label.size());
-  const int stride = std::max(1, int(std::ceil(std::cbrt(pores / kMostPores) - 1e-9)));
-  const PhaseImage image = every_nth(whole, stride);
   Tortuosity t;
+  t.stride = std::max(1, int(std::ceil(std::cbrt(pores / kMostPores) - 1e-9)));
+  const PhaseImage image = every_nth(whole, t.stride);
   t.voxel = image.voxel;
   const Diffusion fine = diffusion(pore_space(image), axis);
   const Diffusion doubled = diffusion(pore_space(every_nth(image, 2)), axis);

@@ -7,6 +7,8 @@
 #include "measure/phases.h"
 #include <Eigen/SparseCholesky>
 #include <array>
+#include <cmath>
+#include <optional>
 #include <vector>
 
 namespace calendem {
@@ -22,7 +24,8 @@ public:
   using StorageIndex = int; // asked for by Eigen
   enum { ColsAtCompileTime = Eigen::Dynamic, MaxColsAtCompileTime = Eigen::Dynamic };
 
-  /// Place of every unknown, in cells; set before `compute`, which uses them up.
+  /// Place of every unknown, in cells; set before `compute`, which uses them up. The matrix given to
+  /// `compute` is not copied.
   void set_places(std::vector<std::array<int, 3>> places) { places_ = std::move(places); }
   Multigrid &compute(const Eigen::Ref<const Matrix> &matrix);
   // Eigen's solver calls these instead of compute().
@@ -32,14 +35,17 @@ public:
   Eigen::VectorXd solve(const Eigen::VectorXd &right) const;
 
 private:
+  using View = Eigen::Ref<const Matrix>;
   struct Level {
-    Matrix matrix;
+    Matrix matrix;           ///< empty on the first, which views the matrix itself
     std::vector<int> parent; ///< unknown of the next level; empty on the last
   };
   std::vector<std::array<int, 3>> places_;
+  std::optional<View> finest_;
   std::vector<Level> levels_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> coarsest_;
 
+  View matrix_of(size_t level) const { return level == 0 ? *finest_ : View(levels_[level].matrix); }
   void cycle(size_t level, const Eigen::VectorXd &right, Eigen::VectorXd &u) const;
 };
 
@@ -88,13 +94,17 @@ struct Tortuosity {
   double porosity = 0.0; ///< on the voxels
   double percolating = 0.0; ///< share of the pores that lie on a path through
   Eigen::Vector3d voxel;    ///< [um]; larger than the image's where that has too many
+  int stride = 1;           ///< every so many-th of the image's voxels
+
+  /// What programs without that step give, such as TauFactor.
+  double tau_on_voxels() const { return on_voxels > 0.0 ? porosity / on_voxels : INFINITY; }
 };
 
 /// The stairs of voxels narrow every pore, so 1/tau is too low by an error that goes with the first
 /// power of their size: 1/tau(0) = 2/tau(h) - 1/tau(2h). Errors (test structure.Tortuosity):
 /// cubic arrays of spheres of 11 voxels radius up 1.5 % (on the voxels alone 2-5 %); channels of 10
 /// voxels tilted against the axes 0.1 %. Narrow pores need smaller voxels: the demo at 150 MPa has
-/// 2.48 on 0.15 um and 2.33 on 0.1 um. Above 3e6 pore voxels every 2nd, 3rd ... one is taken.
+/// 2.48 on 0.15 um and 2.33 on 0.1 um. Above 1.2e7 pore voxels every 2nd, 3rd ... one is taken.
 Tortuosity tortuosity(const PhaseImage &image, int axis);
 
 } // namespace calendem

@@ -50,7 +50,9 @@ ElectrodeOfBpx electrode_of_bpx(const SimulatedStructure &s, double voxel) {
 nlohmann::ordered_json bpx_fragment(const ElectrodeOfBpx &e, const std::string &title) {
   constexpr double kMetre = 1e-6; // of 1 um
   nlohmann::ordered_json j;
-  j["Header"] = {{"BPX", "0.4.0"}, {"Title", title}, {"Model", "DFN"}};
+  j["Header"] = {{"BPX", 0.4}, // a number up to version 0.5 of the schema; later ones take it, too
+                 {"Title", title},
+                 {"Model", "DFN"}};
   nlohmann::ordered_json &all = j["Parameterisation"];
   all["Positive electrode"] = {
       {"Thickness [m]", e.thickness * kMetre},

@@ -192,6 +192,8 @@ std::string or_empty(double v) { return std::isfinite(v) ? fmt::format("{:.6f}",
 
 json to_json(const Tortuosity &t) {
   json j = {{"tau", or_null(t.tau)},
+            {"tau_on_voxels", or_null(t.tau_on_voxels())},
+            {"every_nth_voxel", t.stride},
             {"effective_diffusivity", t.effective},
             {"effective_diffusivity_on_voxels", t.on_voxels},
             {"effective_diffusivity_on_doubled_voxels", t.on_doubled},
@@ -292,7 +294,9 @@ json structure_definitions() {
            "image's sides, 200 voxels at least; in_pieces: of those, largest "
            "connected part below 95 %"},
           {"tau", "tortuosity factor of the macro pores, eps D/D_eff, eps all pore voxels; D_eff "
-                  "extrapolated to voxels of size 0; CBD counts as solid"},
+                  "extrapolated to voxels of size 0; CBD counts as solid. tau_on_voxels: without "
+                  "that step, as "
+                  "programs that take the voxels as they are"},
           {"tau_in_plane", "eps over the mean D_eff/D of x and y"}};
 }
 

@@ -180,6 +180,15 @@ std::vector<Eigen::Vector3d> fill(const Hull &hull, const Lattice &lattice, int 
   return points;
 }
 
+void fill_lattice(Body &b, const Hull &hull, const Recipe &recipe, int count, double farthest,
+                  Random &random) {
+  const Lattice lattice{random.rotation(), random.uniform3() - Eigen::Vector3d::Constant(0.5),
+                        recipe.lattice};
+  b.primaries = fill(hull, lattice, count, farthest);
+  b.facet = recipe.lattice * recipe.lattice;
+  b.lattice = lattice.turn;
+}
+
 void fill(Body &b, const Hull &hull, const Recipe &recipe, int count, double farthest,
           Random &random) {
   if (recipe.grains == GrainShape::Voronoi && count >= kFewestGrains) {
@@ -188,13 +197,8 @@ void fill(Body &b, const Hull &hull, const Recipe &recipe, int count, double far
     b.primaries = std::move(grains.centres);
     b.facet = grains.facet;
     b.lattice.setIdentity();
-    return;
-  }
-  const Lattice lattice{random.rotation(), random.uniform3() - Eigen::Vector3d::Constant(0.5),
-                        recipe.lattice};
-  b.primaries = fill(hull, lattice, count, farthest);
-  b.facet = recipe.lattice * recipe.lattice;
-  b.lattice = lattice.turn;
+  } else
+    fill_lattice(b, hull, recipe, count, farthest, random);
 }
 
 void centre_on_mass(Body &b) {
@@ -273,6 +277,8 @@ Body make_body(const Recipe &recipe, int count, Random &random, const DrawHull &
     const double farthest = tries < kTries ? HUGE_VAL : 0.5 * (widest - recipe.primary_diameter);
     const Hull hull = draw(random);
     fill(b, hull, recipe, count, farthest, random);
+    if (tries == kTries && static_cast<int>(b.primaries.size()) < count)
+      fill_lattice(b, hull, recipe, count, farthest, random); // grains of a thin shape fall apart
     b.sphericity = count == 1 ? 1.0 : hull.sphericity();
     b.shape = hull.name;
     b.width = width_of(b.primaries, recipe.primary_diameter);

@@ -140,7 +140,7 @@ BodiesOfStructure bodies_of_spheres(const Recipe &recipe, const ExistingStructur
   BodiesOfStructure out;
   Random random(recipe.seed, 2);
   for (size_t k = 0; k < am.size(); ++k) {
-    out.bodies.push_back(make(counts[k], random));
+    out.bodies.push_back(make(am[k], counts[k], random));
     out.at.push_back(am[k].x);
     out.ids.push_back({am[k].id});
   }

@@ -8,8 +8,11 @@
 #include "electrode/pack/body.h"
 #include "electrode/pack/packing_state.h"
 #include "electrode/structure/existing_structure.h"
+#include <memory>
 
 namespace calendem {
+
+struct FilmOfImage;
 
 /// Body k is at[k] and made of the structure's particles ids[k]: one sphere, or one per primary in
 /// the order of Body::primaries.
@@ -19,8 +22,8 @@ struct BodiesOfStructure {
   std::vector<std::vector<long>> ids;
 };
 
-/// A body of as many primaries.
-using MakeBody = std::function<Body(int count, Random &random)>;
+/// A body of as many primaries in place of the sphere.
+using MakeBody = std::function<Body(const ExistingSphere &sphere, int count, Random &random)>;
 
 /// The primaries' total is that of the spheres' volume, to half a primary. Throws Failure(2) where
 /// there are fewer of them than spheres.
@@ -43,6 +46,11 @@ struct PlacementOfStructure {
 PlacementOfStructure place_as_in_structure(const Recipe &recipe, const ExistingStructure &structure,
                                            BodiesOfStructure &given);
 
+/// At the places that bodies and CBD have, in the recipe's thickness. Where they overlap by more than
+/// 0.4 of a primary's radius they are pushed apart, each body as a whole and without a turn.
+PlacementOfStructure place_in_place(const Recipe &recipe, const ExistingStructure &structure,
+                                    const BodiesOfStructure &given);
+
 /// The recipe with the structure's values. Throws Failure(2) with every value that the recipe gives
 /// and the structure contradicts, and every one that is out of its key's range. The total porosity
 /// is that of the structure unless the recipe gives one: then the film is packed to that.
@@ -51,7 +59,8 @@ Recipe adopt(const Recipe &recipe, const ExistingStructure &structure);
 /// The recipe and, if it names one, its structure: everything that `calendem pack` reads.
 struct PackInput {
   Recipe recipe;
-  ExistingStructure structure; ///< empty without [structure]
+  ExistingStructure structure;              ///< empty without [structure] and shapes.places
+  std::shared_ptr<const FilmOfImage> image; ///< that the structure comes from
 };
 PackInput read_input(const Recipe &recipe);
 

@@ -111,35 +111,37 @@ private:
   }
 };
 
-std::vector<Vector3d> draw_seeds(const Samples &samples, int count, Random &random) {
-  std::vector<size_t> left(samples.points.size());
+std::vector<Vector3d> draw_seeds(const std::vector<Vector3d> &points, int count, Random &random) {
+  std::vector<size_t> left(points.size());
   for (size_t k = 0; k < left.size(); ++k)
     left[k] = k;
   std::vector<Vector3d> seeds;
   for (int k = 0; k < count; ++k) {
     const size_t drawn = k + size_t(random.uniform() * double(left.size() - k));
     std::swap(left[k], left[drawn]);
-    seeds.push_back(samples.points[left[k]]);
+    seeds.push_back(points[left[k]]);
   }
   return seeds;
 }
 
-/// The cell that each sample belongs to.
-std::vector<int> cells_of(const Samples &samples, const std::vector<Vector3d> &centres) {
-  const Nearest nearest(centres, kSamplesAlong * samples.spacing);
+/// The cell that each point belongs to; `width` is that of a cell.
+std::vector<int> cells_of(const std::vector<Vector3d> &points, double width,
+                          const std::vector<Vector3d> &centres) {
+  const Nearest nearest(centres, width);
   std::vector<int> cells;
-  cells.reserve(samples.points.size());
-  for (const Vector3d &p : samples.points)
+  cells.reserve(points.size());
+  for (const Vector3d &p : points)
     cells.push_back(nearest.of(p));
   return cells;
 }
 
-void move_to_centroids(const Samples &samples, std::vector<Vector3d> &centres) {
-  const std::vector<int> cells = cells_of(samples, centres);
+void move_to_centroids(const std::vector<Vector3d> &points, double width,
+                       std::vector<Vector3d> &centres) {
+  const std::vector<int> cells = cells_of(points, width, centres);
   std::vector<Vector3d> sum(centres.size(), Vector3d::Zero());
   std::vector<int> number(centres.size(), 0);
   for (size_t k = 0; k < cells.size(); ++k) {
-    sum[cells[k]] += samples.points[k];
+    sum[cells[k]] += points[k];
     ++number[cells[k]];
   }
   for (size_t c = 0; c < centres.size(); ++c)
@@ -149,7 +151,7 @@ void move_to_centroids(const Samples &samples, std::vector<Vector3d> &centres) {
 
 /// Area of all facets. A staircase of samples has 3/2 times the area of a surface at random turns.
 double area_of_facets(const Samples &samples, const std::vector<Vector3d> &centres) {
-  const std::vector<int> cells = cells_of(samples, centres);
+  const std::vector<int> cells = cells_of(samples.points, kSamplesAlong * samples.spacing, centres);
   const auto key = [](const Site &s) {
     return (long(s[0]) * 4096 + s[1]) * 4096 + s[2]; // sites are within 2000 of 0
   };
@@ -194,14 +196,21 @@ std::vector<Vector3d> grow(std::vector<Vector3d> left, double bond) {
 
 } // namespace
 
+std::vector<Vector3d> spread_centres(const std::vector<Vector3d> &points, int count, double width,
+                                     Random &random) {
+  std::vector<Vector3d> centres = draw_seeds(points, count, random);
+  for (int k = 0; k < kIterations; ++k)
+    move_to_centroids(points, width, centres);
+  return centres;
+}
+
 Grains make_grains(const Hull &hull, int count, double volume, double farthest, double bond,
                    Random &random) {
   const Samples samples = sample(hull, count, volume, farthest, random);
   if (samples.points.empty())
     return {};
-  std::vector<Vector3d> centres = draw_seeds(samples, count, random);
-  for (int k = 0; k < kIterations; ++k)
-    move_to_centroids(samples, centres);
+  const std::vector<Vector3d> centres =
+      spread_centres(samples.points, count, kSamplesAlong * samples.spacing, random);
   const std::vector<Vector3d> grown = grow(centres, bond);
   if (int(grown.size()) < count)
     return {};

@@ -25,6 +25,11 @@ struct Grains {
 Grains make_grains(const Hull &hull, int count, double volume, double farthest, double bond,
                    Random &random);
 
+/// Centres of a centroidal Voronoi tessellation of the points, which lie about evenly: `width` is
+/// that of a cell [um]. As many as there are points at most.
+std::vector<Eigen::Vector3d> spread_centres(const std::vector<Eigen::Vector3d> &points, int count,
+                                            double width, Random &random);
+
 } // namespace calendem
 
 #endif

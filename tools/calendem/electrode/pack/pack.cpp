@@ -7,6 +7,7 @@
 #include "base/provenance.h"
 #include "base/run_folder.h"
 #include "electrode/pack/electrode_files.h"
+#include "electrode/pack/from_image.h"
 #include "electrode/pack/measured_bodies.h"
 #include "physics/pi.h"
 #include <chrono>
@@ -36,6 +37,18 @@ void show_progress(const PackOptions &o, const Recipe &r, bool terminal, std::st
   shown = text;
 }
 
+// A film in its places comes down by 0.1 um only. Bodies that overlap leave each other without flying:
+// speeds decay within 50 steps.
+std::vector<std::pair<std::string, std::string>> variables_in_place(const Recipe &r) {
+  constexpr double kDecay = 0.02; // us, 50 steps of in.pack
+  const auto mass = [](double d, double density) { return density * kPi / 6.0 * d * d * d; };
+  const double primary = mass(r.primary_diameter, primary_density(r)),
+               cbd = mass(r.cbd_diameter, cbd_density(r));
+  return {{"collapse_um_us", "6"},
+          {"drag", fmt::format("{:.6g}", primary / kDecay)},
+          {"drag_cbd", fmt::format("{:.6g}", cbd / primary)}};
+}
+
 void densify(const PackOptions &o, const Recipe &r) {
   const FinalMaterial m(r.material);
   LiggghtsJob job;
@@ -52,6 +65,9 @@ void densify(const PackOptions &o, const Recipe &r) {
                    {"nu_cbd", fmt::format("{}", m.nu_cbd)},
                    {"ced_am_J_m3", fmt::format("{}", m.ced_am_J_m3)},
                    {"ced_cbd_J_m3", fmt::format("{}", m.ced_cbd_J_m3)}};
+  if (r.structure.of_image)
+    for (const auto &variable : variables_in_place(r))
+      job.variables.push_back(variable);
   const bool terminal = isatty(1);
   std::string shown;
   auto last = std::chrono::steady_clock::now();
@@ -254,16 +270,19 @@ BodiesOfStructure bodies_with(const PackInput &in, const ShapeLibrary *library) 
     return {library ? make_bodies(r, *library) : make_bodies(r), {}, {}};
   if (r.structure.clusters)
     return bodies_of_clusters(r, in.structure);
-  return bodies_of_spheres(r, in.structure, [&](int count, Random &random) {
-    return library ? make_body(r, *library, count, random) : make_body(r, count, random);
-  });
+  return bodies_of_spheres(r, in.structure,
+                           [&](const ExistingSphere &sphere, int count, Random &random) {
+                             return in.image  ? make_body(r, *in.image, sphere, count, random)
+                                    : library ? make_body(r, *library, count, random)
+                                              : make_body(r, count, random);
+                           });
 }
 
 // Bodies and, with measured shapes, what electrode.json says of them.
 BodiesToPack make_all_bodies(const PackInput &in, const std::string &folder) {
   const Recipe &r = in.recipe;
   BodiesToPack out;
-  if (!r.shapes.given()) {
+  if (!r.shapes.given() || in.image) {
     out.made = bodies_with(in, nullptr);
     return out;
   }
@@ -285,7 +304,8 @@ BodiesToPack make_bodies_to_pack(const PackInput &in, const std::string &folder)
   const Recipe &r = in.recipe;
   BodiesToPack out = make_all_bodies(in, folder);
   if (r.structure.given()) {
-    out.placed = place_as_in_structure(r, in.structure, out.made);
+    out.placed = in.image ? place_in_place(r, in.structure, out.made)
+                          : place_as_in_structure(r, in.structure, out.made);
     write_file(folder + "/structure.csv", structure_table(in.structure, out.made));
   } else
     out.placed.loose = place(r, out.made.bodies);
@@ -320,6 +340,8 @@ void add_origin(nlohmann::json &electrode, const PackInput &in, const BodiesToPa
     return;
   for (const char *key : {kLargestAllowed, kCutOff}) // a structure comes through whole
     electrode.erase(key);
+  if (in.image)
+    electrode["image"] = describe_image(r, *in.image, start.placed.loose.particles);
   electrode["structure"] = describe_structure(r, in.structure, start.made, start.placed, poses,
                                               start.placed.loose.particles);
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "electrode/pack/from_image.h"
 #include "electrode/pack/from_structure.h"
 #include "electrode/pack/packing_state.h"
 #include "physics/pi.h"
@@ -212,9 +213,13 @@ Recipe adopt(const Recipe &recipe, const ExistingStructure &g) {
 
 PackInput read_input(const Recipe &recipe) {
   if (!recipe.structure.given())
-    return {recipe, {}};
+    return {recipe, {}, nullptr};
   PackInput in;
-  in.structure = read_structure(recipe.structure);
+  if (recipe.structure.of_image) {
+    in.image = std::make_shared<FilmOfImage>(read_film_of_image(recipe));
+    in.structure = in.image->structure;
+  } else
+    in.structure = read_structure(recipe.structure);
   in.recipe = adopt(recipe, in.structure);
   return in;
 }

@@ -138,7 +138,7 @@ ExistingStructure read_structure(const StructureSource &s) {
 }
 
 std::string hash_of_structure(const StructureSource &s) {
-  if (!s.given())
+  if (s.file.empty())
     return "";
   return hash_of_text(hash_of_file(s.file) + (s.body_map.empty() ? "" : hash_of_file(s.body_map)));
 }

@@ -62,7 +62,7 @@ struct MeasuredShape {
   double cell = 0.0;                 ///< side of a cell [um]
   std::vector<char> inside;          ///< x runs fastest
   std::vector<float> depth; ///< signed distance to the surface, < 0 inside, at cell centres [um]
-  Eigen::Vector3d centre;   ///< of mass [um] from the corner of the box
+  Eigen::Vector3d centre;   ///< of mass [um] from the corner of the box of cells
   double reach = 0.0;       ///< farthest cell's corner from the centre [um]
 
   /// Signed distance [um] at x [um] from the centre; beyond the box it grows with the distance.
