@@ -109,7 +109,7 @@ ShapeSource read_shapes(const Settings &settings, const std::string &file, Mista
 ReferenceMaterial take_material(Settings &settings, const std::string &file,
                                 const std::vector<Key> &keys, Mistakes &mistakes);
 
-/// Of shapes.places = "image": the film comes from the image as from a structure.
+/// With shapes.places = "image" the film comes from the image as from a structure.
 void take_places_of_image(const Settings &settings, Recipe &recipe, Mistakes &mistakes);
 
 /// The recipe's numbers, without shapes, structure and material; what they contradict.

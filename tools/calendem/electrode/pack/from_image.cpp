@@ -174,7 +174,7 @@ private:
     return film_.phases.index(within(i, x_), within(j, y_), k);
   }
 
-  // Those inside, and of the others, one by one, the one that finds most of its place free, until all
+  // The ones inside, and of the others, one by one, the one that finds most of its place free, until all
   // have `voxels`, as nearly as whole ones can.
   std::vector<Candidate> choose(std::vector<Candidate> all, double voxels) const {
     std::vector<char> taken(film_.phases.label.size(), 0);

@@ -15,7 +15,7 @@ constexpr int kMostRounds = 400;
 // Over a primary's radius. Less overlap is left to LIGGGHTS, where bodies turn too: without a turn a dense
 // film has no place near by at which all would be free.
 constexpr double kLeft = 0.4;
-constexpr double kAlmost = 0.02;   // to that
+constexpr double kAlmost = 0.02;  // to that
 constexpr double kMostMove = 0.2; // in a round
 
 /// A body or a CBD sphere, moved as a whole.
@@ -33,7 +33,7 @@ struct Ball {
   Vector3d x = Vector3d::Zero(); ///< in the cell
 };
 
-/// Of two balls, or of two units.
+/// Two balls, or two units, that overlap.
 struct Overlap {
   int a, b;
   double depth;
