@@ -105,7 +105,7 @@ offs = sorted(abs(r["after"] - r["measured"]) for r in readings)
 packings = [len({r["seed"] for r in runs if r["film"] == film}) for film in films if any(r["film"] == film for r in runs)]
 lines += ["", f'Median error {statistics.median(offs):.1f} points; {sum(abs(r["z"]) <= 2 for r in readings)} of {len(readings)} porosities within two standard deviations. '
           f'Packings of each film: {", ".join(map(str, packings))}.', ""]
-(here / "films_pressed.md").write_text("\n".join(lines))
+print("\n".join(lines))
 
 width, height, left, right, top, bottom, least, most = 560, 480, 56, 12, 16, 48, 10, 45
 x = lambda porosity: left + (width - left - right) * (porosity - least) / (most - least)
@@ -120,9 +120,9 @@ for at in range(least, most + 1, 5):
 svg.append(f'<path d="M{x(least)} {y(least)}L{x(most)} {y(most)}" stroke="#888"/>'
            f'<text x="{(left + width) / 2}" y="{height - 8}" text-anchor="middle">Porosity after release, measured (%)</text>'
            f'<text transform="translate(16 {(top + height - bottom) / 2}) rotate(-90)" text-anchor="middle">Simulated (%)</text>')
-for n, film in enumerate(shown):
-    svg.append(f'<circle cx="{left + 16}" cy="{top + 16 + 18 * n}" r="5" fill="{colours[n]}"/>'
-               f'<text x="{left + 28}" y="{top + 20 + 18 * n}">{html.escape(film)}</text>')
+for row, n in enumerate(sorted({r["film"] for r in readings})):
+    svg.append(f'<circle cx="{left + 16}" cy="{top + 16 + 18 * row}" r="5" fill="{colours[n]}"/>'
+               f'<text x="{left + 28}" y="{top + 20 + 18 * row}">{html.escape(shown[n])}</text>')
 for n in range(len(shown)):
     points = " ".join(f'{x(r["measured"]):.1f},{y(r["after"]):.1f}' for r in readings if r["film"] == n)
     svg.append(f'<polyline points="{points}" fill="none" stroke="{colours[n]}" stroke-dasharray="4 4"/>')

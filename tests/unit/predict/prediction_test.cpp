@@ -92,6 +92,15 @@ TEST(GivenData, IsTheEmulatorAndWhatTheModelMisses) {
   EXPECT_LT(missed[1].mean, missed[0].mean); // a factor 3.75 of pressure away
 }
 
+TEST(OwnRuns, ADrawThatCannotBeRunMakesWayForTheNext) {
+  const auto odd = [](std::size_t k) { return k % 2 == 1; };
+  EXPECT_EQ(spread_draws(8, 2, odd), (std::vector<std::size_t>{3, 7}));
+  EXPECT_EQ(spread_draws(8, 2, [](std::size_t k) { return k == 0; }),
+            (std::vector<std::size_t>{0, 0}));
+  EXPECT_EQ(spread_draws(8, 2, [](std::size_t) { return false; }),
+            (std::vector<std::size_t>{2, 6}));
+}
+
 TEST(OwnRuns, EveryDrawHasItsMaterialItsPackingAndThePressures) {
   Calibration c = exact();
   c.draws.clear();
@@ -100,16 +109,16 @@ TEST(OwnRuns, EveryDrawHasItsMaterialItsPackingAndThePressures) {
         {{{{150.0 + k, 2.0, 400.0},
            k < 50 ? std::vector<ActiveEffect>() : std::vector<ActiveEffect>{{0, 0.4}}}},
          {0.001, 0.5}});
-  const std::vector<Draw> draws = some_draws(c, 4);
-  ASSERT_EQ(draws.size(), 4u);
-  EXPECT_EQ(draws[0].materials[0].parameters[0], 162.0);
-  EXPECT_EQ(draws[3].materials[0].parameters[0], 237.0);
   const auto file = calendem_test::test_folder() / "other.toml";
   std::ofstream(file) << "name = \"other\"\n[particles]\nsigma_ln = "
                          "0.3\n[cell]\nx_um = 7\ny_um = 7\n";
   const Recipe recipe = read_recipe(file.string());
   const FilmBank &bank = made_film_bank();
   EXPECT_THROW(bank.film_of(recipe), Failure);
+  const std::vector<Draw> draws = some_draws(bank, c, recipe, 0, 4);
+  ASSERT_EQ(draws.size(), 4u);
+  EXPECT_EQ(draws[0].materials[0].parameters[0], 162.0);
+  EXPECT_EQ(draws[3].materials[0].parameters[0], 237.0);
   EXPECT_EQ(bank.described(recipe).recipe.front(), 47.97);
   const Study study = own_runs(bank, draws, recipe, 0, {10.0, 400.0});
   ASSERT_EQ(study.runs.size(), 8u);

@@ -59,12 +59,14 @@ FittedModel by_runs(const Diagnosis &d, const FilmBank &bank, const FittedModel 
   std::vector<ModelDraw> draws;
   std::vector<Draw> materials;
   const auto &from = model.posterior.draws;
-  for (int k = 0; k < runs; ++k) {
-    draws.push_back(draw_of(d, model, from[std::size_t((k + 0.5) / runs * double(from.size()))]));
+  const int material = d.measured.films[std::size_t(d.film)].material;
+  for (const std::size_t place : spread_draws(from.size(), runs, [&](std::size_t k) {
+         return can_be_run(bank, draw_of(d, model, from[k]).draw, recipe, material);
+       })) {
+    draws.push_back(draw_of(d, model, from[place]));
     materials.push_back(draws.back().draw);
   }
   const std::vector<double> pressures = pressures_of(d);
-  const int material = d.measured.films[std::size_t(d.film)].material;
   const std::vector<std::string> folders =
       make_what_runs(own_runs(bank, materials, recipe, material, pressures), options, "Draws");
   Vector sum = Vector::Zero(Index(d.readings.size())), count = sum;

@@ -41,17 +41,6 @@ OwnRuns usable(const std::vector<Draw> &draws, const std::vector<std::string> &f
 /// Keys of the case and their values: how a film is pressed.
 using Pressing = std::vector<std::pair<std::string, std::string>>;
 
-} // namespace
-
-std::vector<Draw> some_draws(const Calibration &c, int runs) {
-  std::vector<Draw> out;
-  for (int k = 0; k < runs; ++k)
-    out.push_back(c.draws[std::size_t((k + 0.5) / runs * double(c.draws.size()))]);
-  return out;
-}
-
-namespace {
-
 /// A calibration holds for the particles that it was made with.
 void stop_if_other_grains(const FilmBank &bank, const Recipe &recipe) {
   const std::string grains = recipe.settings.text("particles.grains"),
@@ -129,6 +118,38 @@ std::string number(double value) { return fmt::format("{:g}", value); }
 
 } // namespace
 
+bool can_be_run(const FilmBank &bank, const Draw &draw, const Recipe &recipe, int material) {
+  try {
+    study_of(bank, {draw}, recipe, material, {{}});
+    return true;
+  } catch (const Failure &) {
+    return false;
+  }
+}
+
+std::vector<std::size_t> spread_draws(std::size_t count, int runs,
+                                      const std::function<bool(std::size_t)> &can_be_run) {
+  std::vector<std::size_t> out;
+  for (int k = 0; k < runs; ++k) {
+    const auto first = std::size_t((k + 0.5) / runs * double(count));
+    std::size_t on = 0;
+    while (on < count && !can_be_run((first + on) % count))
+      ++on;
+    out.push_back((first + on) % count);
+  }
+  return out;
+}
+
+std::vector<Draw> some_draws(const FilmBank &bank, const Calibration &c, const Recipe &recipe,
+                             int material, int runs) {
+  std::vector<Draw> out;
+  for (const std::size_t place : spread_draws(c.draws.size(), runs, [&](std::size_t d) {
+         return can_be_run(bank, c.draws[d], recipe, material);
+       }))
+    out.push_back(c.draws[place]);
+  return out;
+}
+
 Study own_runs(const FilmBank &bank, const std::vector<Draw> &draws, const Recipe &recipe,
                int material, const std::vector<double> &pressures) {
   std::vector<Pressing> pressings;
@@ -202,7 +223,7 @@ OwnRuns made(const Study &study, const std::vector<Draw> &draws, const StudyOpti
 ByRuns by_runs(const FilmBank &bank, const Calibration &c, const Recipe &recipe, int material,
                const std::vector<double> &pressures, double pressure_sd, int runs,
                const StudyOptions &options) {
-  const std::vector<Draw> draws = some_draws(c, runs);
+  const std::vector<Draw> draws = some_draws(bank, c, recipe, material, runs);
   const OwnRuns own = made(own_runs(bank, draws, recipe, material, pressures), draws, options);
   Film film = bank.described(recipe);
   film.material = material;
@@ -317,7 +338,7 @@ GapDraws runs_at_gaps(const FilmBank &bank, const Calibration &c, const Recipe &
   Film film = bank.described(recipe);
   film.material = material;
   const GapDraws at = gaps_of(bank, film, gaps);
-  const std::vector<Draw> draws = some_draws(c, runs);
+  const std::vector<Draw> draws = some_draws(bank, c, recipe, material, runs);
   const OwnRuns own =
       made(own_runs_at_gaps(bank, draws, recipe, material, gaps, passes), draws, options);
   return from_runs_at_gaps(bank, c, at, own.draws, own.runs);
@@ -372,7 +393,7 @@ std::vector<Confirmed> confirmed_by_runs(const FilmBank &bank, const Calibration
   if (data.empty())
     return out;
   const Film &of = c.films[std::size_t(film)];
-  const std::vector<Draw> draws = some_draws(c, runs);
+  const std::vector<Draw> draws = some_draws(bank, c, recipe, of.material, runs);
   const OwnRuns own = made(own_runs(bank, draws, recipe, of.material, pressures), draws, options);
   for (const Datum *d : data)
     out.push_back(

@@ -6,13 +6,23 @@
 
 #include "predict/by_gap.h"
 #include "simulate/study.h"
+#include <functional>
 
 namespace calendem {
 
 constexpr int kFewestOwnRuns = 4; // of a band
 
-/// `runs` draws at equal distances among the calibration's.
-std::vector<Draw> some_draws(const Calibration &calibration, int runs);
+/// The recipe may be pressed with a draw's material: the case that follows is not refused.
+bool can_be_run(const FilmBank &bank, const Draw &draw, const Recipe &recipe, int material);
+
+/// Places of `runs` of `count` draws at equal distances; one that cannot be run makes way for the next
+/// that can. If none can, it stays and its runs are refused.
+std::vector<std::size_t> spread_draws(std::size_t count, int runs,
+                                      const std::function<bool(std::size_t)> &can_be_run);
+
+/// `runs` draws of the calibration, so chosen.
+std::vector<Draw> some_draws(const FilmBank &bank, const Calibration &calibration,
+                             const Recipe &recipe, int material, int runs);
 
 /// The runs: for each draw one to each pressure. Any electrode of `material`, a place in
 /// Draw::materials; the bank's case.
