@@ -59,8 +59,9 @@ public:
     std::string
         command = // no `-screen none`: the host's meshes write to a screen that is not there
         "cd '" + folder_.string() + "' && " + start + "'" + (other ? other : CALENDEM_PROGRAM) +
-        "' -screen /dev/null -in '" CALENDEM_CASES "/" + script +
-        "' -var cases '" CALENDEM_CASES "'";
+        "' -screen /dev/null -in '" CALENDEM_CASES "/" + script + "'";
+    if (script.find("input_scripts/") == std::string::npos) // these know their variables
+      command += " -var cases '" CALENDEM_CASES "'";
     for (const auto &s : settings)
       command += " -var " + s.first + " " + s.second;
     status_ = std::system((command + " > output.txt 2>&1").c_str());
