@@ -13,7 +13,7 @@ cd "$core"
 # The readers, and of the library electrode all that two of them are linked with.
 sources=(base/*.cpp electrode/*.cpp electrode/*/*.cpp simulate/study_file.cpp bank/{bank_file,design,runs}.cpp
   inference/{numerics,quantities}.cpp)
-image_sources=(electrode/structure/{data_rows,image_header,label_image,numpy_image,png_image,tiff_image,tiff_output,vti_header}.cpp
+image_sources=(electrode/structure/{data_rows,image_header,label_image,numpy_image,png_image,tiff_image,vti_header}.cpp
   base/{image_series,messages,provenance}.cpp)
 for source in "${sources[@]}" "${image_sources[@]}"; do # said by every run of the tests, not only by --all
   [ -f "$source" ] || { echo "FAILED: $core/$source, which is to be built here, is not there" >&2; exit 1; }
