@@ -9,45 +9,12 @@ namespace calendem {
 namespace {
 
 using Eigen::Index;
-using inference::Change;
 using inference::Cholesky;
 using inference::Matrix;
 using inference::Vector;
 
 constexpr double kParallel = 0.85, kBeyond = 3.0, kStrongBic = 6.0, kChance = 0.05;
 constexpr int kDraws = 512;
-
-/// A change and the effects that act with it.
-struct Candidate {
-  int change = -1; ///< place in Changes::all; -1: the model as it is
-  std::vector<int> acting;
-};
-
-std::vector<Candidate> candidates_of(const Diagnosis &d) {
-  const std::vector<int> model = inference::effects_of_model(d.of.problem);
-  std::vector<Candidate> out = {{-1, model}};
-  for (int k = 0; k < int(d.changes.all.size()); ++k) {
-    const Change &c = d.changes.all[std::size_t(k)];
-    if (c.effect < 0)
-      continue;
-    out.push_back({k, model});
-    std::vector<int> &acting = out.back().acting;
-    if (c.kind == Change::absent)
-      acting.erase(std::find(acting.begin(), acting.end(), c.effect));
-    else
-      acting.push_back(c.effect);
-    std::sort(acting.begin(), acting.end());
-  }
-  return out;
-}
-
-/// Predictions of the film under several scores of the parameters and of the amplitudes that act.
-inference::FilmPredictions predicted_with(const Diagnosis &d, const Candidate &c,
-                                          const Matrix &scores, const Matrix &amplitudes) {
-  return d.of.problem.predict(
-      d.film, scores,
-      inference::with_others_off(amplitudes, c.acting, d.of.problem.effects.size()));
-}
 
 Answer by_cosine(const Diagnosis &d, const std::vector<Candidate> &all) {
   Answer out{"cosine", {}, true};
@@ -56,22 +23,13 @@ Answer by_cosine(const Diagnosis &d, const std::vector<Candidate> &all) {
   const Vector residual = errors.matrixL().solve(Vector(d.model.residual.segment(at, n)));
   if (inference::chance_beyond(residual.squaredNorm(), int(n), inference::kNormal) > kChance)
     return out;
-  Vector scores = Vector::Zero(d.of.problem.parameters);
-  for (const inference::Draw &draw : d.model.posterior.draws)
-    scores += draw.weight * draw.scores.col(0);
-  const auto mean = [&](const Candidate &c) {
-    return Vector(predicted_with(d, c, scores, Matrix::Zero(Index(c.acting.size()), 1)).mean);
-  };
-  const Vector model = mean(all.front());
+  const Matrix changes = errors.matrixL().solve(mean_changes(d, all));
   double best = kParallel;
-  for (const Candidate &c : all) {
-    if (c.change < 0)
-      continue;
-    const Vector change = errors.matrixL().solve(Vector(mean(c) - model));
-    const double cosine = residual.dot(change) / (residual.norm() * change.norm());
+  for (Index k = 0; k < changes.cols(); ++k) {
+    const double cosine = residual.dot(changes.col(k)) / (residual.norm() * changes.col(k).norm());
     if (cosine >= best) {
       best = cosine;
-      out.named = {name_of(d, c.change)};
+      out.named = {name_of(d, all[std::size_t(k) + 1].change)};
     }
   }
   return out;
@@ -158,9 +116,9 @@ std::vector<Answer> by_likelihood(const Diagnosis &d, const std::vector<Candidat
 
 std::vector<Answer> baseline_answers(const Diagnosis &d) {
   const std::vector<Candidate> all = candidates_of(d);
-  std::vector<Answer> out = {by_cosine(d, all), by_history(d, all)};
-  for (const Answer &a : by_likelihood(d, all))
-    out.push_back(a);
+  std::vector<Answer> out = {by_cosine(d, all), by_history(d, all), by_robust_likelihood(d, all)};
+  for (const auto &several : {by_likelihood(d, all), by_augmentations(d, all)})
+    out.insert(out.end(), several.begin(), several.end());
   return out;
 }
 

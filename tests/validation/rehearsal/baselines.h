@@ -3,7 +3,7 @@
 #ifndef CALENDEM_TESTS_REHEARSAL_BASELINES_H
 #define CALENDEM_TESTS_REHEARSAL_BASELINES_H
 
-#include "diagnose/diagnosis.h"
+#include "candidates.h"
 
 namespace calendem {
 
@@ -21,8 +21,22 @@ struct Answer {
 ///   by more than three standard deviations, where none of the model alone does;
 /// * BIC (Schwarz 1978): the change with the least, if it is 6 below the model's (Kass and Raftery 1995);
 /// * likelihood ratio: the change with the largest, if its p-value times the number of changes is below
-///   5 %; the one fixed test among the trials-corrected ones of Anau Montel et al. 2024.
+///   5 %;
+/// * the two below.
 std::vector<Answer> baseline_answers(const Diagnosis &d);
+
+/// Robust Bayesian synthetic likelihood with adjusted means (Frazier and Drovandi 2021): a normal likelihood
+/// in which every observable (of a curve, all of it) is off by a multiple of its standard deviation that has a
+/// Laplace prior of scale 1, as in the R package BSL. A change is named if its probability among the
+/// model and all single changes and its Bayes factor reach what a diagnosis demands (kCertain, kStrong).
+Answer by_robust_likelihood(const Diagnosis &d, const std::vector<Candidate> &all);
+
+/// A base simulator against many augmented ones (Anau Montel, Alvey and Weniger 2025): matched filters of
+/// each change, of middling shape and free size, and of a deviation of each observable ("unknown"), on what
+/// the recalibrated model leaves. The most significant one is named if its p-value, corrected for all
+/// by 2000 worlds in which the model is true, is below 5 %. The second answer is that of the sum of all
+/// statistics: that something is off, but not what. It is never sure.
+std::vector<Answer> by_augmentations(const Diagnosis &d, const std::vector<Candidate> &all);
 
 } // namespace calendem
 

@@ -28,15 +28,6 @@ Matrix without_absorbed(const Matrix &errors, const Matrix &absorbed) {
   return of * left.asDiagonal() * of.transpose();
 }
 
-/// Columns of noise with this covariance.
-Matrix noise_of(const Matrix &covariance) {
-  Random random(kNoiseStream, 1);
-  Matrix out(covariance.rows(), kWorlds);
-  for (double &v : out.reshaped())
-    v = random.normal();
-  return Cholesky(covariance).matrixL() * out;
-}
-
 double quantile_95(std::vector<double> values) {
   const auto at = values.begin() + std::ptrdiff_t(0.95 * double(values.size()));
   std::nth_element(values.begin(), at, values.end());
@@ -75,6 +66,14 @@ double gap_of(const Vector &residual, const Vector &sd, const std::vector<Block>
 }
 
 } // namespace
+
+Matrix noise_of(const Matrix &covariance) {
+  Random random(kNoiseStream, 1);
+  Matrix out(covariance.rows(), kWorlds);
+  for (double &v : out.reshaped())
+    v = random.normal();
+  return Cholesky(covariance).matrixL() * out;
+}
 
 Matrix with_others_off(const Matrix &amplitudes, const std::vector<int> &acting,
                        std::size_t effects) {

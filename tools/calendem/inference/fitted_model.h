@@ -33,6 +33,9 @@ struct FittedModel {
 FittedModel fit_model(const PosteriorProblem &problem, const std::vector<int> &acting, int film,
                       const SamplerSettings &settings);
 
+/// 2000 columns of noise with this covariance, the same each time.
+Matrix noise_of(const Matrix &covariance);
+
 /// What is left of a block of data.
 struct BlockResidual {
   int block = 0;
