@@ -92,7 +92,8 @@ inline Files film(double inset = 0.0) {
   const double held = kCbd + kAm + kGap - inset;
   int n = 0, body = 0;
   for (int site = 0; site < 16; ++site) {
-    const double x = 4.0 * (site % 4), y = 4.0 * (site / 4), z = low + held;
+    const int column = site % 4, row = site / 4;
+    const double x = 4.0 * column, y = 4.0 * row, z = low + held;
     ++body;
     for (Sphere s : {Sphere{2, {x + half, y, low}},
                      {2, {x - half, y, low}},

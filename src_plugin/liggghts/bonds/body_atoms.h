@@ -19,7 +19,6 @@ public:
   int body(int i) const { return body_[i]; }
   int broken(int i) const { return broken_[i]; }
   const int *bodies() const { return body_; }
-  const int *all_broken() const { return broken_; }
   bool in_one(int i, int j) const { return body_[i] > 0 && body_[i] == body_[j]; }
   void set_body(int i, int body) { body_[i] = body; }
   void count_break(int i) { ++broken_[i]; }

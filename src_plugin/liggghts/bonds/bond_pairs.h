@@ -51,6 +51,10 @@ public:
     return i < nlocal ? atom->tag[i] < atom->tag[j] : atom->tag[j] < atom->tag[i];
   }
 
+  /// From one centre to the other.
+  double distance(int i, int j) const {
+    return norm(calendem::load(atom->x[i]) - calendem::load(atom->x[j]));
+  }
   /// The pair's bond where its spheres stand now.
   calendem::BondPair bond_of(const calendem::BondMaterial &material, int i, int j,
                              const BondHistory &bond) const {
@@ -112,7 +116,7 @@ template <class Visit> void BondPairs::for_each_acting_copy(Visit visit) const {
 template <class Visit> void BondPairs::for_each_touching_copy(Visit visit) const {
   store_histories();
   for_each_neighbor([&](int i, int j, const BondHistory &bond) {
-    const double r = norm(calendem::load(atom->x[i]) - calendem::load(atom->x[j]));
+    const double r = distance(i, j);
     if (r < atom->radius[i] + atom->radius[j])
       visit(i, j, r, bond);
   });

@@ -165,7 +165,9 @@ void FixBondBpm::pre_force(int) {
   const bool others = settings_.contact_diameter < 1.0 || settings_.surface_inset > 0.0;
   if (!others || neighbor->ago != 0)
     return;
-  insets_.find(settings_, pairs_, atoms_.bodies(), atoms_.all_broken());
+  insets_.find(settings_, pairs_, atoms_.bodies(), [this](int i, int j, const BondHistory &bond) {
+    return bond.state() == kIntact || (creating_ && are_to_bond(i, j, pairs_.distance(i, j), bond));
+  });
   comm->forward_comm_fix(this);
   pairs_.for_each_neighbor([this](int i, int j, BondHistory &bond) {
     if (!bond.has_reference())
@@ -188,9 +190,13 @@ double FixBondBpm::meeting_distance(int i, int j) const {
   return insets_.meeting_distance(settings_, atoms_.in_one(i, j), i, j);
 }
 
-void FixBondBpm::make_bond(int i, int j, double r, BondHistory &bond) const {
+bool FixBondBpm::are_to_bond(int i, int j, double r, const BondHistory &bond) const {
   const double farthest = settings_.reach * (atom->radius[i] + atom->radius[j]);
-  if (bond.state() != kNeverBonded || !atoms_.in_one(i, j) || r >= farthest)
+  return bond.state() == kNeverBonded && atoms_.in_one(i, j) && r < farthest;
+}
+
+void FixBondBpm::make_bond(int i, int j, double r, BondHistory &bond) const {
+  if (!are_to_bond(i, j, r, bond))
     return;
   const int body = atoms_.body(i);
   bond.create(r,

@@ -152,6 +152,7 @@ private:
   int overflowed_ = 0;          // tag of an atom whose forces are beyond the units of their sum
   double largest_radius_ = 0.0; // from which these units follow [um]
 
+  bool are_to_bond(int i, int j, double r, const BondHistory &bond) const;
   void refuse_styles();
   void check_bridges();
   void check_radii();

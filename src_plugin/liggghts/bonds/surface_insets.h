@@ -2,8 +2,8 @@
 // At which distance two spheres that no bond joins meet:
 //   both of one body    D (R_i + R_j), D `contact_diameter`; never shifted by an inset
 //   all others          R_i + R_j - s_i - s_j
-//   s of a primary      S (1 - F b), S `surface_inset`, F `inset_fading`, b the part of its bonds
-//                       that is broken; 0 of a sphere of no body
+//   s of a primary      physics/surface_inset.h, S `surface_inset`, F `inset_fading`; 0 of a sphere
+//                       of no body
 // Surfaces that come out again as bonds break do so up to each other: a contact never begins with a
 // force. Not for walls.
 #ifndef CALENDEM_SURFACE_INSETS_H
@@ -20,10 +20,19 @@ class SurfaceInsets : protected Pointers {
 public:
   explicit SurfaceInsets(class LAMMPS *lmp) : Pointers(lmp) {}
 
-  /// s of this rank's atoms [um]; `body` and `broken` by atom. To be called when neighbours are
-  /// listed; ghosts then get theirs by set().
+  /// s of this rank's atoms [um]; `body` by atom; `are_bonded(i, j, history)` of a pair. To be
+  /// called when neighbours are listed; ghosts then get theirs by set().
+  template <class AreBonded>
   void find(const BondSettings &settings, const BondPairs &pairs, const int *body,
-            const int *broken);
+            const AreBonded &are_bonded) {
+    begin_count();
+    if (settings.inset_fading > 0.0)
+      pairs.for_each_neighbor([&](int i, int j, const BondHistory &bond) {
+        if (are_bonded(i, j, bond))
+          count(i, j);
+      });
+    end_count(settings, body);
+  }
   double of(int i) const { return inset_.empty() ? 0.0 : inset_[i]; }
   void set(int i, double inset);
 
@@ -38,7 +47,11 @@ public:
   double not_into_contact(int i, int j, double before, double length) const;
 
 private:
-  std::vector<double> inset_; // of spheres and ghosts [um]
+  void begin_count();
+  void count(int i, int j);
+  void end_count(const BondSettings &settings, const int *body);
+
+  std::vector<double> inset_; // of spheres and ghosts [um]; while it counts, bonds
 };
 
 } // namespace LAMMPS_NS

@@ -62,6 +62,21 @@ awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
   { if (NR == 2) { pressure = $at["pressure_MPa_median"]; left = $at["porosity_after_percent_median"] } }
   END { exit !(NR == 3 && $at["pressure_MPa_median"] < pressure && $at["porosity_after_percent_median"] > left) }' \
   gap/gap.csv || fail "gap.csv: $(cat gap/gap.csv)"
+# A film of given particles has their porosity, not that of the recipe's defaults.
+cat >given.toml <<END
+name = "given"
+[structure]
+file = "$cases/structure/dried.data"
+units = "micro"
+am_types = "1 2 3"
+cbd_types = "4"
+END
+calendem predict model/model.json given.toml --pressure 80 -o given >given.log || { cat given.log; fail "predict given.toml"; }
+porosity=$(awk 'NF > 7 && $1 + 0 > 0 { d = $3; v = 3.14159265 / 6 * d^3; solid += v * $4 / ($2 == 4 ? 1.83 : 4.65)
+  if (!low || $7 - d / 2 < low) low = $7 - d / 2; if ($7 + d / 2 > high) high = $7 + d / 2 }
+  END { print 100 * (1 - solid / 144 / (high - low)) }' "$cases/structure/dried.data")
+awk -F, -v right="$porosity" 'NR == 2 { exit !(($2 - right)^2 < 1e-6) }' given/prediction.csv ||
+  fail "the given film has $porosity % of pores: $(cut -d, -f1,2 given/prediction.csv)"
 for page in model/model.html prediction/prediction.html design/design.html gap/gap.html; do
   sed '/<script type="application.json" id="data">/,$d' $page | grep '{{\|https\?:\| src=' >/dev/null && fail "$page is not whole"
 done

@@ -16,10 +16,10 @@ skip() { echo "skipped: $*"; exit 77; }
 # ---- words of the table's commands
 calendem() { "$bin/calendem" "$@"; }
 run() { calendem run "$work/case.toml" -o "$work/run" --ranks 1 "$@"; }
-script() { # WORDS...: in.calendering itself, with these words on its command line
-  "$bin/liggghts" -in "$scripts/in.calendering" -log none -var scripts "$scripts" \
-    -var electrode "${script_electrode:-$electrode}" -var out "$work" "$@"
+script_of() { # FILE WORDS...: one of the scripts itself, with these words on its command line
+  "$bin/liggghts" -in "$scripts/$1" -log none -var scripts "$scripts" -var out "$work" "${@:2}"
 }
+script() { script_of in.calendering -var electrode "${script_electrode:-$electrode}" "$@"; } # WORDS...
 one_line() { awk '{ print } END { exit NR == 1 ? 0 : 99 }'; }
 nothing_at() { [ ! -e "$1" ] || fail "there is a $1"; }
 holds() { grep -qF -- "$2" "$1" || fail "no '$2' in $1"; } # FILE TEXT

@@ -60,8 +60,32 @@ TEST(FindGap, AnotherElectrodeIsReported) {
   EXPECT_FALSE(reported());
   r.recipe["density.am_g_cm3"] = "2.2";
   EXPECT_TRUE(reported());
-  r.recipe["structure.file"] = "film.data"; // its particles are not the recipe's
-  EXPECT_FALSE(reported());
+  r.recipe["particles.median_um"] = "9";
+  r.recipe["structure.file"] = "film.data"; // has a density, too; its sizes are not the recipe's
+  EXPECT_TRUE(reported());
+  EXPECT_EQ(find_gap(paper(), {r}).not_said[0].find("particles.median_um"), std::string::npos);
+}
+
+// Requirement: an electrode cut out of an image is another one, whatever its recipe's numbers are;
+// beside an experiment that names the same image it is none, though numbers of its recipe are not the
+// image's.
+TEST(FindGap, AnImagesParticlesAreAnotherElectrode) {
+  Experiment e = paper();
+  SimulatedRun r = pressed_to(150, 0.28, "a");
+  r.recipe = e.recipe.settings.all();
+  r.recipe["shapes.image"] = "there/film.tif";
+  r.recipe["shapes.places"] = "image";
+  const auto says = [&](const std::string &text) {
+    const std::vector<std::string> texts = find_gap(e, {r}).not_said;
+    return !texts.empty() && texts[0].find(text) != std::string::npos;
+  };
+  EXPECT_TRUE(says("its particles are those of film.tif instead of the recipe's"));
+  e.recipe.settings.set("shapes.image", "film.tif");
+  e.recipe.settings.set("shapes.places", "image");
+  r.recipe["coating.porosity_total_percent"] = "40";
+  EXPECT_FALSE(says("its electrode is not"));
+  r.recipe["shapes.image"] = "other.tif";
+  EXPECT_TRUE(says("its particles are those of other.tif instead of those of film.tif"));
 }
 
 // A film of 40 um of solids and a cell of 10: the thickness counts by what each is made of.

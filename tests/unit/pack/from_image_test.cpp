@@ -3,6 +3,7 @@
 #include "electrode/pack/from_image.h"
 #include "electrode/pack/from_structure.h"
 #include "support.h"
+#include "support/refusal.h"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -54,14 +55,7 @@ Recipe recipe_of_image(const std::string &lines, bool with_cbd = true) {
 }
 
 std::string refusal_of_image(const std::string &lines) {
-  try {
-    read_input(recipe_of_image(lines));
-  } catch (const Failure &e) {
-    EXPECT_EQ(e.exit_status(), kBadInput);
-    return e.what();
-  }
-  ADD_FAILURE() << "nothing was refused";
-  return "";
+  return refusal([&] { read_input(recipe_of_image(lines)); });
 }
 
 struct Made {
@@ -145,14 +139,36 @@ TEST(ImageAsElectrode, CarbonBinderOfTheRecipeGoesIntoThePores) {
       EXPECT_GT((s.x + Eigen::Vector3d(5, 5, 0) - b.at).norm(), 0.6 * b.radius);
 }
 
+// Requirement: an image whose film stands along another axis, or upside down, gives the same film.
+TEST(ImageAsElectrode, AnyAxisMayLeadUpFromTheCollector) {
+  const Recipe recipe = recipe_of_image(kCell + kFine + kShapes + kPhases);
+  const PackInput right = read_input(recipe);
+  const LabelImage image = read_label_image(recipe.shapes.image);
+  // upwards, and what makes such an image of the right one: its inverse turn
+  for (const auto &[upwards, inverse] :
+       {std::pair("x", "y"), std::pair("y", "x"), std::pair("-z", "-z")}) {
+    write_label_image(turned(image, inverse), recipe.shapes.image);
+    Recipe other = recipe;
+    other.shapes.upwards = upwards;
+    const PackInput in = read_input(other);
+    EXPECT_EQ(in.image->phases.label, right.image->phases.label) << upwards;
+    EXPECT_EQ(in.structure.thickness, 12.0) << upwards;
+  }
+  const LabelImage down = turned(image, "-y");
+  EXPECT_EQ(down.n, (std::array{48, 80, 80})); // the image's z, and its x and y backwards
+  EXPECT_EQ(down.at(5, 7, 9), image.at(80 - 1 - 7, 80 - 1 - 9, 5));
+}
+
 TEST(ImageAsElectrode, MistakesAreNamed) {
   const std::vector<std::pair<std::string, std::string>> wrong = {
       {kShapes + kPhases + "[cell]\nx_um = 30\n",
        "from -5 to 25 um along x; the image from 0 to 20"},
       {kCell + kShapes + kPhases + "crop.y_um = 6\n", "from 11 to 21 um along y"},
       {kCell + kShapes + kPhases + "crop.high_um = 15\n", "ends at 12 um"},
+      {kCell + kShapes + kPhases + "upwards = \"-x\"\ncrop.high_um = 21\n", "ends at 20 um"},
       {kCell + kShapes + kPhases + "crop.low_um = 5\ncrop.high_um = 4\n", "above low_um, 5"},
       {"[shapes]\nimage = \"image.mha\"\ncrop.x_um = 1\n", "shapes.places = \"image\""},
+      {"[shapes]\nimage = \"image.mha\"\nupwards = \"x\"\n", "shapes.upwards is of an image that"},
       {"[shapes]\nplaces = \"image\"\n", "shapes.image is missing"},
       {kCell + kShapes + kPhases + "[particles]\nmedian_um = 5\n",
        "no effect beside shapes.places"},
@@ -161,6 +177,14 @@ TEST(ImageAsElectrode, MistakesAreNamed) {
   for (const auto &[lines, part] : wrong)
     EXPECT_NE(refusal_of_image(lines).find(part), std::string::npos) << part << " in\n"
                                                                      << refusal_of_image(lines);
+}
+
+TEST(ImageAsElectrode, ALabelBelowZeroIsNoParticle) {
+  const Recipe recipe = recipe_of_image(kCell + kFine + kShapes);
+  LabelImage image = read_label_image(recipe.shapes.image);
+  std::replace(image.label.begin(), image.label.end(), 2, -1);
+  write_label_image(image, recipe.shapes.image);
+  expect_parts(refusal([&] { read_input(recipe); }), {"has the label -1; a particle's is above 0"});
 }
 
 double largest_overlap(const Recipe &r, const std::vector<Particle> &particles) {

@@ -79,6 +79,19 @@ TEST(Press, KnowsColumnsAndUnitsOfThreeLanguages) {
   EXPECT_EQ(read("0;1000;1\n1;2000;3\n2;3000;4\n", format).pressure, right.pressure);
 }
 
+// Requirement: the disc's size turns a force into a pressure; a column of pressure needs none.
+TEST(Press, AColumnOfPressureIsTakenBesideTheDiscsSizeToo) {
+  const std::vector<double> right = {1.0, 2.0, 3.0};
+  PressFormat format;
+  format.area_mm2 = kArea;
+  EXPECT_EQ(read("displacement_um,pressure_MPa\n0,1\n1,2\n2,3\n", format).pressure, right);
+  EXPECT_EQ(
+      read("um,pressure_MPa,force_N,weg_um\n0,5,100,1\n0,6,200,2\n0,7,300,3\n", format).pressure,
+      right);
+  EXPECT_EQ(read("weg_um,Spannung [V],Kraft [N]\n0,5,100\n1,5,200\n2,5,300\n", format).pressure,
+            right);
+}
+
 TEST(Press, NamesOfStagesAreThoseOfThreeLanguages) {
   const PressExport e = read("force_N,weg_um,Phase\n1,1,Belastung\n2,2,maintien\n1,1,Entlastung\n"
                              "0,0,décharge\n");
@@ -91,7 +104,9 @@ TEST(Press, RefusesWhatCanBeReadInTwoWays) {
   expect_parts(said("force_N,position_mm,extension_mm" + rows),
                {"'position_mm' and 'extension_mm'", "--displacement", "3 'extension_mm'"});
   expect_parts(said("force,position_mm,x" + rows), {"'force' has no unit", "--force \"force:N\""});
-  expect_parts(said("a,b,c" + rows), {"no column looks like the force", "1 'a', 2 'b'", "--force"});
+  expect_parts(said("a,b,c" + rows),
+               {"no column looks like the force", "1 'a', 2 'b'", "--force", "(2:N)"});
+  expect_parts(said("force_N,weg_um\n1,1\n2,2\n"), {"it has 2 rows below its header"});
   PressFormat format;
   format.columns = {{"force", "last:N"}};
   expect_parts(said("a,b,c" + rows, format), {"no column 'last' for --force"});

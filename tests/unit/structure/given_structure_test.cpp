@@ -9,7 +9,8 @@ using namespace calendem;
 using namespace calendem_test;
 namespace fs = std::filesystem;
 
-StructureSource source(const std::string &file, const std::set<int> &am, const std::set<int> &cbd) {
+StructureSource source(const std::string &file, const std::set<std::string> &am,
+                       const std::set<std::string> &cbd) {
   StructureSource s;
   s.file = file;
   s.atom_style = "sphere";
@@ -18,7 +19,7 @@ StructureSource source(const std::string &file, const std::set<int> &am, const s
   return s;
 }
 StructureSource clusters(const std::string &body_map = "") {
-  StructureSource s = source(kData + "lammps_cluster.data", {1, 2}, {3});
+  StructureSource s = source(kData + "lammps_cluster.data", {"1", "2"}, {"3"});
   s.atom_style = "hybrid";
   s.clusters = true;
   s.body_map = body_map;
@@ -26,7 +27,8 @@ StructureSource clusters(const std::string &body_map = "") {
 }
 
 TEST(ExistingStructure, PhasesFollowTheTypesAndHeightsTheLowestPoint) {
-  const ExistingStructure g = read_structure(source(kData + "lammps_micro.data", {1, 2}, {3}));
+  const ExistingStructure g =
+      read_structure(source(kData + "lammps_micro.data", {"1", "2"}, {"3"}));
   ASSERT_EQ(g.am.size(), 3u);
   ASSERT_EQ(g.cbd.size(), 3u);
   EXPECT_EQ(g.cbd[0].id, 4);
@@ -38,8 +40,30 @@ TEST(ExistingStructure, PhasesFollowTheTypesAndHeightsTheLowestPoint) {
   EXPECT_EQ(g.thickness, g.extent);
 }
 
+TEST(ExistingStructure, TypesAreNamedByTheLabelsOfTheFile) {
+  const std::string file = (test_folder() / "labels.data").string();
+  std::ofstream(file) << "t\n\n3 atoms\n3 atom types\n\n0 9 xlo xhi\n0 9 ylo yhi\n0 6 zlo zhi\n\n"
+                         "Atom Type Labels\n\n1 AM\n2 cb\n3 wall\n\nAtoms # sphere\n\n"
+                         "1 AM 4 4.65 1 1 2\n2 cb 1 0.9 5 5 2\n3 wall 1 0.9 8 8 2\n";
+  StructureSource s = source(file, {"AM"}, {"cb"});
+  s.left_out_types = {"3"};
+  const ExistingStructure g = read_structure(s);
+  ASSERT_EQ(g.am.size(), 1u);
+  ASSERT_EQ(g.cbd.size(), 1u);
+  EXPECT_EQ(g.am[0].id, 1);
+  EXPECT_EQ(g.cbd[0].id, 2);
+  EXPECT_EQ(g.left_out, 1);
+  s.am_types = {"1", "AN"};
+  s.left_out_types = {"AM", "3"};
+  expect_parts(refusal([&] { read_structure(s); }),
+               {"structure.am_types names 'AN'; the file's Atom Type Labels are AM, cb, wall.",
+                "structure.left_out_types: 'AM' is type 1, which is named before"});
+  expect_parts(refusal([&] { read_structure(source(kData + "lammps_micro.data", {"AM"}, {"3"})); }),
+               {"names 'AM'; the file's Atom Type Labels are none: give the type's number"});
+}
+
 TEST(ExistingStructure, AFilmThatIsPeriodicInHeightIsAsThickAsTheBox) {
-  StructureSource s = source((test_folder() / "a.data").string(), {1}, {});
+  StructureSource s = source((test_folder() / "a.data").string(), {"1"}, {});
   std::ofstream(s.file) << "t\n2 atoms\n1 atom types\n0 9 xlo xhi\n0 9 ylo yhi\n0 6 zlo zhi\n"
                            "Atoms\n\n1 1 4 4.65 1 1 0\n2 1 4 4.65 5 5 7\n";
   s.z_periodic = true;
@@ -55,12 +79,12 @@ TEST(ExistingStructure, AFilmThatIsPeriodicInHeightIsAsThickAsTheBox) {
 
 TEST(ExistingStructure, EveryTypeHasItsPhase) {
   expect_parts(refusal([] {
-                 read_structure(source(kData + "lammps_micro.data", {1, 7}, {3}));
+                 read_structure(source(kData + "lammps_micro.data", {"1", "7"}, {"3"}));
                }),
                {"type 2 (particles: 1, first in line 16)", "left_out_types",
                 "structure.am_types names type 7"});
-  StructureSource s = source(kData + "lammps_micro.data", {1}, {3});
-  s.left_out_types = {2};
+  StructureSource s = source(kData + "lammps_micro.data", {"1"}, {"3"});
+  s.left_out_types = {"2"};
   const ExistingStructure g = read_structure(s);
   EXPECT_EQ(g.am.size() + g.cbd.size(), 5u);
   EXPECT_EQ(g.left_out, 1);
@@ -81,7 +105,7 @@ TEST(ExistingStructure, ClustersComeFromMoleculesOrFromAMap) {
   EXPECT_EQ(m.am.front().cluster, 1);
   EXPECT_EQ(m.am.back().cluster, 2);
   EXPECT_NE(hash_of_structure(clusters()), hash_of_structure(clusters(map)));
-  StructureSource no_ids = source(kData + "lammps_micro.data", {1, 2}, {3});
+  StructureSource no_ids = source(kData + "lammps_micro.data", {"1", "2"}, {"3"});
   no_ids.clusters = true;
   expect_parts(refusal([&] { read_structure(no_ids); }), {"no molecule ids", "body_map"});
 }
@@ -116,8 +140,8 @@ TEST(StructureTable, SaysWhereAndHowToRead) {
           .structure;
   EXPECT_TRUE(s.given());
   EXPECT_EQ(fs::path(s.file).filename(), "a.data");
-  EXPECT_EQ(s.am_types, (std::set<int>{2, 3, 4}));
-  EXPECT_EQ(s.cbd_types, (std::set<int>{1}));
+  EXPECT_EQ(s.am_types, (std::set<std::string>{"2", "3", "4"}));
+  EXPECT_EQ(s.cbd_types, (std::set<std::string>{"1"}));
   EXPECT_EQ(s.length_um, 1e6);
   EXPECT_EQ(s.density_g_cm3, 1e-3);
   EXPECT_TRUE(s.z_periodic);
@@ -138,12 +162,12 @@ TEST(StructureTable, UnitsOfLennardJonesNeedTheirScale) {
 TEST(StructureTable, EveryMistakeIsNamedAtOnce) {
   expect_parts(
       refusal([] {
-        recipe_of("[structure]\nfile = \"b.data\"\natom_style = \"spere\"\nam_types = \"1 x\"\n"
+        recipe_of("[structure]\nfile = \"b.data\"\natom_style = \"spere\"\nam_types = \"1 -x\"\n"
                   "cbd_types = \"2\"\nleft_out_types = \"2 3\"\nbody_map = \"m\"\n"
                   "lj_length_um = 1\n[particles]\nmedian_um = 5\n");
       }),
       {":2: structure.file", "b.data' is not there", ":3: structure.atom_style is \"spere\"",
-       "The closest is \"sphere\"", ":4: structure.am_types is \"1 x\"",
+       "The closest is \"sphere\"", ":4: structure.am_types is \"1 -x\"",
        ":6: structure.left_out_types: type 2 is in another list", ":7: structure.body_map",
        "structure.units is missing", "lj_length_um", ":10: particles.median_um has no effect"});
   expect_parts(refusal([] { recipe_of("[structure]\nfile = \"a.data\"\nunits = \"micro\"\n"); }),

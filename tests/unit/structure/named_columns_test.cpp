@@ -134,8 +134,8 @@ TEST(Dumps, OfClustersGiveTheStructureOfTheDataFile) {
   StructureSource source;
   source.file = kData + "lammps_cluster.data";
   source.atom_style = "hybrid";
-  source.am_types = {1, 2};
-  source.cbd_types = {3};
+  source.am_types = {"1", "2"};
+  source.cbd_types = {"3"};
   source.clusters = true;
   const ExistingStructure data = read_structure(source);
   std::string rows;

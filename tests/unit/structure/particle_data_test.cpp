@@ -155,6 +155,14 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(ParticleData, FilesThatAreNoneAreRefused) {
   expect_parts(refusal([] { read_text(""); }), {"empty"});
+  for (const char *text :
+       {"displacement_um;pressure_MPa\n0,1;2\n0,2;3\n", "displacement_um;pressure_MPa\n",
+        "0 0 0 1\n1 1 1 2\n", "[experiment]\nname = \"x\"\n"}) {
+    const std::string said = refusal([&] { read_text(text); });
+    expect_parts(said, {"a.data: this is no data file of LAMMPS", "no dump", "no table of spheres",
+                        "It begins with '" + std::string(text, 5)});
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 0) << said;
+  }
   expect_parts(refusal([] { read_text("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\n"); }),
                {"the frame of the dump is cut"});
 }

@@ -13,6 +13,10 @@ namespace {
 constexpr double kPressures[] = {50.0, 150.0}; // about these the film is pressed
 constexpr double kPorosityPoints = 0.3, kCrackedShare = 0.03, kCurveUm = 0.05, kTouchUm = 1.0;
 
+bool contains(const std::vector<std::string> &all, const std::string &name) {
+  return std::find(all.begin(), all.end(), name) != all.end();
+}
+
 } // namespace
 
 Experiment Laboratory::measure(const bank::Run &run, std::uint64_t seed) const {
@@ -20,9 +24,9 @@ Experiment Laboratory::measure(const bank::Run &run, std::uint64_t seed) const {
   write_file(folder_ + "/film.toml", recipe_of(run));
   Random random(seed, 1);
   const double diameter = 1e-3 * std::sqrt(4.0 * bank_.recipe().area() / kPi);
-  std::string text = fmt::format("[experiment]\nname = \"run {}\"\nelectrode = \"film.toml\"\n"
+  std::string text = fmt::format("[experiment]\nname = \"{}\"\nelectrode = \"film.toml\"\n"
                                  "measured_on = \"simulation\"\nsample_diameter_mm = {:.6f}\n",
-                                 run.point.number, diameter);
+                                 std::filesystem::path(folder_).filename().string(), diameter);
   for (const double wanted : kPressures) {
     const bank::PressedFilm &press =
         *std::min_element(run.presses.begin(), run.presses.end(),
@@ -83,11 +87,23 @@ std::string Laboratory::condition_of(const bank::Run &run, const bank::PressedFi
       100.0 * press.porosity_after + kPorosityPoints * random.normal(), kPorosityPoints,
       std::clamp(press.cracked + kCrackedShare * random.normal(), 0.0, 1.0), kCrackedShare);
 }
-namespace {
 
-bool contains(const std::vector<std::string> &all, const std::string &name) {
-  return std::find(all.begin(), all.end(), name) != all.end();
+void Laboratory::write_model(const Truth &truth) const {
+  std::string out = "electrode = \".\"\n"
+                    "effects.cbd_plasticity.beyond_cohesion = 1 # as in the bank's case\n";
+  for (const inference::Parameter &p : bank_.effects()) {
+    const EffectParameter &effect = find_effect(p.name).parameter;
+    const bool acts = contains(truth.acting, p.name);
+    for (const std::string &key : effect.keys)
+      out +=
+          fmt::format("{} = {}{}\n", key,
+                      acts ? fmt::format("{:.4g}", effect.value(p.prior.value(0.0))) : effect.off,
+                      acts ? " # " + p.name + " acts" : "");
+  }
+  write_file(folder_ + "/model.toml", out);
 }
+
+namespace {
 
 std::vector<std::string> acting_of(const bank::Bank &spec, const bank::Run &run, bool acts) {
   std::vector<std::string> out;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A rehearsal of the diagnosis on runs of a bank:
-//   rehearsal BANK FOLDER [--every N] [--fresh TABLE] [--baselines]
+//   rehearsal BANK FOLDER [--every N] [--fresh TABLE] [--cases N] [--baselines]
 // Every packing is left out in turn; its runs, with a laboratory's errors, are films that are diagnosed with what the
 // other packings teach. With --fresh the films are the runs of TABLE that the bank's own table lacks. The user's model is
 // the run's own (nothing to see), lacks an effect of it, or two, or has one that does not act. Writes
-// FOLDER/answers.csv and prints scores.
+// FOLDER/answers.csv and prints scores. With --cases the first N films are asked once each, the model of every fifth
+// lacking nothing, and are kept for others to solve: FOLDER/case_01 and so on, with the model as a case file.
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "baselines.h"
@@ -21,7 +22,7 @@ using namespace calendem;
 
 struct Options {
   std::string bank, folder, fresh;
-  int every = 1;
+  int every = 1, cases = 0;
   bool baselines = false;
 };
 
@@ -114,22 +115,30 @@ private:
   bank::Runs runs_;
   inference::Hyperparameters fit_;
   Scores scores_;
-  std::string answers_ = "point,kind,changes,signal,method,answer,named\n";
-  int place_ = 0, turn_ = 0;
+  std::string answers_ = "case,point,kind,changes,signal,method,answer,named\n";
+  int place_ = 0, turn_ = 0, case_ = 0;
 
   template <class Chosen>
   void diagnose(const FilmBank &bank, const bank::Runs &runs, const Chosen &chosen) {
-    const Laboratory laboratory(bank, options_.folder);
     for (const bank::Run &run : runs.runs) {
-      if (!chosen(run) || !is_film(run) || place_++ % options_.every != 0)
+      if (!chosen(run) || !is_film(run) || place_++ % options_.every != 0 ||
+          (options_.cases > 0 && turn_ == options_.cases))
         continue;
-      const Experiment e = laboratory.measure(run, std::uint64_t(run.point.number));
-      for (const Truth &truth : truths_of(spec_, run, turn_++))
-        ask(bank, run, e, truth);
+      std::vector<Truth> truths = truths_of(spec_, run, turn_++);
+      if (options_.cases > 0)
+        truths = {turn_ % 5 == 1 ? truths.front() : truths.back()};
+      for (const Truth &truth : truths)
+        ask(bank, run, truth);
     }
   }
 
-  void ask(const FilmBank &bank, const bank::Run &run, const Experiment &e, const Truth &truth) {
+  void ask(const FilmBank &bank, const bank::Run &run, const Truth &truth) {
+    ++case_;
+    const Laboratory laboratory(bank, options_.cases > 0
+                                          ? fmt::format("{}/case_{:02}", options_.folder, case_)
+                                          : options_.folder);
+    const Experiment e = laboratory.measure(run, std::uint64_t(run.point.number));
+    laboratory.write_model(truth);
     DiagnosisOptions options;
     options.acting = truth.acting;
     const Diagnosis d = diagnosed(e, bank, options);
@@ -141,12 +150,13 @@ private:
         answers.push_back(a);
     for (const Answer &a : answers) {
       scores_.add(truth, signal_of(d), a, d);
-      answers_ += fmt::format("{},{},{},{:.2f},{},{},{}\n", run.point.number, kKinds[truth.kind],
-                              fmt::join(truth.changes, " + "), signal_of(d), a.method,
-                              a.named.empty() ? "nothing"
-                              : a.sure        ? "explained"
-                                              : "one of",
-                              fmt::join(a.named, " + "));
+      answers_ +=
+          fmt::format("case_{:02},{},{},{},{:.2f},{},{},{}\n", case_, run.point.number,
+                      kKinds[truth.kind], fmt::join(truth.changes, " + "), signal_of(d), a.method,
+                      a.named.empty() ? "nothing"
+                      : a.sure        ? "explained"
+                                      : "one of",
+                      fmt::join(a.named, " + "));
     }
     fmt::print("point {}, {} {}: {}\n", run.point.number, kKinds[truth.kind],
                fmt::join(truth.changes, " + "), fmt::join(answers.front().named, " + "));
@@ -163,6 +173,8 @@ int main(int argc, char **argv) {
   app.add_option("folder", options.folder, "what it writes")->required();
   app.add_option("--every", options.every, "of so many runs one")->check(CLI::PositiveNumber);
   app.add_option("--fresh", options.fresh, "table with runs that the bank lacks");
+  app.add_option("--cases", options.cases, "of so many films, kept for others to solve")
+      ->check(CLI::PositiveNumber);
   app.add_flag("--baselines", options.baselines, "asks simpler methods, too");
   CLI11_PARSE(app, argc, argv);
   return exit_status_of([&] {

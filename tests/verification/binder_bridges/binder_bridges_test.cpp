@@ -176,10 +176,12 @@ TEST(VerificationBinderBridges, TheContactGoesOnBesideIt) {
     }
 }
 
+constexpr double kOfOneBond = kInset / 6.0; // inset of a primary with one bond
+
 // The primary that holds the sphere loses its only bond, and with it the inset when lists are built,
 // every 500 steps. The sphere leaves at `speed`, from `gap` above where their surfaces meet.
 CaseRun lose_the_inset(double speed, double gap, const char *fused) {
-  const double l = kCbd + kAm - kInset + gap;
+  const double l = kCbd + kAm - kOfOneBond + gap;
   const std::vector<Sphere> spheres = {
       {2, {5, 5, 10}}, {1, {5 + l, 5, 10}, {}, {}, 1}, {1, {5 + l + 1.28, 5, 10}, {}, {}, 1}};
   const std::string leave = number(-speed) + " 0 0 units box\n", tear = "0.1 0 0 units box\n";
@@ -219,7 +221,7 @@ void expect_contact_beside(const CaseRun &run, double speed, double l, int broke
 // meets where it was when lists were built.
 TEST(VerificationBinderBridges, ASurfaceThatComesOutMovesNoContact) {
   for (const char *fused : {"on", "off"}) {
-    const double touching = kCbd + kAm - kInset, pressed = touching - 0.05, gap = kGap;
+    const double touching = kCbd + kAm - kOfOneBond, pressed = touching - 0.05, gap = kGap;
     const double v = kJoined[0].strength * pressed / E / (kSteps * dt);
     expect_contact_beside(lose_the_inset(v, -0.05, fused), v, pressed, 1280,
                           [&](long step) { return 0.05 - v * step * dt; });

@@ -251,17 +251,23 @@ TEST(VerificationSlip, SameBitsOnTwoRanksAndAfterARestart) {
   EXPECT_EQ(CaseRun("slip/in.slip", s, 2, files).text("final.txt"), state);
 }
 
+// The inset of a primary with that many bonds; six are a whole one's.
+double faded(double inset, double fading, int bonds) {
+  return inset * (1.0 - fading * (1.0 - bonds / 6.0));
+}
+
 // A body of three primaries in a row around `middle`, and one of another body above the one in the
-// middle: 0.05 um above where surfaces of that inset meet.
-Files row_and_one(double middle, double inset) {
+// middle: 0.05 um above where their surfaces meet.
+Files row_and_one(double middle, double inset, double fading) {
   std::vector<BodySphere> all;
   for (const double x : {0.0, kSpacing, -kSpacing})
     all.push_back({{middle + x, 0, 0}, R, 1});
-  all.push_back({{middle, 0, 2.0 * (R - inset) + 0.05}, R, 2});
+  const double meeting = 2.0 * R - faded(inset, fading, 2) - faded(inset, fading, 0);
+  all.push_back({{middle, 0, meeting + 0.05}, R, 2});
   return files_of(all, {-6, -6, -6}, {6, 6, 6});
 }
 
-// With one of its two bonds broken the primary has lost half of what can fade. What has come in
+// The primary in the middle loses one of its two bonds; the other one has none. What has come in
 // contact before keeps its overlap; on the way up the surface follows as far as it may.
 TEST(VerificationSlip, AnInsetFadesWithTheBonds) {
   constexpr double inset = 0.1;
@@ -272,10 +278,11 @@ TEST(VerificationSlip, AnInsetFadesWithTheBonds) {
       s.insert({{"inset", number(inset)}, {"fading", number(fading)}, {"fused", fused}});
       s["dt"] = "1e-4";
       s["restitution"] = "1";
-      const CaseRun run("slip/in.fade", s, 1, row_and_one(0.0, inset));
+      const CaseRun run("slip/in.fade", s, 1, row_and_one(0.0, inset, fading));
       ASSERT_TRUE(run.finished()) << run.why();
-      double meeting = 2.0 * (R - inset), last = 0.0;
-      const double later = meeting + 0.5 * fading * inset;
+      const double upper = faded(inset, fading, 0),
+                   later = 2.0 * R - upper - faded(inset, fading, 1);
+      double meeting = 2.0 * R - upper - faded(inset, fading, 2), last = 0.0;
       for (const Row &row : run.rows("curve.csv")) {
         const double r = row.at("height");
         ASSERT_EQ(row.at("intact"), row.at("step") > 1000 ? 1 : 2) << row.at("step");
@@ -285,7 +292,7 @@ TEST(VerificationSlip, AnInsetFadesWithTheBonds) {
         EXPECT_NEAR(row.at("force"), last, 1e-9 * hertz_force(E, R_eff, 0.1)) << row.at("step");
       }
       EXPECT_EQ(meeting, later);
-      EXPECT_NEAR(last, hertz_force(E, R_eff, 0.05 + 0.5 * fading * inset), 1e-6 * last);
+      EXPECT_NEAR(last, hertz_force(E, R_eff, 0.05 + fading * inset / 6.0), 1e-6 * last);
     }
 }
 
@@ -294,7 +301,7 @@ TEST(VerificationSlip, AFadedInsetIsTheSameOnTwoRanksAndAfterARestart) {
   s.insert({{"inset", "0.1"}, {"fading", "1"}});
   s["dt"] = "1e-4";
   for (const double middle : {-0.6, 0.6}) { // the border cuts the broken bond, or the intact one
-    Files files = row_and_one(middle, 0.1);
+    Files files = row_and_one(middle, 0.1, 1.0);
     s["from"] = "0";
     s["px"] = "1";
     const CaseRun one("slip/in.fade", s, 1, files);
@@ -337,7 +344,7 @@ TEST(VerificationSlip, AFadingStaysAsItWasAndIsAFraction) {
   Settings s = settings(1.0);
   s.insert({{"inset", "0.1"}, {"fading", "1"}});
   s["dt"] = "1e-4";
-  Files files = row_and_one(0.0, 0.1);
+  Files files = row_and_one(0.0, 0.1, 1.0);
   const CaseRun one("slip/in.fade", s, 1, files);
   files["half.restart"] = one.text("half.restart");
   s["from"] = "1";

@@ -86,6 +86,8 @@ std::vector<Key> shape_keys() {
        "packed: particles of the image at new places; image: a crop of the image is the electrode, "
        "its particles and its carbon-binder where they are",
        "packed|image"},
+      {"shapes.upwards", "", "z", 0, 0, "",
+       "axis of the image that runs from the collector up; with - it runs down", "z|x|y|-z|-x|-y"},
       {"shapes.crop.x_um", "", "0", -1000, 1000, "um",
        "of the crop's middle from the image's; its sides are those of the cell, or the image's"},
       {"shapes.crop.y_um", "", "0", -1000, 1000, "um",
@@ -233,14 +235,18 @@ PhaseLabels read_phases(const Settings &s, const std::string &image, Mistakes &m
 
 void read_crop(const Settings &s, ShapeSource &out, Mistakes &mistakes) {
   out.in_place = s.text("shapes.places") == "image";
+  out.upwards = s.text("shapes.upwards");
   out.middle_x = s.number("shapes.crop.x_um");
   out.middle_y = s.number("shapes.crop.y_um");
   out.low = s.number("shapes.crop.low_um");
   out.high = s.number("shapes.crop.high_um");
-  for (const char *key : {"x_um", "y_um", "low_um", "high_um"})
-    if (const int line = s.line(std::string("shapes.crop.") + key); line > 0 && !out.in_place)
-      return mistakes.add(line, "shapes.crop is of an image that becomes the electrode. Give "
-                                "shapes.places = \"image\", or remove it.");
+  for (const std::string key : {"shapes.upwards", "shapes.crop.x_um", "shapes.crop.y_um",
+                                "shapes.crop.low_um", "shapes.crop.high_um"})
+    if (const int line = s.line(key); line > 0 && !out.in_place)
+      return mistakes.add(line,
+                          "{} is of an image that becomes the electrode. Give "
+                          "shapes.places = \"image\", or remove it.",
+                          key);
   if (out.in_place && out.image.empty())
     mistakes.add(s.line("shapes.places"),
                  "shapes.places is \"image\", but shapes.image is missing. Give the image that "
@@ -358,19 +364,46 @@ Recipe read_recipe(const std::string &file) {
   return r;
 }
 
+namespace {
+
+/// Name of the file that the particles' places come from; empty: they are packed.
+std::string origin_of(const std::map<std::string, std::string> &recipe) {
+  const auto text = [&](const char *key) {
+    const auto at = recipe.find(key);
+    return at == recipe.end() || at->second == "none" ? "" : at->second;
+  };
+  const std::string file =
+      text("shapes.places") == "image" ? text("shapes.image") : text("structure.file");
+  return std::filesystem::path(file).filename().string();
+}
+
+std::string shown_origin(const std::string &origin) {
+  return origin.empty() ? "the recipe's" : "those of " + origin;
+}
+
+} // namespace
+
 std::vector<std::string> other_electrode(const std::map<std::string, std::string> &wanted,
                                          const std::map<std::string, std::string> &recipe) {
   constexpr double kSame = 0.02;
   std::vector<std::string> out;
-  for (const auto *one : {&wanted, &recipe})
-    if (const auto file = one->find("structure.file"); file != one->end() && file->second != "none")
-      return out;
+  const std::string from = origin_of(recipe), wanted_from = origin_of(wanted);
+  const auto places = recipe.find("shapes.places");
+  const bool of_image = places != recipe.end() && places->second == "image";
+  if (!wanted_from.empty() && from == wanted_from)
+    return out;
+  if (!wanted_from.empty() || of_image)
+    out.push_back(fmt::format("its particles are {} instead of {}", shown_origin(from),
+                              shown_origin(wanted_from)));
+  if (!wanted_from.empty()) // its recipe does not say what the structure is made of
+    return out;
   for (const char *key :
        {kAmWeight, kCarbonWeight, kBinderWeight, "density.am_g_cm3", "density.cbd_solid_g_cm3",
         "coating.porosity_total_percent", "particles.median_um", "particles.sigma_ln",
         "cbd.nanoporosity_percent", "cbd.diameter_um"}) {
     const auto a = wanted.find(key), b = recipe.find(key);
-    if (a == wanted.end() || b == recipe.end())
+    const bool of_sizes = std::string(key).rfind("particles.", 0) == 0;
+    if (a == wanted.end() || b == recipe.end() || (of_sizes && !from.empty()))
       continue;
     const double x = std::stod(a->second), y = std::stod(b->second);
     if (std::fabs(x - y) > kSame * std::max(std::fabs(x), std::fabs(y)))

@@ -18,7 +18,7 @@ struct StructureSource {
   std::string atom_style;
   double length_um = 1.0, density_g_cm3 = 1.0; ///< one unit of the file
   bool z_periodic = false;
-  std::set<int> am_types, cbd_types, left_out_types;
+  std::set<std::string> am_types, cbd_types, left_out_types; ///< numbers, or labels of the file
   bool clusters = false;         ///< AM spheres are primaries of given bodies, else a body each
   bool densities_of_file = true; ///< else the recipe's
   std::string frame = "last";    ///< of a dump, or its time step
@@ -59,6 +59,7 @@ struct ShapeSource {
   double neck = 0.9;          ///< see separate_particles()
   bool measured_sizes = true; ///< else the recipe's lognormal law
   bool in_place = false;      ///< the image is the electrode, its particles are where they are
+  std::string upwards = "z";  ///< axis of that image from the collector up; -z: it runs down
   double middle_x = 0.0, middle_y = 0.0; ///< of the crop, from the image's [um]
   double low = 0.0, high = 0.0;          ///< heights of the crop [um]; 0: of the image's top
   bool given() const { return !image.empty() || !library.empty(); }
@@ -121,7 +122,8 @@ Recipe read_recipe(const std::string &file);
 
 /// In what a recipe's settings make another electrode than `wanted`, by more than 2 %: composition,
 /// densities, porosity before calendering, sizes, CBD. "key: 2.2 instead of 4.65". Loading, cell
-/// and seed may differ. Empty where either takes its particles from a structure.
+/// and seed may differ. `recipe` has what its structure changed, but sizes, which do not count then;
+/// an image's particles, and other than those of the structure that is wanted, differ.
 std::vector<std::string> other_electrode(const std::map<std::string, std::string> &wanted,
                                          const std::map<std::string, std::string> &recipe);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/recipe.h"
+#include <cctype>
 #include <filesystem>
 #include <sstream>
 
@@ -7,10 +8,10 @@ namespace calendem {
 namespace fs = std::filesystem;
 namespace {
 
-// "1 2, 3" as numbers.
-std::set<int> types_of(const Settings &s, const std::string &key, Mistakes &mistakes) {
+// "1 2, 3" or "AM" as names, each once.
+std::set<std::string> types_of(const Settings &s, const std::string &key, Mistakes &mistakes) {
   std::string text = s.text(key);
-  std::set<int> types;
+  std::set<std::string> types;
   if (text == "none" || !s.sound({key}))
     return types;
   for (char &c : text)
@@ -18,10 +19,14 @@ std::set<int> types_of(const Settings &s, const std::string &key, Mistakes &mist
   std::istringstream in(text);
   for (std::string word; in >> word;) {
     const bool number =
-        word.size() < 8 && word.find_first_not_of("0123456789") == std::string::npos;
-    if (!number || std::stoi(word) < 1 || !types.insert(std::stoi(word)).second) {
+                   word.size() < 8 && word.find_first_not_of("0123456789") == std::string::npos,
+               label = std::isalpha(static_cast<unsigned char>(word[0]));
+    if (number)
+      word = std::to_string(std::stoi(word));
+    if (!(number || label) || word == "0" || !types.insert(word).second) {
       mistakes.add(s.line(key),
-                   "{} is \"{}\"; it must name whole numbers from 1, each once, such as \"1 2 3\".",
+                   "{} is \"{}\"; it must name whole numbers from 1 or labels of the file, each "
+                   "once, such as \"1 2 3\" or \"AM\".",
                    key, s.text(key));
       break;
     }
@@ -37,10 +42,10 @@ void check_types(const Settings &s, const StructureSource &source, Mistakes &mis
     mistakes.add(0,
                  "structure.cbd_types is missing: say which atom types are carbon and binder, or "
                  "\"none\".");
-  std::set<int> seen = source.am_types;
+  std::set<std::string> seen = source.am_types;
   for (const auto &[key, types] : {std::pair("structure.cbd_types", &source.cbd_types),
                                    std::pair("structure.left_out_types", &source.left_out_types)})
-    for (int type : *types)
+    for (const std::string &type : *types)
       if (!seen.insert(type).second)
         mistakes.add(
             s.line(key),
@@ -113,8 +118,8 @@ const std::vector<Key> &structure_keys() {
       {"structure.boundary", "", "p p f", 0, 0, "",
        "boundary of the script that wrote the file; z points up from the collector",
        "p p f|p p s|p p m|p p p"},
-      {"structure.am_types", "", "none", 0, 0, "", "atom types of active material, \"1 2 3\"", "",
-       true},
+      {"structure.am_types", "", "none", 0, 0, "",
+       "atom types of active material, by number or label: \"1 2 3\"", "", true},
       {"structure.cbd_types", "", "none", 0, 0, "", "atom types of carbon and binder", "", true},
       {"structure.left_out_types", "", "none", 0, 0, "", "atom types to leave out (solvent, walls)",
        "", true},

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace calendem {
 
@@ -55,17 +56,31 @@ std::pair<size_t, size_t> place_of(const std::string &text, int line) {
   return {begin, std::min(text.find('\n', begin), text.size())};
 }
 
+/// A line has a key, right or wrong, before its '='. Titles of other files have a sentence there.
+bool has_keys(const std::string &text) {
+  constexpr long kMostWords = 3;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line.substr(0, line.find('=')));
+    const long n = std::distance(std::istream_iterator<std::string>(words), {});
+    if (line.find('=') != std::string::npos && n <= kMostWords)
+      return true;
+  }
+  return false;
+}
+
 } // namespace
 
 TomlFile parse_toml(const std::string &file, Mistakes &mistakes) {
   std::string text = read_text(file, mistakes);
   if (text.empty())
     return {};
+  const bool keys = has_keys(text);
   for (int errors = 0; errors < kMostSyntaxErrors; ++errors)
     try {
       return {toml::parse(text, file), errors == 0};
     } catch (const toml::parse_error &e) {
-      if (text.find('=') == std::string::npos) {
+      if (!keys) {
         mistakes.add(0, "this is no TOML file: no line is KEY = VALUE. It begins with '{}'.",
                      text.substr(0, std::min<size_t>(text.find('\n'), 60)));
         return {};

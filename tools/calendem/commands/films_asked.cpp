@@ -5,6 +5,7 @@
 #include "base/recipe.h"
 #include "base/shown.h"
 #include "commands/commands.h"
+#include "electrode/pack/from_structure.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -114,9 +115,9 @@ int material_of(const FilmOptions &o, const std::vector<std::string> &names) {
   return int(at - names.begin());
 }
 
-/// A recipe of its material: else the answer would be another's.
+/// A recipe of its material, else the answer would be another's, with the numbers of its structure.
 Recipe recipe_to_answer_for(const std::string &file) {
-  Recipe recipe = read_recipe(file);
+  Recipe recipe = read_input(read_recipe(file)).recipe;
   stop_if_of_other_material(recipe);
   return recipe;
 }

@@ -57,9 +57,10 @@ std::vector<Key> base_settings() {
       number("bond.surface_inset_um", "surface_inset", "0", 0, 0.3, "um",
              "how far inside the tips of its primaries the surface of a body lies, for other "
              "bodies and CBD; 0: at the tips"),
-      number("bond.inset_fading", "inset_fading", "0", 0, 1, "fraction",
-             "part of a primary's inset that is gone once all its bonds are broken, and in "
-             "proportion before; 0: a fragment's surface lies as deep as its body's"),
+      number(
+          "bond.inset_fading", "inset_fading", "0", 0, 1, "fraction",
+          "part of a primary's inset that goes where it has fewer than six bonds, in proportion: "
+          "small bodies and fragments keep the volume of their grains; 0: all lie as deep"),
       number("bond.damping", "bond_damping", "0.02", 0, 1, "", "fraction of critical damping"),
       number("bond.weibull_modulus", "weibull_m", "0", 0, 100, "",
              "Weibull modulus of the bond strength, at least 1; 0: no scatter"),

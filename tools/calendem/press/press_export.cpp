@@ -109,16 +109,17 @@ public:
              "with decimal commas need other separators.",
              table_.bad_lines().front());
     if (table_.rows() < 3)
-      refuse("it has no rows of numbers. Give the press's export as text (CSV).");
+      refuse(
+          "it has {} rows below its header; a curve needs three or more. Give the press's export "
+          "as text (CSV).",
+          table_.rows());
   }
 
   PressExport read() {
     PressExport out;
     const std::string guess = table_.guess();
     out.said.push_back(guess.empty() ? "commas between columns" : guess);
-    const bool by_force = format_.columns.count("force") > 0 || format_.area_mm2 > 0.0 ||
-                          (find("pressure").name.empty() && !find("force").name.empty()),
-               direct = format_.columns.count("pressure") > 0 || !by_force;
+    const bool direct = !by_force();
     const double area = direct ? 1.0 : format_.area_mm2;
     if (area == 0.0)
       refuse("the force becomes a pressure by the disc's size. Give --diameter-mm or --area-mm2.");
@@ -144,6 +145,14 @@ private:
   template <class... Values>
   [[noreturn]] void refuse(fmt::format_string<Values...> what, Values &&...values) const {
     throw Failure(kBadInput, "{}: {}", file_, fmt::format(what, std::forward<Values>(values)...));
+  }
+  /// What is named comes first; with the disc's size a force is preferred to a pressure.
+  bool by_force() const {
+    if (format_.columns.count("pressure") > 0 || format_.columns.count("force") > 0)
+      return format_.columns.count("pressure") == 0;
+    if (format_.area_mm2 > 0.0)
+      return !find("force").name.empty() || find("pressure").name.empty();
+    return find("pressure").name.empty() && !find("force").name.empty();
   }
   std::string columns() const {
     std::string out;
@@ -210,8 +219,8 @@ private:
     const Column column = find(quantity);
     if (column.name.empty())
       refuse("no column looks like the {}. Give --{} with the name or number of one of the columns "
-             "{}, and its unit (2:mm).",
-             quantity, quantity, columns());
+             "{}, and its unit (2:{}).",
+             quantity, quantity, columns(), known(quantity).units.front().first);
     std::vector<double> out = table_.numbers(column.name);
     for (std::size_t k = 0; k < out.size(); ++k)
       if (out[k] *= column.factor / area; !std::isfinite(out[k]))

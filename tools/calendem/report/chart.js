@@ -155,9 +155,25 @@ function drawSymbol(g, s, x, y) {
   });
 }
 
+/// Words in lines that are at most so wide, 14 below each other; how many lines.
+function writeLines(text, words, room) {
+  var span = text.append('tspan'), line = '', lines = 1;
+  words.split(' ').forEach(function(word) {
+    span.text(line + word);
+    if (line && span.node().getComputedTextLength() > room) {
+      span.text(line);
+      span = text.append('tspan').attr({x : text.attr('x'), dy : 14}).text(word);
+      line = '';
+      ++lines;
+    }
+    line += word + ' ';
+  });
+  return lines;
+}
+
 /// Rows of entries above the axes; a click hides and shows a series.
 Plot.prototype.drawLegend = function() {
-  var self = this, x = this.at.left, y = 12, rows = 0;
+  var self = this, x = this.at.left, y = 12, rows = 0, room = this.width - this.at.left - 36;
   this.chart.series.forEach(function(s, k) {
     if (!s.name)
       return;
@@ -173,8 +189,9 @@ Plot.prototype.drawLegend = function() {
           .attr('stroke-dasharray', s.dash || null);
     if (s.symbol !== 'none')
       drawSymbol(g, s, 15, 0);
-    var text = g.append('text').attr({x : 36, y : 4, fill : kInk}).text(s.name);
-    var long = 36 + text.node().getComputedTextLength() + 16;
+    var text = g.append('text').attr({x : 36, y : 4, fill : kInk});
+    var lines = writeLines(text, s.name, room);
+    var long = 36 + (lines > 1 ? room : text.node().getComputedTextLength()) + 16;
     if (x > self.at.left && x + long > self.width) {
       x = self.at.left;
       y += 20;
@@ -183,7 +200,7 @@ Plot.prototype.drawLegend = function() {
       self.hidden[k] = !self.hidden[k];
       self.draw();
     });
-    rows = y;
+    rows = y += 14 * (lines - 1);
     x += long;
   });
   this.at.top = rows + (rows ? 18 : 10);

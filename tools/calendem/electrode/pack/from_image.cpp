@@ -69,6 +69,8 @@ public:
       : recipe_(recipe), x_(side_of(recipe, image, 0)), y_(side_of(recipe, image, 1)) {
     const std::array<int, 2> z = heights_of(recipe, image);
     const PhaseLabels &phases = recipe.shapes.phases;
+    if (!phases.given())
+      refuse_negative_labels(image, {recipe.shapes.background});
     const LabelImage particles =
         phases.given() ? separate_particles(image, phases, recipe.shapes.neck) : image;
     background_ = phases.given() ? 0 : recipe.shapes.background;
@@ -269,7 +271,8 @@ private:
 } // namespace
 
 FilmOfImage read_film_of_image(const Recipe &recipe) {
-  const LabelImage image = read_label_image(recipe.shapes.image, recipe.shapes.voxel_um);
+  const LabelImage image =
+      turned(read_label_image(recipe.shapes.image, recipe.shapes.voxel_um), recipe.shapes.upwards);
   return Cutter(recipe, image).film();
 }
 

@@ -40,7 +40,7 @@ void simulate(const DryOptions &o, const std::string &step) {
   job.script = input_scripts() + "/in." + step;
   job.log = o.folder + "/" + step + ".log";
   job.screen = o.folder + "/" + step + ".screen";
-  job.variables = {{"out", o.folder}};
+  job.variables = {{"out", o.folder}, {"scripts", input_scripts()}};
   const bool terminal = isatty(1);
   run_liggghts(job, [&] {
     const LastRow row = last_row(o.folder + "/" + step + ".csv");

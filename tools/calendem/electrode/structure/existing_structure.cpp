@@ -6,6 +6,8 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <set>
+#include <tuple>
 
 namespace calendem {
 
@@ -13,22 +15,54 @@ namespace {
 
 constexpr int kMostListed = 10; // mistakes in rows
 
+// Numbers of the types in each list of the recipe.
+struct Types {
+  std::set<int> am, cbd, left_out;
+};
+
+// What the recipe names by number or by label.
+Types types_in(const StructureSource &s, const ParticleData &data, Mistakes &mistakes) {
+  Types out;
+  std::set<int> seen;
+  std::string labels;
+  for (const auto &[label, number] : data.labels)
+    labels += (labels.empty() ? "" : ", ") + label;
+  for (const auto &[key, names, numbers] :
+       {std::tuple("am_types", &s.am_types, &out.am),
+        std::tuple("cbd_types", &s.cbd_types, &out.cbd),
+        std::tuple("left_out_types", &s.left_out_types, &out.left_out)})
+    for (const std::string &name : *names) {
+      const auto label = data.labels.find(name);
+      const int type =
+          int(whole_number_in(label == data.labels.end() ? name : label->second).value_or(0));
+      if (type == 0 && !data.particles.empty())
+        mistakes.add(0, "structure.{} names '{}'; the file's Atom Type Labels are {}.", key, name,
+                     labels.empty() ? "none: give the type's number" : labels);
+      else if (!seen.insert(type).second && type > 0)
+        mistakes.add(0, "structure.{}: '{}' is type {}, which is named before. Name it once.", key,
+                     name, type);
+      else
+        numbers->insert(type);
+    }
+  return out;
+}
+
 // Particles of each type that is not listed, and listed types without particles.
-void check_types(const StructureSource &s, const ParticleData &data, Mistakes &mistakes) {
+void check_types(const Types &types, const ParticleData &data, Mistakes &mistakes) {
   std::map<int, std::pair<long, int>> found; // number, first line
   for (const DataParticle &p : data.particles)
     if (found[p.type].first++ == 0)
       found[p.type].second = p.line;
   for (const auto &[type, seen] : found)
-    if (!s.am_types.count(type) && !s.cbd_types.count(type) && !s.left_out_types.count(type))
+    if (!types.am.count(type) && !types.cbd.count(type) && !types.left_out.count(type))
       mistakes.add(0,
                    "type {} (particles: {}, first in line {}) is in none of structure.am_types, "
                    "cbd_types and left_out_types. Name it in one of them.",
                    type, seen.first, seen.second);
-  for (const auto &[name, types] :
-       {std::pair("am_types", &s.am_types), std::pair("cbd_types", &s.cbd_types),
-        std::pair("left_out_types", &s.left_out_types)})
-    for (int type : *types)
+  for (const auto &[name, listed] :
+       {std::pair("am_types", &types.am), std::pair("cbd_types", &types.cbd),
+        std::pair("left_out_types", &types.left_out)})
+    for (int type : *listed)
       if (!data.particles.empty() && !found.count(type))
         mistakes.add(0,
                      "structure.{} names type {}, but no particle is of that type. Name the types "
@@ -107,15 +141,16 @@ ExistingStructure read_structure(const StructureSource &s) {
                          {s.atom_style, s.length_um, s.density_g_cm3, s.z_periodic,
                           s.densities_of_file, s.frame, s.side_x, s.side_y},
                          mistakes);
-  check_types(s, data, mistakes);
+  const Types types = types_in(s, data, mistakes);
+  check_types(types, data, mistakes);
   ExistingStructure g;
   g.lx = data.box.x();
   g.ly = data.box.y();
   for (const DataParticle &p : data.particles) {
     const ExistingSphere sphere{p.id, p.type, p.molecule, p.diameter, p.density, p.x};
-    if (s.am_types.count(p.type))
+    if (types.am.count(p.type))
       g.am.push_back(sphere);
-    else if (s.cbd_types.count(p.type))
+    else if (types.cbd.count(p.type))
       g.cbd.push_back(sphere);
     else
       ++g.left_out;

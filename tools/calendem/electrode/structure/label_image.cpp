@@ -262,6 +262,27 @@ LabelImage read_label_image(const std::string &file, double voxel_um) {
   return image;
 }
 
+LabelImage turned(const LabelImage &image, const std::string &upwards) {
+  const int up = upwards.back() - 'x';
+  const bool down = upwards.front() == '-'; // half a turn about the new x
+  const std::array<int, 3> from = {(up + 1) % 3, (up + 2) % 3, up};
+  LabelImage out = image;
+  for (int axis = 0; axis < 3; ++axis) {
+    out.n[axis] = image.n[from[axis]];
+    out.voxel[axis] = image.voxel[from[axis]];
+  }
+  for (int k = 0; k < out.n[2]; ++k)
+    for (int j = 0; j < out.n[1]; ++j)
+      for (int i = 0; i < out.n[0]; ++i) {
+        std::array<int, 3> at;
+        at[from[0]] = i;
+        at[from[1]] = down ? out.n[1] - 1 - j : j;
+        at[from[2]] = down ? out.n[2] - 1 - k : k;
+        out.label[out.index(i, j, k)] = image.at(at[0], at[1], at[2]);
+      }
+  return out;
+}
+
 void refuse_negative_labels(const LabelImage &image,
                             const std::vector<std::optional<std::int32_t>> &known) {
   for (size_t v = 0; v < image.label.size(); ++v)

@@ -32,6 +32,10 @@ struct LabelImage {
 /// implausible voxel size.
 LabelImage read_label_image(const std::string &file, double voxel_um = 0.0);
 
+/// The image turned, not mirrored, until its axis `upwards` ("z", "x", "-y" ...) is z. Places along x and
+/// y are then those along the axes that follow it in the order x, y, z, x; with -, those of y backwards.
+LabelImage turned(const LabelImage &image, const std::string &upwards);
+
 /// Throws Failure(2) where a label below 0 is none of those that mean something.
 void refuse_negative_labels(const LabelImage &image,
                             const std::vector<std::optional<std::int32_t>> &known);

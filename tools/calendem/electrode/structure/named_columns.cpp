@@ -267,11 +267,13 @@ ParticleFile kind_of_particle_file(const std::string &text) {
       names.begin(), names.end(), [](char c) { return std::strchr(",;\"#%", c) != nullptr; }, ' ');
   const NamedColumns columns(words_of(names));
   constexpr size_t kHead = 2000; // bytes; the title of a data file may name its columns
-  const bool announces_atoms = text.substr(0, kHead).find(" atoms") != std::string::npos;
-  return !announces_atoms && columns.missing(false, false).empty() && columns.has({"x"}) &&
-                 columns.has({"y"}) && columns.has({"z"})
-             ? ParticleFile::Table
-             : ParticleFile::Data;
+  const std::string head = text.substr(0, kHead);
+  const auto has = [&](const char *part) { return head.find(part) != std::string::npos; };
+  if (!has(" atoms") && columns.missing(false, false).empty() && columns.has({"x"}) &&
+      columns.has({"y"}) && columns.has({"z"}))
+    return ParticleFile::Table;
+  const bool data = has(" atoms") || has(" atom types") || has("lo xhi") || has("\nAtoms");
+  return data || text.empty() ? ParticleFile::Data : ParticleFile::Other;
 }
 
 ParticleData parse_dump(const std::string &text, const DataFormat &format, Mistakes &mistakes) {

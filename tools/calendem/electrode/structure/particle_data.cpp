@@ -138,6 +138,7 @@ ParticleData in_the_box(AtomRows &rows, const Eigen::Vector3d &low, const Eigen:
   ParticleData out;
   out.box = format.length_um * (high - low);
   out.molecules = rows.molecules();
+  out.labels = rows.labels();
   for (DataParticle &p : rows.good())
     if (put_into_box(p, low, high, format, mistakes))
       out.particles.push_back(p);
@@ -156,6 +157,14 @@ ParticleData parse_particle_data(const std::string &file, const DataFormat &form
   style = "";
   if (const ParticleFile kind = kind_of_particle_file(text); kind != ParticleFile::Data) {
     style = kColumnsAreNamed;
+    if (kind == ParticleFile::Other) {
+      mistakes.add(0,
+                   "this is no data file of LAMMPS or LIGGGHTS (no line announces atoms), no dump "
+                   "(ITEM: TIMESTEP) and no table of spheres (a first line that names x, y, z and "
+                   "r or d). It begins with '{}'. Give one of these.",
+                   plain.text.substr(0, std::min<size_t>(plain.text.find('\n'), 60)));
+      return {};
+    }
     return kind == ParticleFile::Dump ? parse_dump(text, format, mistakes)
                                       : parse_sphere_table(text, format, mistakes);
   }

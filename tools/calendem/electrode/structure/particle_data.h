@@ -39,6 +39,7 @@ struct DataParticle {
 struct ParticleData {
   Eigen::Vector3d box = Eigen::Vector3d::Zero(); ///< sides
   bool molecules = false;                        ///< the rows have a column for them
+  std::map<std::string, std::string> labels;     ///< number of each of Atom Type Labels
   std::vector<DataParticle> particles;           ///< in the order of the file
 };
 
@@ -51,8 +52,8 @@ std::string columns_of(const std::string &atom_style);
 ParticleData read_particle_data(const std::string &file, const DataFormat &format,
                                 Mistakes &mistakes);
 
-/// What its first line says.
-enum class ParticleFile { Data, Dump, Table };
+/// What its first line says, and of a data file a line of its header or its section Atoms.
+enum class ParticleFile { Data, Dump, Table, Other };
 ParticleFile kind_of_particle_file(const std::string &text);
 
 /// A frame of a dump, whose columns are named. Further mistakes: another box than the stated
@@ -97,8 +98,9 @@ public:
   /// `types`: as many as the header announces.
   void read(int line, std::vector<std::string> words, long types);
 
-  size_t rows() const { return rows_; }               ///< good and bad
-  bool molecules() const { return molecules_; }       ///< there is a column for them
+  size_t rows() const { return rows_; }         ///< good and bad
+  bool molecules() const { return molecules_; } ///< there is a column for them
+  const std::map<std::string, std::string> &labels() const { return number_of_label_; }
   std::vector<DataParticle> &good() { return good_; } ///< in the units of the file
 
 private:

@@ -83,8 +83,22 @@ void check_phases(const LabelImage &image, const PhaseLabels &phases) {
   mistakes.stop_if_any();
 }
 
+namespace {
+
+void say_how_long(const LabelImage &image) {
+  constexpr double kShort = 5.0, kSecondsEach = 1.0; // of a million voxels
+  const double millions = 1e-6 * double(image.label.size());
+  if (millions * kSecondsEach > kShort)
+    fmt::print(stderr,
+               "note: {}: {:.1f} million voxels are separated into particles, in about {:.0f} s.\n",
+               image.file, millions, kSecondsEach * millions);
+}
+
+} // namespace
+
 LabelImage separate_particles(const LabelImage &image, const PhaseLabels &phases, double neck) {
   check_phases(image, phases);
+  say_how_long(image);
   const auto watershed = itk::MorphologicalWatershedImageFilter<Numbers, Basins>::New();
   watershed->SetInput(depth_of(image, phases.am));
   watershed->SetLevel(float(-std::log(neck)));
