@@ -122,7 +122,7 @@ std::vector<Answer> by_augmentations(const Diagnosis &d, const std::vector<Candi
   for (Index i = 1; i < here.rows(); ++i)
     if (std::make_pair(chances(i), -here(i)) < std::make_pair(chances(first), -here(first)))
       first = i;
-  Answer one{"augmented", {}, true}, sum{"augmented, sum", {}, false};
+  Answer one{"augmented", {}, true}, sum{"augmented sum", {}, false};
   if ((least.array() <= chances(first)).cast<double>().mean() < kLevel)
     one.named = {first < effects ? name_of(d, all[std::size_t(first) + 1].change) : "unknown"};
   if (shares_beyond(here.colwise().sum(), worlds.colwise().sum())(0) < kLevel)
