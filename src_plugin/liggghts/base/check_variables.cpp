@@ -53,8 +53,13 @@ std::string first_unknown(const std::set<std::string> &known, const std::string 
         std::min_element(known.begin(), known.end(), [&](const auto &a, const auto &b) {
           return distance(a, name) < distance(b, name);
         });
-    return "-var " + name + ": the scripts declare no such variable. Did you mean '" + *nearest +
-           "'? " + last_file + " lists all";
+    return std::string("-var ")
+        .append(name)
+        .append(": the scripts declare no such variable. Did you mean '")
+        .append(*nearest)
+        .append("'? ")
+        .append(last_file)
+        .append(" lists all");
   }
   return "";
 }

@@ -31,8 +31,8 @@ Files thrown_bodies(double between = kSite) {
   std::vector<BodySphere> all;
   int body = 0, n = 0;
   for (int site = 0; site < kSites * kSites * kSites; ++site) {
-    const Vec3 centre = {between * (site % kSites), between * (site / kSites % kSites),
-                         between * (site / kSites / kSites)};
+    const int column = site % kSites, row = site / kSites % kSites, layer = site / kSites / kSites;
+    const Vec3 centre = {between * column, between * row, between * layer};
     ++body;
     std::vector<BodySphere> made;
     if (site % 4 == 0) {

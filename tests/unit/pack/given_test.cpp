@@ -193,7 +193,7 @@ TEST_F(GivenFilm, TheOrderOfTheRowsDoesNotMatter) {
   const size_t rows = text.find("# sphere\n\n") + 10;
   std::istringstream lines(text.substr(rows));
   for (std::string line; std::getline(lines, line);)
-    backwards = line + "\n" + backwards;
+    backwards.insert(0, line + "\n");
   const Recipe recipe = recipe_with(kTable);
   std::ofstream(recipe.structure.file) << text.substr(0, rows) << backwards;
   const PackInput other = read_input(recipe);

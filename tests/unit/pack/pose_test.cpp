@@ -56,11 +56,12 @@ TEST(MeasureEnvelope, CountsOverlapsOnce) {
   const Recipe recipe = cell(15.0);
   const double d = 1.316, sphere = kPi / 6.0 * d * d * d;
   std::vector<Particle> particles;
-  for (int k = 0; k < 100; ++k) // pairs at one place, clear of the next
-    particles.push_back({k + 1, 2, d, 1.0,
-                         Eigen::Vector3d(1.4 * (k / 2 % 10) + 0.03 * (k / 2), 1.5 * (k / 20),
-                                         10.0 + 0.017 * (k / 2)),
-                         0});
+  for (int k = 0; k < 100; ++k) { // pairs at one place, clear of the next
+    const int pair = k / 2, column = pair % 10, row = pair / 10;
+    particles.push_back(
+        {k + 1, 2, d, 1.0,
+         Eigen::Vector3d(1.4 * column + 0.03 * pair, 1.5 * row, 10.0 + 0.017 * pair), 0});
+  }
   EXPECT_NEAR(measure_envelope(recipe, particles).total / (50.0 * sphere), 1.0, 0.01);
 }
 

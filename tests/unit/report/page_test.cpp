@@ -9,7 +9,6 @@
 
 using namespace calendem::report;
 using calendem_test::data_in;
-using calendem_test::without_scripts;
 
 namespace {
 

@@ -10,7 +10,6 @@
 namespace {
 using namespace calendem;
 using namespace calendem_test;
-namespace fs = std::filesystem;
 
 constexpr double kArea = 100.0; // mm2, so that 100 N are 1 MPa
 

@@ -2,6 +2,7 @@
 // Requirement, formulas and tolerances: README.md of this folder.
 #include <Eigen/Dense>
 #include <cmath>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -85,11 +86,11 @@ TEST(VerificationBeam, ThreePointBending) {
     const double unit = cantilever(n / 2, 0.5), P = 1e-6 * n * l / unit, dt = 5e-5;
     const Rest r = rest_of(n, 1.0 / unit, dt);
     const std::string ends = "1 " + std::to_string(n + 1), middle = std::to_string(n / 2 + 1);
-    const CaseRun run = run_chain(chain(n),
-                                  "group ends id " + ends + "\ngroup middle id " + middle +
-                                      "\nfix load middle addforce 0 0 " + number(P) + "\n" +
-                                      drag(r.drag) + "fix supports ends setforce NULL NULL 0.0\n",
-                                  dt, r.steps, r.steps, "0.2");
+    std::ostringstream bend;
+    bend << "group ends id " << ends << "\ngroup middle id " << middle
+         << "\nfix load middle addforce 0 0 " << number(P) << "\n"
+         << drag(r.drag) << "fix supports ends setforce NULL NULL 0.0\n";
+    const CaseRun run = run_chain(chain(n), bend.str(), dt, r.steps, r.steps, "0.2");
     const auto frames = run.frames();
     ASSERT_EQ(frames.size(), 2u) << run.why();
     const double e = frames[1][n / 2].at("z") / (P * unit) - 1.0;
@@ -106,12 +107,11 @@ TEST(VerificationBeam, TorsionChain) {
     const double pair = std::sqrt(2.0 * G * J / (l * I_s));
     const long steps = 1000 * std::lround(1.0 + 0.025 / (0.2 * slowest * slowest / pair) / dt);
     const std::string tip = std::to_string(n + 1);
-    const CaseRun run = run_chain(
-        chain(n),
-        "unfix integrate\ngroup held id 1 " + tip +
-            "\ngroup free subtract all held\nfix integrate free nve/sphere\nset atom " + tip +
-            " omegax " + number(spin) + "\nrun 1000\nset atom " + tip + " omegax 0\n",
-        dt, steps, 1000, "0.2");
+    std::ostringstream turn;
+    turn << "unfix integrate\ngroup held id 1 " << tip
+         << "\ngroup free subtract all held\nfix integrate free nve/sphere\nset atom " << tip
+         << " omegax " << number(spin) << "\nrun 1000\nset atom " << tip << " omegax 0\n";
+    const CaseRun run = run_chain(chain(n), turn.str(), dt, steps, 1000, "0.2");
     const auto frames = run.frames();
     ASSERT_GT(frames.size(), 1u) << run.why();
     const double moment = G * J * angle / (n * l);
@@ -182,8 +182,9 @@ TEST(VerificationBeam, FirstFrequency) {
   const auto frames = run.frames();
   ASSERT_GT(frames.size(), 99u) << run.why();
   double worst = 0.0;
+  const long stride = steps / 100;
   for (size_t k = 0; k < frames.size(); ++k) {
-    const double expected = std::cos(2.0 * std::asin(0.5 * mode.omega * dt) * k * (steps / 100));
+    const double expected = std::cos(2.0 * std::asin(0.5 * mode.omega * dt) * k * stride);
     worst = std::fmax(worst, std::fabs(frames[k][n].at("vz") / 1e-4 - expected));
   }
   std::printf("first mode of 20 bonds, %.6g rad/us: two periods depart by %.1e\n", mode.omega,

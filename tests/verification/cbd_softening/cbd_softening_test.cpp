@@ -19,9 +19,11 @@ Files layer() {
   std::ostringstream data;
   data << "layer\n\n5 atoms\n4 atom types\n\n0 5 xlo xhi\n0 5 ylo yhi\n0 4 zlo zhi\n\nAtoms\n\n"
        << "5 1 0.4 4.65 0.3 0.3 0.6\n";
-  for (int n = 0; n < 4; ++n)
-    data << n + 1 << " 2 " << kDiameter << " 0.915 " << 1.25 + 2.5 * (n % 2) << " "
-         << 1.25 + 2.5 * (n / 2) << " " << 0.5 * kDiameter << "\n";
+  for (int n = 0; n < 4; ++n) {
+    const int column = n % 2, row = n / 2;
+    data << n + 1 << " 2 " << kDiameter << " 0.915 " << 1.25 + 2.5 * column << " "
+         << 1.25 + 2.5 * row << " " << 0.5 * kDiameter << "\n";
+  }
   return {{"electrode.data", data.str()},
           {"bodies.map", "5 1\n"},
           {"electrode.in",

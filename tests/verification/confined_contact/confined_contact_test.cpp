@@ -87,7 +87,7 @@ TEST(VerificationConfinedContact, ImpactLosesNothing) {
     worst = std::fmax(worst, std::fabs((row.at("kinetic") + row.at("elastic")) / start - 1.0));
     deepest = std::fmax(deepest, 2 * R - row.at("z") + row.at("z_low"));
   }
-  const Row last = rows.back();
+  const Row &last = rows.back();
   const double restitution = (last.at("v") - last.at("v_low")) / 400.0;
   std::printf("impact to x = %.3f: restitution - 1 %.1e, ledger %.1e\n", deepest / (2 * R),
               restitution - 1.0, worst);

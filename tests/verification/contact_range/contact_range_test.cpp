@@ -74,7 +74,9 @@ std::map<std::string, ContactRange> expected() {
 void expect_by_hand(const CaseRun &run) {
   ASSERT_TRUE(run.finished()) << run.why();
   double worst = 0.0;
-  for (const auto &[file, r] : expected()) {
+  for (const auto &entry : expected()) {
+    const std::string &file = entry.first;
+    const ContactRange &r = entry.second;
     const Row row = run.rows(file + ".csv").back();
     EXPECT_EQ(row.at("contacts"), r.of[ContactRange::kContacts]) << file;
     const auto near = [&](const char *what, double by_hand) {

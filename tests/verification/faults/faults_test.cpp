@@ -52,9 +52,11 @@ constexpr int kChains = 36, kBonds = 8, kStretch = 400;
 Files chains() {
   std::vector<BodySphere> all;
   for (int c = 0; c < kChains; ++c)
-    for (int k = 0; k <= kBonds; ++k)
+    for (int k = 0; k <= kBonds; ++k) {
+      const int column = c % 6, row = c / 6;
       all.push_back(
-          {{(k - 0.5 * kBonds) * 1.28, 3.0 * (c % 6) - 7.4, 3.0 * (c / 6) - 7.4}, 0.795, c + 1});
+          {{(k - 0.5 * kBonds) * 1.28, 3.0 * column - 7.4, 3.0 * row - 7.4}, 0.795, c + 1});
+    }
   return files_of(all, {-9, -9, -9}, {9, 9, 9});
 }
 
@@ -64,7 +66,7 @@ std::string pull() {
          "*x\nfix pull all move variable NULL NULL NULL v_v NULL NULL units box\n";
 }
 
-CaseRun stretch(Settings settings, int ranks, Files files) {
+CaseRun stretch(Settings settings, int ranks, const Files &files) {
   settings.insert({{"Ey", "1e3"},
                    {"friction", "0"},
                    {"ced", "0"},

@@ -23,7 +23,7 @@ CaseRun roll(const std::vector<BodySphere> &spheres, const Settings &of_roll, Se
   Files files = files_of(spheres, {0, 0, 0}, {kSide, kSide, 12});
   std::string start;
   for (const auto &[name, value] : of_roll)
-    start += "variable " + name + " index " + value + "\n";
+    start.append("variable ").append(name).append(" index ").append(value).append("\n");
   files["start.in"] += start + "include ${cases}/roll/in.roll\n";
   return CaseRun("in.body", settings, ranks, files);
 }

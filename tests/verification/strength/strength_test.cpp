@@ -24,8 +24,10 @@ Files chains_of(int bonds, int chains) {
   const int row = static_cast<int>(std::ceil(std::sqrt(chains)));
   std::vector<BodySphere> all;
   for (int k = 0; k <= bonds; ++k)
-    for (int c = 0; c < chains; ++c)
-      all.push_back({{k * kLength, 3.0 * (c % row), 3.0 * (c / row)}, 0.795, c + 1});
+    for (int c = 0; c < chains; ++c) {
+      const int y = c % row, z = c / row;
+      all.push_back({{k * kLength, 3.0 * y, 3.0 * z}, 0.795, c + 1});
+    }
   const double wide = 3.0 * row;
   return files_of(all, {-5, -5, -5}, {bonds * kLength + 5, wide, wide});
 }
@@ -89,8 +91,10 @@ double radius_of(int k) { return 0.72 + 0.025 * (k % 4); }
 Files bodies_of_four_sizes(const std::string &before = "") {
   std::vector<BodySphere> all;
   for (int body = 1; body <= kBodies; ++body)
-    for (int k = 0; k < spheres_of(body); ++k)
-      all.push_back({{k * kLength, 3.0 * (body % 20), 3.0 * (body / 20)}, radius_of(k), body});
+    for (int k = 0; k < spheres_of(body); ++k) {
+      const int y = body % 20, z = body / 20;
+      all.push_back({{k * kLength, 3.0 * y, 3.0 * z}, radius_of(k), body});
+    }
   Files files = files_of(all, {-5, -5, -5}, {16 * kLength + 5, 65, 65});
   const double rate = kUpto * kMean / E / (kSteps * 1e-4);
   files["start.in"] += "unfix integrate\nvariable v atom " + number(rate) +

@@ -32,7 +32,7 @@ std::string materials(int types, const std::string &last_modulus) {
 }
 
 // A bonded pair that falls onto a wall, and a sphere that meets it.
-CaseRun fall(int types, Settings settings, const std::string &more = "",
+CaseRun fall(int types, const Settings &settings, const std::string &more = "",
              const std::string &last_modulus = "${Ey}") {
   Files files = files_of({{{3.0, 3.0, 0.9}, 0.795, 1, {0.3, 0.0, -2.0}},
                           {{4.3, 3.0, 0.9}, 0.795, 1, {0.3, 0.0, -2.0}},

@@ -53,7 +53,7 @@ struct Errors {
   double force, ledger; ///< in parts of the largest force, of the largest work
 };
 
-Errors pressed(double touch, double R_eff, double speed, Settings settings) {
+Errors pressed(double R_eff, double speed, Settings settings) {
   settings["every"] = "1";
   const CaseRun run("plastic_contact/in.press", settings);
   EXPECT_TRUE(run.finished()) << run.why();
@@ -79,7 +79,7 @@ Errors pressed(double touch, double R_eff, double speed, Settings settings) {
 // Speeds at which the branch relaxes all along and hardly at all.
 TEST(VerificationViscousContact, SpheresFollowTheLaw) {
   for (const double speed : {0.02, 0.2}) {
-    const Errors e = pressed(2 * R, 0.5 * R, speed, viscous(2 * R, speed));
+    const Errors e = pressed(0.5 * R, speed, viscous(2 * R, speed));
     std::printf("spheres at %g um/us: force %.1e, ledger %.1e\n", speed, e.force, e.ledger);
     EXPECT_LT(e.force, 1e-9);
     EXPECT_LT(e.ledger, 1e-5);
@@ -89,7 +89,7 @@ TEST(VerificationViscousContact, SpheresFollowTheLaw) {
 TEST(VerificationViscousContact, SphereAndWallFollowTheLaw) {
   Settings settings = viscous(R, 0.1);
   settings["wall"] = "1";
-  const Errors e = pressed(R, R, 0.1, settings);
+  const Errors e = pressed(R, 0.1, settings);
   std::printf("wall: force %.1e, ledger %.1e\n", e.force, e.ledger);
   EXPECT_LT(e.force, 1e-9);
   EXPECT_LT(e.ledger, 1e-5);
@@ -109,7 +109,7 @@ TEST(VerificationViscousContact, ImpactKeepsItsLedger) {
   for (const Row &row : rows)
     worst = std::fmax(
         worst, std::fabs((row.at("kinetic") + row.at("elastic") + row.at("taken")) / start - 1.0));
-  const Row last = rows.back();
+  const Row &last = rows.back();
   const double restitution = (last.at("v") - last.at("v_low")) / 0.5;
   std::printf("impact: restitution %.4f, ledger %.1e\n", restitution, worst);
   ASSERT_EQ(last.at("f"), 0.0) << "still in contact";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "simulate/study.h"
 #include "base/messages.h"
+#include "base/provenance.h"
 #include "commands/commands.h"
 #include "report/study_page.h"
 #include "simulate/sample.h"

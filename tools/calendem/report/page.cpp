@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/page.h"
 #include <algorithm>
+#include <fmt/format.h>
 #include <stdexcept>
 #include <vector>
 
@@ -107,7 +108,7 @@ void add_provenance(const std::string &name, const std::string &prefix,
     if (is_path || value.is_array())
       add_provenance(name, is_path ? key : "", part, rows);
     else
-      add_provenance(name.empty() ? named : name + ": " + named, "", part, rows);
+      add_provenance(name.empty() ? named : fmt::format("{}: {}", name, named), "", part, rows);
   }
 }
 

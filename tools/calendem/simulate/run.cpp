@@ -237,7 +237,7 @@ std::string run_identity(const Settings &settings, const std::string &tools) {
   std::string identity = tools;
   for (const auto &[key, value] : settings.all())
     if (key != "electrode")
-      identity += key + "=" + value + "\n";
+      identity.append(key).append("=").append(value).append("\n");
   return identity;
 }
 

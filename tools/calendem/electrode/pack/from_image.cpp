@@ -260,8 +260,8 @@ private:
     const PhaseImage &p = film_.phases;
     for (size_t v = 0; v < p.label.size(); ++v)
       if (p.label[v] == label) {
-        const Eigen::Array3d at(double(v % p.n[0]), double(v / p.n[0] % p.n[1]),
-                                double(v / p.n[0] / p.n[1]));
+        const size_t x = v % p.n[0], y = v / p.n[0] % p.n[1], z = v / p.n[0] / p.n[1];
+        const Eigen::Array3d at(x, y, z);
         out.push_back((at + 0.5) * p.voxel.array());
       }
     return out;
