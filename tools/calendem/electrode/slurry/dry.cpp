@@ -26,9 +26,9 @@ std::string identity_of(const FilmRecipe &f, const std::string &liggghts,
                         std::initializer_list<const char *> steps) {
   std::string text = version() + hash_of_file(liggghts);
   for (const char *step : steps)
-    text += hash_of_file(fmt::format("{}/in.{}", input_scripts(), step));
+    text += hash_of_file(input_scripts() + "/in." + step);
   for (const auto &[key, value] : f.recipe.settings.all())
-    text += key + "=" + value + "\n";
+    text.append(key).append("=").append(value).append("\n");
   return hash_of_text(text + hash_of_shapes(f.recipe));
 }
 
