@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# packaging_test.sh installed|copied_clone|deb BUILD: one case. Exit status 0 passed, 1 failed, 77 skipped.
+# packaging_test.sh installed|copied_clone|deb BUILD: one case; prefix PREFIX: of what is installed there. Exit status 0 passed, 1 failed, 77 skipped.
 set -euo pipefail
 case=$1 build=$2
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
@@ -28,6 +28,7 @@ runs_from() { # PREFIX
   ! grep -lrF "$top/" out || fail "these files name the source tree"
 }
 case $case in
+  prefix) runs_from "$build" ;;
   installed)
     cmake --install "$build" --prefix "$work/prefix" >"$work/install.log" || { cat "$work/install.log"; exit 1; }
     mv "$work/prefix" "$work/moved" # an installation may be moved
