@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# packaging_test.sh installed|copied_clone|deb BUILD: one case. Exit status 0 passed, 1 failed, 77 skipped.
+# packaging_test.sh installed|copied_clone|deb BUILD: one case; prefix PREFIX: of what is installed there. Exit status 0 passed, 1 failed, 77 skipped.
 set -euo pipefail
 case=$1 build=$2
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
@@ -15,7 +15,7 @@ runs_from() { # PREFIX
   local version calendem=$1/bin/calendem examples=$1/share/calendem/input_scripts/cases
   version=$(sed -n 's/^project(Calendem VERSION \([0-9.]*\).*/\1/p' "$top/CMakeLists.txt")
   [ "$("$calendem" --version)" = "$version" ] || fail "--version is not $version"
-  for program in "$1"/bin/*; do ! grep -qF "$top/" "$program" || fail "$program names the source tree"; done
+  for program in "$1"/bin/*; do [ -d "$program" ] || ! grep -qF "$top/" "$program" || fail "$program names the source tree"; done
   "$calendem" validate "$examples"/demo/*.toml "$examples"/small/*.toml || fail "the installed examples are not valid"
   cp -r "$examples/small" "$work/small"
   cd "$work/small"
@@ -28,6 +28,7 @@ runs_from() { # PREFIX
   ! grep -lrF "$top/" out || fail "these files name the source tree"
 }
 case $case in
+  prefix) runs_from "$build" ;;
   installed)
     cmake --install "$build" --prefix "$work/prefix" >"$work/install.log" || { cat "$work/install.log"; exit 1; }
     mv "$work/prefix" "$work/moved" # an installation may be moved
