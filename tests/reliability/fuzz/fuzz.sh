@@ -30,7 +30,9 @@ vtk=$(find /usr/include -maxdepth 1 -name 'vtk-9*' | head -n 1) # the Debian pac
 [ -n "$vtk" ] || { echo "skipped: no headers of VTK in /usr/include"; exit 77; }
 itk=$(find /usr/include -maxdepth 1 -name 'ITK-5*' | head -n 1)
 [ -n "$itk" ] || { echo "skipped: no headers of ITK in /usr/include"; exit 77; }
-options+=(-isystem "$vtk" -isystem "$itk")
+# ITK's templates add offsets to null pointers, which UBSan takes for a fault of the reader that has them.
+printf '[undefined]\nsrc:%s/*\n' "$itk" >"$work/of_others"
+options+=(-isystem "$vtk" -isystem "$itk" "-fsanitize-ignorelist=$work/of_others")
 libraries=("-lITKCommon${itk##*/ITK}" "-litkvnl${itk##*/ITK}" "-litkvnl_algo${itk##*/ITK}" "-litksys${itk##*/ITK}" -lfmt -lcrypto -lz -ltiff -lpng -lminizip)
 for name in IOImage IOXML ImagingMorphological ImagingGeneral FiltersCore CommonExecutionModel CommonDataModel CommonMath CommonMisc \
   CommonCore sys; do
