@@ -16,9 +16,13 @@
 #include "base/messages.h"
 #include "base/plain_text.h"
 #include "base/recipe.h"
+#include "electrode/pack/from_image.h"
+#include "electrode/pack/from_structure.h"
+#include "electrode/pack/measured_bodies.h"
 #include "electrode/slurry/dry.h"
 #include "electrode/structure/existing_structure.h"
 #include "electrode/tomogram.h"
+#include "press/press_curve.h"
 #include "simulate/study_file.h"
 
 namespace {
@@ -55,6 +59,57 @@ void csv(const std::string &text) {
                (table.ambiguous() + table.guess()).find('\r') == text.npos);
 }
 
+// The first byte says whether the disc's size is known; the export follows.
+void press(const std::string &text) {
+  if (text.empty())
+    return;
+  put(file(), text.substr(1));
+  calendem::PressFormat format;
+  format.area_mm2 = text[0] & 1 ? 95.0 : 0.0;
+  const calendem::PressExport from = calendem::read_press_export(file(), format);
+  calendem::PressCurve curve = calendem::make_press_curve(file(), from, 0.2);
+  calendem::subtract_machine(curve, curve);
+  demand(curve.contact < from.pressure.size() && curve.pressure.size() == curve.stage.size() &&
+         curve.pressure.size() == curve.displacement.size());
+  const calendem::CsvTable table =
+      calendem::CsvTable::parse(calendem::curve_table(curve, "# [press]\n"));
+  demand(table.rows() == curve.pressure.size() && table.bad_lines().empty());
+}
+
+// An image of 1 to 16 voxels along each axis (bytes 0 to 2) whose labels -1 to 2 follow, as NumPy has
+// it; byte 3: its phases are named, it is the electrode itself, which axis leads up. Particles are
+// separated, made shapes and put into the film.
+void image_places(const std::string &text) {
+  if (text.size() < 4)
+    return;
+  const auto size = [&](int k) { return (text[k] & 15) + 1; };
+  std::string labels = text.substr(4);
+  labels.resize(std::size_t(size(0)) * size(1) * size(2));
+  for (char &c : labels)
+    c = char((c & 3) - 1);
+  std::string head = "{'descr': '|i1', 'fortran_order': False, 'shape': (" +
+                     std::to_string(size(2)) + ", " + std::to_string(size(1)) + ", " +
+                     std::to_string(size(0)) + "), }";
+  head.resize(117, ' ');
+  put(folder() + "/image.npy", std::string("\x93NUMPY\x01\0v\0", 10) + head + "\n" + labels);
+  const bool places = text[3] & 2;
+  const char *const upwards[] = {"z", "x", "-y", "-z"};
+  put(file(), std::string("[particles]\nlattice_um = 0.8\nprimary_diameter_um = 1\n[shapes]\n"
+                          "image = \"image.npy\"\nvoxel_size_um = 1\n") +
+                  (text[3] & 1 ? "phases = { pore = 0, am = 1, cbd = 2 }\n" : "background = -1\n") +
+                  (places ? std::string("places = \"image\"\nupwards = \"") +
+                                upwards[text[3] >> 2 & 3] + "\"\n"
+                          : ""));
+  const calendem::Recipe recipe = calendem::read_recipe(file());
+  if (!places)
+    return demand(!calendem::library_of(recipe).shapes.empty());
+  const calendem::PackInput in = calendem::read_input(recipe);
+  demand(in.image->shapes.size() == in.structure.am.size() && in.recipe.loading > 0.0);
+  for (const auto *phase : {&in.structure.am, &in.structure.cbd})
+    for (const calendem::ExistingSphere &s : *phase)
+      demand(s.x.allFinite() && s.x.z() > 0.0 && s.x.z() < in.structure.thickness);
+}
+
 // The first byte says how the data file is to be read; the file follows.
 void structure(const std::string &text) {
   if (text.empty())
@@ -67,8 +122,8 @@ void structure(const std::string &text) {
   source.z_periodic = text[0] & 4;
   source.clusters = text[0] & 8;
   source.body_map = text[0] & 16 ? file() : "";
-  source.am_types = {1, 2};
-  source.cbd_types = {3};
+  source.am_types = {"1", "2"};
+  source.cbd_types = {"3"};
   source.densities_of_file = !(text[0] & 32);
   source.side_x = source.side_y = 12.0;
   const calendem::ExistingStructure g = calendem::read_structure(source);
@@ -129,11 +184,18 @@ void tomogram(const std::string &) {
 using Reader = void (*)(const std::string &);
 
 Reader wanted() {
-  static const std::map<std::string, Reader> readers = {
-      {"recipe", recipe},    {"case_", case_},           {"experiment", experiment},
-      {"csv", csv},          {"structure", structure},   {"study", study},
-      {"bank", bank},        {"bank_table", bank_table}, {"film", film},
-      {"tomogram", tomogram}};
+  static const std::map<std::string, Reader> readers = {{"recipe", recipe},
+                                                        {"case_", case_},
+                                                        {"experiment", experiment},
+                                                        {"csv", csv},
+                                                        {"press", press},
+                                                        {"image_places", image_places},
+                                                        {"structure", structure},
+                                                        {"study", study},
+                                                        {"bank", bank},
+                                                        {"bank_table", bank_table},
+                                                        {"film", film},
+                                                        {"tomogram", tomogram}};
   return readers.at(from_environment("FUZZ_TARGET"));
 }
 

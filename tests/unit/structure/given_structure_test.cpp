@@ -40,6 +40,18 @@ TEST(ExistingStructure, PhasesFollowTheTypesAndHeightsTheLowestPoint) {
   EXPECT_EQ(g.thickness, g.extent);
 }
 
+TEST(ExistingStructure, AFileWithoutActiveMaterialIsRefused) {
+  expect_parts(refusal([] {
+                 read_structure(source(kData + "lammps_micro.data", {}, {"1", "2", "3"}));
+               }),
+               {"has no particle of active material", "structure.am_types"});
+  StructureSource s = source((test_folder() / "a.csv").string(), {"1"}, {});
+  std::ofstream(s.file) << "x y z r\n";
+  s.densities_of_file = false;
+  s.side_x = s.side_y = 12.0;
+  expect_parts(refusal([&] { read_structure(s); }), {"has no particle of active material"});
+}
+
 TEST(ExistingStructure, TypesAreNamedByTheLabelsOfTheFile) {
   const std::string file = (test_folder() / "labels.data").string();
   std::ofstream(file) << "t\n\n3 atoms\n3 atom types\n\n0 9 xlo xhi\n0 9 ylo yhi\n0 6 zlo zhi\n\n"

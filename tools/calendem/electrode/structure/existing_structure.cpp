@@ -155,6 +155,10 @@ ExistingStructure read_structure(const StructureSource &s) {
     else
       ++g.left_out;
   }
+  if (g.am.empty() && mistakes.empty())
+    mistakes.add(0,
+                 "it has no particle of active material. Give the whole file, and the types of its "
+                 "active material in structure.am_types.");
   sort_by_id(g.am);
   sort_by_id(g.cbd);
   if (s.clusters && !s.body_map.empty()) {
