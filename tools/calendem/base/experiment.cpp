@@ -56,7 +56,8 @@ const std::vector<Key> &head_keys() {
        "standard deviation of the thickness between specimens, where compared in um"},
       {"material", "", "-", 0, 0, "",
        "name of the powder and binder, for calibrate: films of one material share its parameters, "
-       "those of others have similar ones. Default: all that name none are of one, 'unnamed'",
+       "those of others have similar ones. Default: 'unnamed', the same for all films that name "
+       "none",
        "", true},
   };
   return keys;

@@ -89,17 +89,18 @@ std::vector<Key> shape_keys() {
       {"shapes.upwards", "", "z", 0, 0, "",
        "axis of the image that runs from the collector up; with - it runs down", "z|x|y|-z|-x|-y"},
       {"shapes.crop.x_um", "", "0", -1000, 1000, "um",
-       "of the crop's middle from the image's; its sides are those of the cell, or the image's"},
+       "offset of the crop's middle from the image's; its sides are those of the cell, or the "
+       "image's"},
       {"shapes.crop.y_um", "", "0", -1000, 1000, "um",
-       "of the crop's middle from the image's; its sides are those of the cell, or the image's"},
+       "offset of the crop's middle from the image's; its sides are those of the cell, or the "
+       "image's"},
       {"shapes.crop.low_um", "", "0", 0, 1000, "um", "height in the image where the crop begins"},
       {"shapes.crop.high_um", "", "0", 0, 1000, "um",
        "height in the image where the crop ends; 0: its top"},
       label_key("pore", "label of the pores in an image of phases"),
-      label_key("am",
-                "label of the active material, which is separated into particles; that of the "
-                "pores: the image's labels are particles"),
-      label_key("cbd", "label of carbon and binder; that of the pores: there is none"),
+      label_key("am", "label of the active material, which is separated into particles; if it is "
+                      "that of the pores, the image's labels are particles"),
+      label_key("cbd", "label of carbon and binder; if it is that of the pores, there is none"),
   };
 }
 

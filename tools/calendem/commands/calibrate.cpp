@@ -164,11 +164,12 @@ void add_calibrate_verb(CLI::App &app) {
   verb->add_option("-o,--output", o->folder, "folder for model.json, case.toml and model.html")
       ->required();
   verb->add_option("--bank", o->bank, "bank (TOML) with its table (CSV) beside it");
-  verb->add_option("--samples", o->settings.samples, "that the posterior is sampled with")
+  verb->add_option("--samples", o->settings.samples, "number of samples of the posterior")
       ->check(CLI::Range(64, 1 << 20));
-  add_run_options(*verb, o->runs, o->study, "--confirm",
-                  "so many simulations of every film at every pressure, each with another draw of "
-                  "the material on another packing");
+  add_run_options(
+      *verb, o->runs, o->study, "--confirm",
+      "number of simulations of every film at every pressure, each with another draw of "
+      "the material on another packing");
   verb->callback([o] { run_calibrate(*o); });
 }
 

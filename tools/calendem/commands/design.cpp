@@ -193,22 +193,23 @@ void add_design_verb(CLI::App &app) {
   verb->add_option("--porosity", o->porosity, "wanted total porosity after release [%]")
       ->required()
       ->check(finite_range(1.0, 79.0));
-  verb->add_option("--within", o->within, "points of porosity that it may be off (default 1)")
+  verb->add_option("--within", o->within, "allowed deviation from it in points (default 1)")
       ->check(finite_range(0.01, 20.0));
-  verb->add_option("--cracked-below", o->cracked_below, "cracked particles [%]; default: any")
+  verb->add_option("--cracked-below", o->cracked_below,
+                   "limit of the cracked particles [%]; default: none")
       ->check(finite_range(0.1, 100.0));
   verb->add_option("--tortuosity-below", o->tortuosity_below,
-                   "tortuosity factor of the pores through the plane; default: any")
+                   "limit of the tortuosity factor of the pores through the plane; default: none")
       ->check(finite_range(1.0, kMostTortuosity));
   verb->add_option("--pressure", o->pressures,
                    "MPa to choose from: a list or a range; default: the bank's");
   add_run_options(*verb, o->runs, o->study, "--confirm",
-                  "so many simulations of each recipe at the pressure or gap proposed, each with "
+                  "number of simulations of each recipe at the pressure or gap proposed, each with "
                   "another draw of the material on another packing");
   add_gap_options(*verb, *o, "--confirm");
   const CLI::Option *runs =
       add_other_runs(*verb, o->runs, "--runs", "--confirm",
-                     "so many simulations of each recipe at each pressure or gap, instead of the "
+                     "number of simulations of each recipe at each pressure or gap, instead of the "
                      "bank's emulators: "
                      "for electrodes that the bank does not have, such as other particle sizes");
   verb->callback([o, runs] {

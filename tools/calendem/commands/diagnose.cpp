@@ -112,10 +112,10 @@ void add_diagnose_verb(CLI::App &app) {
                    "your model's case (TOML): what acts in it; default: the bank's reference");
   CLI::Option *bank = verb->add_option("--bank", o->bank, "bank (TOML) with its table beside it");
   verb->add_option("--prior", o->prior,
-                   "model.json of calibrate: what other films have taught, and its bank")
+                   "model.json of calibrate, with what other films have taught and its bank")
       ->excludes(bank);
   add_run_options(*verb, o->runs, o->study, "--run",
-                  "so many simulations of the model and of the leading explanation at every "
+                  "number of simulations of the model and of the leading explanation at every "
                   "pressure, each with another draw on another packing");
   verb->callback([o] { run_diagnose(*o); });
 }

@@ -69,7 +69,7 @@ void add_registry_verb(CLI::App &app) {
   };
   auto a = std::make_shared<Arguments>();
   CLI::App *verb =
-      app.add_subcommand("registry", "Writes the scripts and pages that are made from the rows of "
+      app.add_subcommand("registry", "Write the scripts and pages that are made from the rows of "
                                      "settings and effects");
   verb->group(""); // for who changes the program
   verb->add_option("DIR", a->top, "top of the repository")->required();
@@ -86,7 +86,7 @@ void add_effects_verb(CLI::App &app) {
   auto a = std::make_shared<Arguments>();
   CLI::App *verb = app.add_subcommand(
       "effects", "List the effects beyond the base model that can be switched on");
-  verb->add_option("NAME", a->name, "everything about this one");
+  verb->add_option("NAME", a->name, "print all about this effect");
   verb->add_flag("--json", a->json, "as JSON");
   verb->callback([a] {
     if (!a->name.empty())

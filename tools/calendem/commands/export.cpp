@@ -60,7 +60,7 @@ void add_export_verb(CLI::App &app) {
   const auto a = std::make_shared<ExportArguments>();
   CLI::App *verb = app.add_subcommand(
       "export", "Write a moment of a run for PyBaMM, LAMMPS or programs that read images");
-  verb->add_option("RUN", a->run, "directory made by calendem run")->required();
+  verb->add_option("RUN", a->run, "folder made by calendem run")->required();
   verb->add_option("--moment", a->moment, "before, press_1 ..., max or after")
       ->capture_default_str();
   verb->add_option("--bpx", a->bpx, "fragment of a BPX file (JSON): the electrode's structure");

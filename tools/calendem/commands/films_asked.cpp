@@ -45,7 +45,7 @@ void check_covered(const std::vector<double> &pressures, const FilmBank &bank) {
     if (!bank.covers(p))
       throw Failure(kBadInput,
                     "--pressure asks for {:g} MPa; the bank has {:g} to {:g}. Predict it by runs "
-                    "of its own (--runs), or make a bank with more pressures_MPa.",
+                    "of its own (--runs), or make a bank whose case presses to it.",
                     p, bank.pressures().front(), bank.pressures().back());
 }
 
@@ -235,14 +235,15 @@ void add_film_options(CLI::App &verb, FilmOptions &o) {
   verb.add_option("MODEL", o.model, "model.json of calendem calibrate")->required();
   verb.add_option("RECIPE", o.recipes, "electrode recipes (TOML), uncalendered")->required();
   verb.add_option("-o,--output", o.folder, "folder for the page and the data")->required();
-  verb.add_option("--vary", o.vary,
-                  "NAME=VALUE,VALUE: the recipes with these values of one of the bank's parameters "
-                  "of films; several: every combination");
+  verb.add_option(
+      "--vary", o.vary,
+      "NAME=VALUE,VALUE: give one of the bank's film parameters these values in turn; several "
+      "--vary: every combination");
   verb.add_option("--material", o.material,
-                  "name of the films' material, where the model was calibrated on several; other: "
+                  "name of the films' material, if the model was calibrated on several; other: "
                   "one that was not measured");
   verb.add_option("--press-percent", o.press_percent,
-                  "standard deviation of the press's pressure [%]; default 0: as asked for")
+                  "standard deviation of the press's pressure [%]; default 0: exact")
       ->check(finite_range(0.0, 50.0));
 }
 

@@ -128,7 +128,7 @@ void add_predict_verb(CLI::App &app) {
                    "MPa: 20,50,80 or a range 20:300; default: the bank's range");
   add_run_options(
       *verb, o->runs, o->study, "--runs",
-      "so many simulations of each recipe at each pressure or gap, each with another draw of "
+      "number of simulations of each recipe at each pressure or gap, each with another draw of "
       "the material, instead of the bank's emulators: for electrodes and pressures "
       "that the bank does not have");
   add_gap_options(*verb, *o, "--runs");

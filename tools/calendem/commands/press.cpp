@@ -126,16 +126,17 @@ void add_press_verb(CLI::App &app) {
             [o, quantity](const std::string &text) { o->format.columns[quantity] = text; },
             "column: its name or number, and its unit where the name has none (2:kN)")
         ->type_name("COLUMN[:UNIT]");
-  verb->add_option("--decimal", o->decimal, "point or comma, where the file does not tell")
+  verb->add_option("--decimal", o->decimal, "decimal sign, if the file leaves it open")
       ->check(CLI::IsMember({"auto", "point", "comma"}))
       ->capture_default_str();
   verb->add_option("--contact-MPa", o->contact_MPa, "pressure at which contact begins")
       ->check(positive)
       ->capture_default_str();
-  verb->add_option("--blank", o->blank, "export of a run without film: what the press gives way")
+  verb->add_option("--blank", o->blank,
+                   "export of a run without film, for the compliance of the press")
       ->type_name("RAW.csv");
-  verb->add_option("--specimen", o->specimen, "for the curve's head");
-  verb->add_option("--machine", o->machine, "for the curve's head");
+  verb->add_option("--specimen", o->specimen, "name of the specimen, for the curve's head");
+  verb->add_option("--machine", o->machine, "name of the press, for the curve's head");
   verb->add_option("--foil-um", o->foil_um, "thickness of the foil, for the curve's head")
       ->check(positive);
   verb->footer("Columns are known by English, German and French names with N, kN, mN, um, mm, s, "

@@ -87,7 +87,7 @@ void add_report_verb(CLI::App &app) {
   const auto options = std::make_shared<Options>();
   CLI::App *verb = app.add_subcommand(
       "report", "Write one self-contained page with charts and pictures of one or more runs");
-  verb->add_option("DIR", options->directories, "Directories made by calendem run")
+  verb->add_option("DIR", options->directories, "folders made by calendem run")
       ->required()
       ->type_name("");
   verb->add_option("-o,--output", options->page,
@@ -210,20 +210,22 @@ void add_measure_verb(CLI::App &app) {
       "measure",
       "Measure porosity, profiles, surface, contacts and tortuosity of a run or a label image");
   verb->add_option("DIR|IMAGE", a->input,
-                   "directory of a run, or a label image whose z runs from collector to platen")
+                   "folder of a run, or a label image whose z runs from collector to platen")
       ->required();
   verb->add_option("-o,--output", a->output,
                    "folder for structure.csv and structure.json (default: the run's)");
   verb->add_option("--voxel-um", a->voxel_um,
-                   "voxel size: of a run 0.15; of an image, if its file states none or another")
+                   "voxel size; of a run 0.15 by default; of an image, if its file states none or "
+                   "a wrong one")
       ->check(finite_range(0.01, 2.0));
   verb->add_option("--slice-um", a->options.slice_um, "thickness of a slice of the profiles")
       ->capture_default_str()
       ->check(finite_range(0.01, 100.0));
   verb->add_option("--moment", a->options.moment,
-                   "of a run, the only one to measure; releases: the end of each")
+                   "measure only this moment of a run; releases: the end of each release")
       ->check(CLI::IsMember({"before", "max", "after", kReleases}));
-  verb->add_flag("--without-tortuosity", a->without_tortuosity, "it takes most of the time");
+  verb->add_flag("--without-tortuosity", a->without_tortuosity,
+                 "leave out the tortuosity, which takes most of the time");
   verb->add_flag(
       "--images", a->images,
       "write a run's moments, or that of --moment, as label images too: before.mha, max.mha, "
@@ -232,7 +234,7 @@ void add_measure_verb(CLI::App &app) {
       ->capture_default_str();
   verb->add_option("--cbd-label", a->cbd_label, "label of an image's CBD; without it, all is AM");
   verb->add_option("--cbd-nanoporosity-percent", a->nanoporosity_percent,
-                   "of an image's CBD, for the total porosity")
+                   "nanoporosity of an image's CBD, for the total porosity")
       ->capture_default_str()
       ->check(finite_range(0.0, 99.0));
   verb->callback([a, verb] { measure(*a, *verb); });

@@ -150,7 +150,7 @@ void add_collect_verb(CLI::App &app) {
   auto a = std::make_shared<Arguments>();
   CLI::App *verb = app.add_subcommand(
       "collect", "Make the files of a run from what the plain input scripts left");
-  verb->add_option("DIR", a->folder, "what the scripts were given as -var out")->required();
+  verb->add_option("DIR", a->folder, "folder that the scripts wrote (their -var out)")->required();
   verb->add_option("--electrode", a->electrode, "folder of the electrode, if it has moved");
   verb->callback([a] { collect_folder(fs::absolute(a->folder).string(), a->electrode); });
 }
@@ -189,7 +189,7 @@ void add_pack_verb(CLI::App &app) {
   verb->footer(list_of_keys(recipe_keys()));
   verb->add_option("SPEC", a->spec, "recipe (TOML)")->required();
   verb->add_option("-o,--output", a->options.folder, "folder of the electrode")->required();
-  verb->add_option("--seed", a->seed, "instead of the recipe's")
+  verb->add_option("--seed", a->seed, "seed, instead of the recipe's")
       ->check(CLI::Range(0L, 4000000000L));
   verb->add_option("--ranks", a->options.ranks, "MPI ranks")->check(CLI::Range(1, 4096));
   verb->add_flag("--force", a->options.force, "overwrite an electrode of another recipe");

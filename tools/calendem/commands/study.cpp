@@ -26,11 +26,10 @@ void add_bank_verb(CLI::App &app) {
       app.add_subcommand("bank", "Make the simulations that diagnose and calibrate learn from");
   verb->add_option("BANK", o->study.file, "bank (TOML)")->required();
   add_study_options(*verb, o->study);
-  verb->add_option("--from", o->from,
-                   "tables of this bank whose runs are taken and not made again");
-  CLI::Option *check =
-      verb->add_flag("--check", o->check,
-                     "run nothing: how well the emulator predicts packings that are left out");
+  verb->add_option("--from", o->from, "tables of this bank whose runs are used again");
+  CLI::Option *check = verb->add_flag(
+      "--check", o->check,
+      "make no runs: print how well the emulator predicts packings that are left out");
   for (const char *other : {"--only", "--table", "--slurm", "--slurm-dry-run"})
     check->excludes(verb->get_option(other));
   verb->callback([o] {
@@ -50,19 +49,20 @@ void add_study_options(CLI::App &verb, StudyOptions &o) {
   verb.add_option("--ranks", o.ranks, "MPI ranks of each run")->check(CLI::Range(1, 4096));
   CLI::Option *only = verb.add_option("--only", o.only, "make the run of this number and no other")
                           ->check(CLI::Range(1, 1000000));
-  verb.add_option("--step", o.step, "of --only: its packing, or its run if that is there")
+  verb.add_option("--step", o.step,
+                  "with --only: make its packing, or its run if the packing is there")
       ->needs(only)
       ->transform(CLI::CheckedTransformer(std::map<std::string, StudyStep>{
           {"packing", StudyStep::Packing}, {"run", StudyStep::Run}}));
   CLI::Option *table =
-      verb.add_flag("--table", o.table, "make no run, only the table of what there is");
+      verb.add_flag("--table", o.table, "make no runs, only the table of those that are there");
   verb.add_option("--liggghts", o.liggghts, "program with the plugin");
   const auto slurm = [&](CLI::Option *option) { option->excludes(only)->excludes(table); };
-  slurm(verb.add_flag("--slurm", o.slurm.on, "make them as job arrays of Slurm, wait for them"));
+  slurm(verb.add_flag("--slurm", o.slurm.on, "run job arrays of Slurm and wait for them"));
   slurm(verb.add_flag("--slurm-dry-run", o.slurm.dry_run,
                       "write the arrays' scripts, submit nothing"));
   verb.add_option("--sbatch", o.slurm.sbatch,
-                  "options of sbatch for them, as \"--partition=x --time=04:00:00\"")
+                  "options for sbatch, such as \"--partition=x --time=04:00:00\"")
       ->check([](const std::string &s) {
         return s.rfind('-', 0) == 0 && s.find('\n') == std::string::npos
                    ? ""
@@ -70,7 +70,7 @@ void add_study_options(CLI::App &verb, StudyOptions &o) {
                      "--time=04:00:00\", not '" +
                          s + "'";
       });
-  verb.add_option("--slurm-every", o.slurm.every_s, "seconds between looks at Slurm's queue")
+  verb.add_option("--slurm-every", o.slurm.every_s, "seconds between queries of Slurm's queue")
       ->check(CLI::Range(1, 3600));
 }
 
@@ -90,7 +90,7 @@ void add_study_verb(CLI::App &app) {
       "(case.bond.tensile_strength_MPa).\nThe same command continues a study that was stopped.");
   verb->add_option("STUDY", a->options.file, "study (TOML)")->required();
   add_study_options(*verb, a->options);
-  verb->add_flag("--page", a->page, "draw the page of the table that lies in the folder, no more");
+  verb->add_flag("--page", a->page, "make no runs, only the page of the table in the folder");
   verb->callback([a] {
     const StudyOptions &o = a->options;
     const Study study = read_study(o.file);
@@ -122,7 +122,7 @@ void add_sample_verb(CLI::App &app) {
                "same thickness_um.\npressure: a press that gives way with every cell; the runs "
                "have the same max_pressure_MPa.\nA study makes the runs: [[vary]] keys = "
                "[\"recipe.coating.loading_mg_cm2\"], normal = {mean, sd, cells}.");
-  verb->add_option("DIR", a->runs, "directories made by calendem run, a cell each")->required();
+  verb->add_option("DIR", a->runs, "folders made by calendem run, one cell each")->required();
   verb->add_option("--one", a->shared, "what all cells share")
       ->required()
       ->transform(CLI::CheckedTransformer(

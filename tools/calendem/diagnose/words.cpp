@@ -30,7 +30,7 @@ std::string phrase_of(const Json &change) {
   if (kind == "understated")
     return "errors that are larger than stated";
   if (kind == "something")
-    return "something that no effect of the bank does";
+    return "a cause that no effect of the bank describes";
   const std::string effect = change["effect"];
   return kind == "absent"  ? "the absence of " + effect
          : kind == "fault" ? effect + " (a fault of the press or of a reading)"

@@ -136,8 +136,8 @@ inline Effect cbd_plasticity() {
 
 inline Effect cbd_ductility() {
   Effect e = effect("cbd_ductility", "contact",
-                    "carbon-binder domain flows under its hardness, keeps its volume, and resists "
-                    "with its bulk modulus where it has filled its surroundings");
+                    "carbon-binder domain flows at its hardness, keeps its volume, and resists "
+                    "with its bulk modulus once it has filled its surroundings");
   const std::string at = "effects.cbd_ductility.";
   e.settings = {
       number(at + "hardness_GPa", "cbd_hardness_GPa", "0", 0, 1000, "GPa",

@@ -176,7 +176,7 @@ void FilmBank::check_nanoporosity() const {
     throw Failure(kBadInput,
                   fmt::format("{}: nanoporosity_within_points is {:g}; for that the bank's films "
                               "must differ in porosity ({}) and in carbon and binder "
-                              "(recipe.composition.*). Add such [[parameter]]s, or leave it out.",
+                              "(recipe.composition.*). Add such [[input]]s, or leave it out.",
                               spec_.file, spec_.nanoporosity_within, kPorosityKey));
 }
 

@@ -88,8 +88,8 @@ void add_readings(const Experiment &e, const FilmBank &bank, MeasuredFilms &to,
       continue;
     }
     if (!c.labels_before.empty() || !c.labels_after.empty())
-      warnings.push_back(named(e, c) + ": its images are not compared; `calendem report RUN "
-                                       "--experiment` compares a run with them.");
+      warnings.push_back(named(e, c) + ": its images are not compared; `calendem compare "
+                                       "EXPERIMENT RUN` compares a run with them.");
     Reading r;
     r.film = int(to.films.size()) - 1;
     r.condition = c.id;

@@ -143,8 +143,7 @@ std::vector<Chance> chances_from(const std::vector<double> &settings, const Pred
   const bool any_tortuosity = target.tortuosity_below >= kMostTortuosity;
   if (!any_tortuosity && inverse.size() != after.size())
     throw Failure(kBadInput,
-                  "--tortuosity-below: no tortuosity is known. A bank has it with tortuosity = "
-                  "\"yes\" in its file, a run where its pores connect.");
+                  "--tortuosity-below: the bank, or these runs, have no tortuosity. Leave it out.");
   std::vector<Chance> out;
   for (std::size_t k = 0; k < settings.size(); ++k) {
     Chance chance;
