@@ -99,6 +99,10 @@ no_large_files() { # in the repository, or in the tree where there is no git
     xargs -0 -I{} find {} -maxdepth 0 -size +1024k |
     report "files of more than 1 MB do not belong into the repository"
 }
+no_merge_markers() { # of a merge whose conflicts nobody has decided
+  { git ls-files -z 2>/dev/null || find . -path ./build -prune -o -type f -print0; } |
+    { xargs -0 grep -nIE '^(<{7}|>{7}|\|{7}) ' /dev/null || true; } | report "both sides of a merge are in the file"
+}
 formatted() {
   command -v clang-format >/dev/null || skip "no clang-format; tools/install-dependencies --test brings it"
   local version

@@ -115,9 +115,9 @@ inline Effect cbd_plasticity() {
              "limit of the contact pressure of CBD on all phases and walls; 0: elastic"),
       hardening(at + "hardening_GPa", "cbd_contact_hardening_GPa"),
       number(at + "beyond_cohesion", "cbd_beyond_cohesion", "0", 0, 1, "fraction",
-             "part of the pressure of cohesion, 2 c_CED, that the limit leaves out; 0: the limit "
-             "is of the whole contact pressure; 1: of what a contact carries beyond cohesion, as "
-             "an indenter measures it"),
+             "how much of the pressure of cohesion, 2 c_CED, comes on top of the limit; 0: none, the "
+             "limit is of the whole contact pressure; 1: all of it, as for an indenter that does "
+             "not stick"),
       number(at + "flattening", "cbd_flattening", "1", 0, 1, "fraction",
              "how a sphere's contact with a wall widens as it gets deep; 1: as the sphere's volume "
              "demands; 0: no more than a shallow one's, so that it may sink through")};

@@ -59,8 +59,8 @@ std::vector<Key> base_settings() {
              "bodies and CBD; 0: at the tips"),
       number(
           "bond.inset_fading", "inset_fading", "0", 0, 1, "fraction",
-          "part of a primary's inset that goes where it has fewer than six bonds, in proportion: "
-          "small bodies and fragments keep the volume of their grains; 0: all lie as deep"),
+          "how much less deep a primary with fewer than six bonds lies; 1: in proportion to its "
+          "bonds, so that fragments and small bodies keep their volume; 0: no less"),
       number("bond.damping", "bond_damping", "0.02", 0, 1, "", "fraction of critical damping"),
       number("bond.weibull_modulus", "weibull_m", "0", 0, 100, "",
              "Weibull modulus of the bond strength, at least 1; 0: no scatter"),
