@@ -1,14 +1,16 @@
 #!/usr/bin/python3
-# Figure of the index of the validation pages, measured against predicted: each film left out in turn.
+# Figure of the page on predictions, measured against predicted, each film left out in turn; prints the page's tables:
 #   build/bin/calendem calibrate EXPERIMENT... -o build/four
 #   docs/figures/films.py build/four/model.json
 import html
 import json
 import math
 import pathlib
+import statistics
 import sys
 
-readings = [r for r in json.load(open(sys.argv[1]))["left_out"] if r["number"] == "porosity_after"]
+model = json.load(open(sys.argv[1]))
+readings = [r for r in model["left_out"] if r["number"] == "porosity_after"]
 colours = ["#0060ad", "#c04020", "#1a8050", "#8040a0"]
 width, height, left, right, top, bottom = 640, 400, 56, 12, 96, 48
 low, high, most = 15, 250, 50  # MPa, MPa, %
@@ -51,3 +53,33 @@ for r in readings:
                f'<path d="M{at - 4:.1f} {meyer - 4:.1f}l8 8m0 -8l-8 8"/></g>')
 out.append("</svg>\n")
 (pathlib.Path(__file__).resolve().parent / "films.svg").write_text("\n".join(out))
+
+sd = {(d["film"], d["condition"], d["number"]): d["sd"] for d in model["data"]}
+names = [f["name"] for f in model["films"]]
+print("| film left out | MPa | measured | predicted | 90 % | Heckel | Meyer |\n|---|---|---|---|---|---|---|")
+for r in readings:
+    error = sd[names.index(r["film"]), r["condition"], r["number"]]
+    print(f"| {r['film']} | {r['pressure_MPa']:.0f} | {100 * r['measured']:.1f} ± {100 * error:.1f} | {100 * r['median']:.1f} "
+          f"| {100 * r['low90']:.1f}–{100 * r['high90']:.1f} | " + " | ".join(f"{100 * r['rules'][k]:.1f}" for k in ("Heckel", "Meyer")) + " |")
+
+
+def summary(name, chosen, low, high, rules=()):
+    off = lambda value: 100 * statistics.median(abs(value(r) - r["measured"]) for r in chosen)
+    print(f"{name}: median error {off(lambda r: r['median']):.1f} points, "
+          f"{sum(r[low] <= r['measured'] <= r[high] for r in chosen)} of {len(chosen)} inside, mean width "
+          f"{100 * statistics.mean(r[high] - r[low] for r in chosen):.1f} points"
+          + "".join(f", {k} {off(lambda r: r['rules'][k]):.1f}" for k in rules))
+
+
+summary("left out", readings, "low90", "high90", ("Heckel", "Meyer"))
+from_all = [{**r, **r["without"]} for r in model["learnt"] if r["number"] == "porosity_after"]
+summary("from all others, those of its own film included", from_all, "low90", "high90")
+materials = [m["material"] for m in model["effects"][0]["materials"]]
+print("\n| | " + " | ".join(materials) + " |\n" + "|---" * (len(materials) + 1) + "|")
+parameters = {row["parameter"]: row for row in model["parameters"]}
+for name in dict.fromkeys(p.split(", ")[0] for p in parameters if p.endswith(materials[0])):
+    rows = [parameters[f"{name}, {m}"] for m in materials]
+    print(f"| {name} | " + " | ".join(f"{r['median']:.4g} ({r['low90']:.4g}–{r['high90']:.4g})" for r in rows) + " |")
+for effect in model["effects"]:
+    cells = (f"{m.get('median') or 0:.2g} ({m.get('low90') or 0:.2g}–{m.get('high90') or 0:.2g}); {100 * m['probability']:.0f}" for m in effect["materials"])
+    print(f"| {effect['name']}; acts, % | " + " | ".join(cells) + " |")
