@@ -264,8 +264,8 @@ std::vector<std::string> warnings_of(const FilmBank &bank, const Calibration &c)
                               100.0 * missed.b));
   if (c.acceptance < kFewMoves)
     out.push_back(
-        fmt::format("Of the sampler's moves {:.1f} % were taken in its worst step ({:g} % or "
-                    "more are wanted): the intervals are rough. Ask for more --samples.",
+        fmt::format("In its worst step the sampler took {:.1f} % of its moves ({:g} % or more are "
+                    "wanted): the intervals are rough. Ask for more --samples.",
                     100.0 * c.acceptance, 100.0 * kFewMoves));
   return out;
 }
