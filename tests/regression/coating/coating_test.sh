@@ -37,9 +37,13 @@ case $case in
     "$bin/calendem" study "$work/study.toml" -o "$work/study"
     mapfile -t runs < <(awk -F, -v at="$work/study/runs/" 'NR > 1 { print at $3 }' "$work/study/study.csv")
     "$bin/calendem" sample "${runs[@]}" --one gap -o "$work/sample"
-    at_gap() { # RUN GAP: pressure there on the way down, linear between rows; 0 before the first
-      awk -F, -v gap="$2" 'NR == 1 { for (k = 1; k <= NF; k++) { if ($k == "thickness_um") h = k; if ($k == "pressure_MPa") p = k } next }
-        $h <= gap { printf "%.9g\n", last ? q + ($p - q) * (last - gap) / (last - $h) : 0; exit } { last = $h; q = $p }' "$1/curve.csv"
+    at_gap() { # RUN GAP: pressure there on the way down, linear between rows and the summary's maximum; 0 before the first
+      awk -F, -v gap="$2" -v least="$(number thickness_at_max_um "$1/summary.json")" -v most="$(number max_pressure_MPa "$1/summary.json")" '
+        function between(height, pressure) { printf "%.9g\n", last ? q + (pressure - q) * (last - gap) / (last - height) : 0; met = 1; exit }
+        NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
+        $at["stage"] != "compression" { between(least, most) }
+        $at["thickness_um"] <= gap { between($at["thickness_um"], $at["pressure_MPa"]) }
+        { last = $at["thickness_um"]; q = $at["pressure_MPa"] }' "$1/curve.csv"
     }
     most=$(number thickness_at_max_um "$work/sample/summary.json")
     for gap in "$most" 13 13.5 14 15; do

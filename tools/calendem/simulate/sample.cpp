@@ -143,6 +143,15 @@ struct Cell {
   nlohmann::json summary, electrode;
 };
 
+/// A curve's last row comes before the platen turns, by up to a row; the summary has the moment itself.
+void add_turn(const nlohmann::json &summary, PressPath &down) {
+  const double gap = summary.value("thickness_at_max_um", kEndless);
+  if (gap < down.gap.back()) {
+    down.gap.push_back(gap);
+    down.pressure.push_back(summary.value("max_pressure_MPa", std::nan("")));
+  }
+}
+
 /// Gap and pressure down and up.
 void read_paths(RunFolder &folder, Cell &cell, Mistakes &mistakes) {
   const Curve curve =
@@ -166,6 +175,7 @@ void read_paths(RunFolder &folder, Cell &cell, Mistakes &mistakes) {
                         "run the case again");
   cell.solid = curve["thickness_um"][0] * (1.0 - curve["porosity_total"][0]);
   cell.pressed.down = monotone(down, false);
+  add_turn(cell.summary, cell.pressed.down);
   cell.pressed.up = monotone(up, true);
 }
 
