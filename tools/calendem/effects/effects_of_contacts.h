@@ -114,10 +114,11 @@ inline Effect cbd_plasticity() {
       number(at + "yield_pressure_GPa", "cbd_contact_yield_GPa", "0", 0, 1000, "GPa",
              "limit of the contact pressure of CBD on all phases and walls; 0: elastic"),
       hardening(at + "hardening_GPa", "cbd_contact_hardening_GPa"),
-      number(at + "beyond_cohesion", "cbd_beyond_cohesion", "0", 0, 1, "fraction",
-             "how much of the pressure of cohesion, 2 c_CED, comes on top of the limit; 0: none, the "
-             "limit is of the whole contact pressure; 1: all of it, as for an indenter that does "
-             "not stick"),
+      number(
+          at + "beyond_cohesion", "cbd_beyond_cohesion", "0", 0, 1, "fraction",
+          "how much of the pressure of cohesion, 2 c_CED, comes on top of the limit; 0: none, the "
+          "limit is of the whole contact pressure; 1: all of it, as for an indenter that does "
+          "not stick"),
       number(at + "flattening", "cbd_flattening", "1", 0, 1, "fraction",
              "how a sphere's contact with a wall widens as it gets deep; 1: as the sphere's volume "
              "demands; 0: no more than a shallow one's, so that it may sink through")};

@@ -57,10 +57,9 @@ std::vector<Key> base_settings() {
       number("bond.surface_inset_um", "surface_inset", "0", 0, 0.3, "um",
              "how far inside the tips of its primaries the surface of a body lies, for other "
              "bodies and CBD; 0: at the tips"),
-      number(
-          "bond.inset_fading", "inset_fading", "0", 0, 1, "fraction",
-          "how much less deep a primary with fewer than six bonds lies; 1: in proportion to its "
-          "bonds, so that fragments and small bodies keep their volume; 0: no less"),
+      number("bond.inset_fading", "inset_fading", "0", 0, 1, "fraction",
+             "how much less deep a primary with fewer than six bonds lies; 1: in proportion to its "
+             "bonds, so that fragments and small bodies keep their volume; 0: no less"),
       number("bond.damping", "bond_damping", "0.02", 0, 1, "", "fraction of critical damping"),
       number("bond.weibull_modulus", "weibull_m", "0", 0, 100, "",
              "Weibull modulus of the bond strength, at least 1; 0: no scatter"),
