@@ -63,17 +63,17 @@ for r in readings:
           f"| {100 * r['low90']:.1f}–{100 * r['high90']:.1f} | " + " | ".join(f"{100 * r['rules'][k]:.1f}" for k in ("Heckel", "Meyer")) + " |")
 
 
-def summary(name, chosen, low, high, rules=()):
+def summary(name, chosen, rules=()):
     off = lambda value: 100 * statistics.median(abs(value(r) - r["measured"]) for r in chosen)
     print(f"{name}: median error {off(lambda r: r['median']):.1f} points, "
-          f"{sum(r[low] <= r['measured'] <= r[high] for r in chosen)} of {len(chosen)} inside, mean width "
-          f"{100 * statistics.mean(r[high] - r[low] for r in chosen):.1f} points"
+          f"{sum(r['low90'] <= r['measured'] <= r['high90'] for r in chosen)} of {len(chosen)} inside, mean width "
+          f"{100 * statistics.mean(r['high90'] - r['low90'] for r in chosen):.1f} points"
           + "".join(f", {k} {off(lambda r: r['rules'][k]):.1f}" for k in rules))
 
 
-summary("left out", readings, "low90", "high90", ("Heckel", "Meyer"))
+summary("left out", readings, ("Heckel", "Meyer"))
 from_all = [{**r, **r["without"]} for r in model["learnt"] if r["number"] == "porosity_after"]
-summary("from all others, those of its own film included", from_all, "low90", "high90")
+summary("from all others, those of its own film included", from_all)
 materials = [m["material"] for m in model["effects"][0]["materials"]]
 print("\n| | " + " | ".join(materials) + " |\n" + "|---" * (len(materials) + 1) + "|")
 parameters = {row["parameter"]: row for row in model["parameters"]}

@@ -39,7 +39,7 @@ case $case in
     "$bin/calendem" sample "${runs[@]}" --one gap -o "$work/sample"
     at_gap() { # RUN GAP: pressure there on the way down, linear between rows and the summary's maximum; 0 before the first
       awk -F, -v gap="$2" -v least="$(number thickness_at_max_um "$1/summary.json")" -v most="$(number max_pressure_MPa "$1/summary.json")" '
-        function between(height, pressure) { printf "%.9g\n", last ? q + (pressure - q) * (last - gap) / (last - height) : 0; met = 1; exit }
+        function between(height, pressure) { printf "%.9g\n", last ? q + (pressure - q) * (last - gap) / (last - height) : 0; exit }
         NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
         $at["stage"] != "compression" { between(least, most) }
         $at["thickness_um"] <= gap { between($at["thickness_um"], $at["pressure_MPa"]) }
