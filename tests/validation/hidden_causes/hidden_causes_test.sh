@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # hidden_causes_test.sh CALENDEM: the twenty cases can be read, their models have wrong what truths.csv says, and the
-# score is that of the page; the truth gets all points, silence those of faultless models. Exit status 0 passed, 1 failed.
+# score is that of the page; the truth gets all points, silence those of faultless models. The forty cases of another code
+# can be read, their score is that of their page, and three are answered as stored. Exit status 0 passed, 1 failed.
 set -euo pipefail
 calendem=$1
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
@@ -40,4 +41,14 @@ refuses case_01,mine,explain,friction 'the answer is "explain"'
 refuses case_01,mine,nothing,friction "names belong to"
 refuses case_01,mine,nothing "3 columns"
 refuses $'case_01,mine,nothing,\ncase_01,mine,explained,friction' "answered twice"
+
+cd "$top/input_scripts/cases/other_code"
+"$calendem" validate ./*/experiment.toml model.toml || fail "a case of another code cannot be read"
+[ "$(sed 1d truths.csv | cut -d, -f1)" = "$(ls -d case_*)" ] || fail "cases of another code and truths differ"
+sed -n '/hidden_causes\/score /,/^```/p' "$top/docs/validation/other_code.md" | sed '1d;$d' >"$work/stated"
+../hidden_causes/score truths.csv our_answers.csv unknown.csv | diff "$work/stated" - || fail "the page states another score"
+mkdir "$work/three"
+cp -r film.toml model.toml case_01 case_20 case_36 "$work/three" # no cause, friction, compliance of the press
+../hidden_causes/answer "$calendem" "$work/three" "$work/answers" || fail "answer ends with $?"
+grep -E '^case_(01|20|36),' our_answers.csv | diff - <(sed 1d "$work/answers/answers.csv") || fail "three cases are answered otherwise"
 echo "score: as stated"

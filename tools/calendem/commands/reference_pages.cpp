@@ -138,6 +138,14 @@ GeneratedFile experiment_page(const std::string &top) {
                {"keys of a crushed particle", rows(crushed_keys())}});
 }
 
+/// 600000000 as 6e8.
+std::string without_many_zeros(const std::string &number) {
+  const std::size_t zeros = number.size() - 1 - number.find_last_not_of('0');
+  return number.find('.') == std::string::npos && zeros > 5 && zeros < number.size()
+             ? fmt::format("{}e{}", number.substr(0, number.size() - zeros), zeros)
+             : number;
+}
+
 std::string material_section(const std::string &name) {
   const ReferenceMaterial m = read_material(material_path(name, ""));
   std::string out = fmt::format(
@@ -150,7 +158,7 @@ std::string material_section(const std::string &name) {
       if (const auto at = m.values.find(key.name); at != m.values.end())
         out += fmt::format(
             "| `{}` | {} | {} |\n", key.name,
-            typeset(at->second.text +
+            typeset(without_many_zeros(at->second.text) +
                     (at->second.sd > 0.0 ? fmt::format(" +- {:g}", at->second.sd) : "") +
                     (key.unit.empty() ? "" : " " + key.unit)),
             in_cell(typeset(at->second.source)));
