@@ -282,6 +282,19 @@ double averaging_window(const Settings &s) {
   return given > 0.0 ? given : kAverageTravel / s.number(highest_speed(s));
 }
 
+std::vector<std::string> slow_speeds(const Settings &s) {
+  constexpr double kSlow = 0.1;      // m/s
+  constexpr double kStepsAt1 = 15e3; // per um at 1 m/s, with the default material
+  std::vector<std::string> out;
+  for (const char *key : kSpeeds)
+    if (s.number(key) < kSlow)
+      out.push_back(
+          fmt::format("{} is {}: this is the speed of the simulated platen, not of a "
+                      "calender. 1 um takes about {:.2g} million steps. 1 to 4 m/s is usual.",
+                      key, s.text(key), 1e-6 * kStepsAt1 / s.number(key)));
+  return out;
+}
+
 PressInstruments instruments_of(const Settings &s) {
   PressInstruments press;
   for (const Effect &e : effects())

@@ -18,6 +18,9 @@ inline constexpr double kAverageTravel = 0.1;
 /// Window over which pressure and gap are averaged [us].
 double averaging_window(const Settings &settings);
 
+/// Speeds of the platen at which a run takes days, a calender's for example; a sentence each.
+std::vector<std::string> slow_speeds(const Settings &settings);
+
 /// What the press shows [MPa, um].
 PressInstruments instruments_of(const Settings &settings);
 

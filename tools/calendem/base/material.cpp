@@ -73,8 +73,8 @@ private:
         walk(name + ".", *inner, out);
       else if (!prefix.empty() || (name != "name" && name != "also_called" &&
                                    name != "calibrated_on" && name != "base"))
-        refuse(node, "unknown key '{}' of a material. Did you mean '{}'?", name,
-               likely_meant(name, keys_));
+        refuse(node, "unknown key '{}' of a material. {}", name,
+               did_you_mean(name, likely_meant(name, keys_)));
     }
   }
 

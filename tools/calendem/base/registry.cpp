@@ -2,6 +2,7 @@
 #include "base/registry.h"
 #include "base/messages.h"
 #include "base/recipe.h"
+#include "base/shown.h"
 #include "effects/settings.h"
 #include <algorithm>
 #include <cmath>
@@ -111,6 +112,14 @@ std::string closest(const std::string &word, const std::vector<std::string> &wor
                            [&](const std::string &a, const std::string &b) {
                              return edit_distance(word, a) < edit_distance(word, b);
                            });
+}
+
+std::string did_you_mean(const std::string &typed, const std::string &meant) {
+  const NameAndUnit words = in_words(meant);
+  const std::string stem = meant.substr(0, words.name.size()) + "_";
+  const bool unit_differs = !words.unit.empty() && typed.rfind(stem, 0) == 0;
+  return fmt::format("Did you mean '{}'?{}", meant,
+                     unit_differs ? " Its unit is" + words.unit + "." : "");
 }
 
 namespace {

@@ -26,6 +26,8 @@ bool wants_text(const Key &key);
 
 /// The word of `words` that is the fewest typing errors away from `word`; `words` is not empty.
 std::string closest(const std::string &word, const std::vector<std::string> &words);
+/// "Did you mean 'meant'?", and its unit where only that differs.
+std::string did_you_mean(const std::string &typed, const std::string &meant);
 int edit_distance(const std::string &a, const std::string &b);
 /// What stands behind the last dot of a key's name.
 std::string last_part(const std::string &name);

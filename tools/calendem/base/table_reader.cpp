@@ -16,8 +16,8 @@ void TableReader::each_table(const toml::table &root, const std::string &name,
 
 void TableReader::unknown(const std::string &name, int line,
                           const std::vector<std::string> &known) {
-  mistakes_.add(line, "unknown key '{}'. Did you mean '{}'?", name,
-                closest(last_part(name), known));
+  mistakes_.add(line, "unknown key '{}'. {}", name,
+                did_you_mean(name, closest(last_part(name), known)));
 }
 
 void TableReader::report_unknown(const toml::table &table, const std::vector<std::string> &known,

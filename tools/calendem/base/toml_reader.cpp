@@ -220,8 +220,8 @@ private:
                ? fmt::format("unknown key '{}': the thickness follows from "
                              "coating.loading_mg_cm2 and coating.porosity_total_percent.",
                              name)
-               : fmt::format("unknown key '{}'. Did you mean '{}'?", name,
-                             likely_meant(name, keys_));
+               : fmt::format("unknown key '{}'. {}", name,
+                             did_you_mean(name, likely_meant(name, keys_)));
   }
 
   const std::vector<Key> &keys_;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <functional>
+#include <utility>
 
 namespace calendem {
 namespace {
@@ -96,9 +97,11 @@ void say(const FilmBank &bank, const Calibration &c, const std::vector<LeftOut> 
     if (r.number == FilmNumber::PorosityAfter)
       fmt::print("{}, Heckel {:.1f}, Meyer {:.1f}\n", film_in_words(r),
                  kPercent * r.rules.at("Heckel"), kPercent * r.rules.at("Meyer"));
+  const char *heading = "other readings, with the film left out\n";
   for (const LeftOut &r : rows)
     if (r.number != FilmNumber::PorosityAfter)
-      fmt::print("{}, {}, %\n", film_in_words(r), reading_in_words(name_of(r.number)));
+      fmt::print("{}{}, {}, %\n", std::exchange(heading, ""), film_in_words(r),
+                 reading_in_words(name_of(r.number)));
 }
 
 /// An experiment on films of the material that their recipe names.

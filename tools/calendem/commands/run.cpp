@@ -21,6 +21,12 @@ namespace calendem {
 namespace fs = std::filesystem;
 namespace {
 
+const char *const kDefaultsOfMaterial =
+    "Values of a material (material.*, bond.*, effects.*, particles.grains, densities): the "
+    "defaults below are those of\n"
+    "xu2023. The recipe's material takes their place, nmc111 where it names none "
+    "(docs/reference/materials.md).\n\n";
+
 /// A value that the scripts wrote down, as the key's kind.
 std::string checked(const Key &key, const std::string &value, Mistakes &mistakes) {
   const bool is_text = key.text || !key.choices.empty();
@@ -164,7 +170,7 @@ void add_run_verb(CLI::App &app) {
   a->options.liggghts = liggghts_program();
   CLI::App *verb =
       app.add_subcommand("run", "Press an electrode and release it, by running LIGGGHTS");
-  verb->footer(list_of_keys(case_keys()));
+  verb->footer(kDefaultsOfMaterial + list_of_keys(case_keys()));
   verb->add_option("CASE", a->spec, "case (TOML)")->required();
   verb->add_option("-o,--output", a->options.folder, "folder of the run")->required();
   verb->add_option("--ranks", a->options.ranks, "MPI ranks")->check(CLI::Range(1, 4096));
@@ -172,7 +178,12 @@ void add_run_verb(CLI::App &app) {
   verb->add_flag("--force", a->options.force,
                  "overwrite a run of another case or an unfinished one");
   verb->add_option("--liggghts", a->options.liggghts, "program with the plugin");
-  verb->callback([a] { run_case(read_case(a->spec), a->options); });
+  verb->callback([a] {
+    const Settings settings = read_case(a->spec);
+    for (const std::string &slow : slow_speeds(settings))
+      fmt::print(stderr, "warning: {}\n", slow);
+    run_case(settings, a->options);
+  });
 }
 
 void add_pack_verb(CLI::App &app) {
@@ -186,7 +197,7 @@ void add_pack_verb(CLI::App &app) {
   a->options.liggghts = liggghts_program();
   CLI::App *verb =
       app.add_subcommand("pack", "Make an electrode from a recipe by running LIGGGHTS");
-  verb->footer(list_of_keys(recipe_keys()));
+  verb->footer(kDefaultsOfMaterial + list_of_keys(recipe_keys()));
   verb->add_option("SPEC", a->spec, "recipe (TOML)")->required();
   verb->add_option("-o,--output", a->options.folder, "folder of the electrode")->required();
   verb->add_option("--seed", a->seed, "seed, instead of the recipe's")

@@ -79,6 +79,16 @@ std::string experiment_in_words(const std::string &file) {
   return fmt::format("experiment of {} conditions", e.conditions.size());
 }
 
+std::string case_in_words(const Settings &settings) {
+  std::string out = "case";
+  if (const std::string &electrode = settings.text("electrode"); !fs::exists(electrode))
+    out += fmt::format("\n- {} is not there yet: calendem pack RECIPE -o {} makes it", electrode,
+                       electrode);
+  for (const std::string &slow : slow_speeds(settings))
+    out += "\n- " + slow;
+  return out;
+}
+
 std::string name_after_check(const std::string &file) {
   switch (kind_of(file)) {
   case FileKind::Experiment:
@@ -91,8 +101,7 @@ std::string name_after_check(const std::string &file) {
                        bank::study_of(points, bank::points_of(points.design)).runs.size());
   }
   case FileKind::Case:
-    read_case(file);
-    return "case";
+    return case_in_words(read_case(file));
   case FileKind::Tomogram:
     read_tomogram_spec(file);
     return "tomogram";

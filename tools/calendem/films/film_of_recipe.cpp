@@ -218,8 +218,8 @@ std::vector<std::string> FilmBank::beyond(const Film &film) const {
                                 in_words(film_[k].name).name, in_words(film_[k].name).unit,
                                 recipe[k], film_[k].low, film_[k].high));
   if (larger_loading_ > 0.0 && film.loading < (1.0 - kSameLoading) * recipe_.loading)
-    out.push_back(fmt::format("loading {:.3g} mg/cm2; the bank has {:g} to {:g}: extrapolated",
-                              film.loading, recipe_.loading, larger_loading_));
+    out.push_back(fmt::format("loading {:.3g} mg/cm2; the bank has {:g} and more: extrapolated",
+                              film.loading, recipe_.loading));
   if (const double error = kPorosityBySize * std::fabs(film.sizes); error > kSizesSaid)
     out.push_back(fmt::format("half of the particles' volume lies below a diameter that is {:.2f} "
                               "times the bank's: counted as an error of {:.1f} points of porosity",

@@ -237,7 +237,7 @@ json emulators_part(const Json &model) {
   json rows = json::array();
   for (const Json &e : model.at("emulators"))
     if (e["number"] == "porosity_after")
-      rows.push_back({{"pressure", shown(e["pressure_MPa"], "{:g}")},
+      rows.push_back({{"pressure", shown(e["pressure_MPa"], "{:.3g}")},
                       {"q2", shown(e["q2"], "{:.2f}")},
                       {"error", fmt::format("{:.2f}", kPercent * e["error"].get<double>())},
                       {"inside", fmt::format("{:.0f}", kPercent * e["inside_90"].get<double>())}});

@@ -276,16 +276,20 @@ std::vector<Moment> stages_of(const Run &run) {
   const auto pressure_of = [&](const FrameFile &f) {
     return run.curve["pressure_MPa"][row_near(run.curve, f.time_us)];
   };
+  std::vector<const FrameFile *> first; // at their pressures: none of a release or a later press
+  for (const FrameFile &f : run.particles)
+    if (f.time_us <= end + 1e-9 && (first.empty() || pressure_of(f) > pressure_of(*first.back())))
+      first.push_back(&f);
   std::vector<Moment> out;
   std::vector<double> missed;
   for (const double wanted : kPaperPressures) {
     if (most < kReached * wanted)
       continue;
     const FrameFile *nearest = &run.particles.front();
-    for (const FrameFile &f : run.particles)
-      if (wanted > 0 && f.time_us <= end + 1e-9 &&
-          std::abs(pressure_of(f) - wanted) < std::abs(pressure_of(*nearest) - wanted))
-        nearest = &f;
+    for (const FrameFile *f : first)
+      if (wanted > 0 &&
+          std::abs(pressure_of(*f) - wanted) < std::abs(pressure_of(*nearest) - wanted))
+        nearest = f;
     const double miss = std::abs(pressure_of(*nearest) - wanted);
     const std::string name = "Paper: " + shown(wanted, wanted > 0 ? 1 : 0) + " MPa";
     if (!out.empty() && out.back().time_us == nearest->time_us) {

@@ -79,8 +79,9 @@ Chart crack_surface(const std::vector<Run> &runs) {
                {{"crack_surface_um2", "all broken bonds", "#c8321e", ""},
                 {"parted_surface_um2", "between different fragments", "#0064b0", "9 4"}},
                false);
-  chart.note = "Each broken bond counts as one face of its lattice cell; a crack opens twice this "
-               "area of new surface.";
+  chart.note =
+      "Each broken bond counts as the facet between its two primaries; a crack opens twice this "
+      "area of new surface.";
   return chart;
 }
 

@@ -38,6 +38,10 @@ void add_branches(Chart &chart, const std::vector<Run> &runs, std::size_t i, con
     add("relaxation", c.relaxation(), kRed, "9 4");
 }
 
+bool any_of_paper(const std::vector<Run> &runs) {
+  return std::any_of(runs.begin(), runs.end(), is_of_paper);
+}
+
 Chart pressure_displacement(const std::vector<Run> &runs) {
   Chart chart{"pressure-displacement", "Pressure and broken bonds against displacement",
               "Displacement of the platen (µm)", "Pressure on the platen (MPa)",
@@ -49,7 +53,7 @@ Chart pressure_displacement(const std::vector<Run> &runs) {
              picked(c["broken_fraction"], all_rows(c), kPercent), kGreen, "2 3")
         .right_axis = true;
   }
-  if (runs.size() > 1)
+  if (runs.size() > 1 || !is_of_paper(runs[0]))
     return chart;
   Series paper = breaks_of_paper("paper, broken (right)");
   for (double &x : paper.x)
@@ -67,7 +71,8 @@ Chart breaks_by_pressure(const std::vector<Run> &runs) {
               "Broken bonds (% of initial)"};
   for (std::size_t i = 0; i < runs.size(); ++i)
     add_branches(chart, runs, i, "pressure_MPa", "broken_fraction", kPercent);
-  chart.series.push_back(breaks_of_paper("paper (simulation)"));
+  if (any_of_paper(runs))
+    chart.series.push_back(breaks_of_paper("paper (simulation)"));
   return chart;
 }
 
@@ -83,18 +88,24 @@ Chart porosity_by_pressure(const std::vector<Run> &runs) {
     };
     const std::string colour = add("total", "porosity_total", kBlue, "").colour;
     add("macro", "porosity_macro", kGreen, "9 4");
-    const double after = number_in(runs[i].summary, "porosity_after_relaxation");
-    if (std::isfinite(after)) {
-      add_line(chart, runs, i, "total after relaxation",
-               {c["pressure_MPa"][c.row_of_max_pressure()]}, {kPercent * after}, colour.c_str(),
-               "");
+    Column pressure, after;
+    for (const nlohmann::json &press : presses_of(runs[i]))
+      if (const double released = number_in(press, "porosity_released"); std::isfinite(released)) {
+        pressure.push_back(number_in(press, "pressure_MPa"));
+        after.push_back(kPercent * released);
+      }
+    if (!after.empty()) {
+      add_line(chart, runs, i, "total after relaxation", pressure, after, colour.c_str(), "");
       chart.series.back().mark = Mark::points;
       chart.series.back().symbol = Symbol::square;
     }
   }
-  chart.series.push_back(porosity_of_paper("Table 1, total after relaxation ± s.d."));
-  chart.note = "Lines: under load, in compression and release. Points: after relaxation, at the "
-               "maximum pressure of the run; only these can be compared with Table 1.";
+  chart.note = "Lines: under load, in compression and release. Squares: after relaxation, at the "
+               "pressure of the press.";
+  if (any_of_paper(runs)) {
+    chart.series.push_back(porosity_of_paper("Table 1, total after relaxation ± s.d."));
+    chart.note += " Only these can be compared with Table 1.";
+  }
   return chart;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/shown.h"
+#include "effects/effects.h"
 #include "report/plots.h"
 #include "report/study_page.h"
 #include "report/tables.h"
@@ -113,7 +114,19 @@ Chart curve_chart(const StudyTable &table, const CurveOfRun &curve_of) {
   return chart;
 }
 
-/// One result against one setting; a line for every combination of the others.
+/// Whether the value switches off an effect that acts the more the smaller its key is: such a value has no
+/// place on the key's axis.
+bool is_off_the_axis(const std::string &setting, double value) {
+  const std::string key = setting.substr(setting.find('.') + 1);
+  return std::any_of(effects().begin(), effects().end(), [&](const Effect &e) {
+    const EffectParameter &p = e.parameter;
+    return p.scale == AmplitudeScale::Reciprocal && value == std::stod(p.off) &&
+           std::find(p.keys.begin(), p.keys.end(), key) != p.keys.end();
+  });
+}
+
+/// One result against one setting; a line for every combination of the others. Where the setting is off
+/// a level says what the result is.
 Chart against(const StudyTable &table, const std::string &setting, const std::string &result,
               const std::string &title, double factor) {
   const std::string words = setting_in_words(setting);
@@ -128,8 +141,13 @@ Chart against(const StudyTable &table, const std::string &setting, const std::st
     for (std::size_t i = 0; i < x.size(); ++i)
       by_value[x[i]].push_back(y[i]);
     Series s = styled(k++, StudyTable::label(line));
-    for (const auto &[value, values] : by_value)
-      add(s, value, mean_and_sd(values), factor);
+    for (const auto &[value, values] : by_value) {
+      const MeanAndSd y = mean_and_sd(values);
+      if (!is_off_the_axis(setting, value))
+        add(s, value, y, factor);
+      else if (y.n > 0)
+        chart.limits.push_back({factor * y.mean, s.name.empty() ? "off" : "off, " + s.name});
+    }
     chart.series.push_back(s);
   }
   return chart;

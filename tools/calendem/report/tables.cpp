@@ -66,19 +66,6 @@ double max_pressure(const Run &run) {
   return run.curve["pressure_MPa"][run.curve.row_of_max_pressure()];
 }
 
-/// Presses of summary.json; a sample of cells has only the one that its summary is of.
-json presses_of(const Run &run) {
-  if (run.summary.contains("presses"))
-    return run.summary["presses"];
-  const json whole = {
-      {"pressure_MPa", or_null(max_pressure(run))},
-      {"porosity_loaded", or_null(number_in(run.summary, "porosity_at_max"))},
-      {"porosity_released", or_null(number_in(run.summary, "porosity_after_relaxation"))},
-      {"cracked_fraction",
-       or_null(number_in(run.summary, "cracked_bodies") / number_in(run.summary, "bodies"))}};
-  return json::array({whole});
-}
-
 /// A number of the press that went to this pressure [%]; NaN: there is none.
 double of_press(const Run &run, double pressure, const char *key) {
   for (const json &press : presses_of(run))
@@ -180,14 +167,6 @@ json breaks_row(const std::vector<Run> &runs, const PublishedBreaks &point) {
              });
 }
 
-/// The recipe of the paper is that of every key's default. One that is not known counts as it.
-bool is_of_paper(const Run &run) {
-  std::map<std::string, std::string> paper;
-  for (const Key &key : recipe_keys())
-    paper[key.name] = key.fallback;
-  return other_electrode(paper, recipe_in(run.electrode)).empty();
-}
-
 json fact(const std::string &name, const json &value) {
   const NameAndUnit words = in_words(name);
   const std::string text = value.is_string()         ? value.get<std::string>()
@@ -217,6 +196,25 @@ void collect_facts(const json &object, const std::string &prefix,
 
 std::string shown(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "–";
+}
+
+json presses_of(const Run &run) {
+  if (run.summary.contains("presses"))
+    return run.summary["presses"];
+  const json whole = {
+      {"pressure_MPa", or_null(max_pressure(run))},
+      {"porosity_loaded", or_null(number_in(run.summary, "porosity_at_max"))},
+      {"porosity_released", or_null(number_in(run.summary, "porosity_after_relaxation"))},
+      {"cracked_fraction",
+       or_null(number_in(run.summary, "cracked_bodies") / number_in(run.summary, "bodies"))}};
+  return json::array({whole});
+}
+
+bool is_of_paper(const Run &run) {
+  std::map<std::string, std::string> paper;
+  for (const Key &key : recipe_keys())
+    paper[key.name] = key.fallback;
+  return other_electrode(paper, recipe_in(run.electrode)).empty();
 }
 
 json headline_of(const Run &run) {

@@ -36,9 +36,10 @@ void add_agreements(const std::string &run, const json &comparison, json &out) {
         if (cell["run"] == run && cell.contains("z"))
           out.push_back(agreement(row, cell));
   if (out.size() == before)
-    out.push_back(line("none", "No measurement stands beside this run: Table 1 of the paper is of "
-                               "another electrode or other pressures. calendem compare sets a run "
-                               "beside your own."));
+    out.push_back(line("none",
+                       "There is no measurement to compare with: Table 1 of the paper is of "
+                       "another electrode or other pressures. calendem compare compares a "
+                       "run with your own."));
 }
 
 } // namespace

@@ -20,6 +20,9 @@ namespace calendem {
 namespace fs = std::filesystem;
 namespace {
 
+/// From this share of the target on the pressure grows steadily enough to say when it is reached.
+constexpr double kFirmShare = 0.05;
+
 void check_cell(const ElectrodeFacts &e, int ranks, Mistakes &mistakes) {
   const double cut_off = neighbour_cut_off(e.widest);
   if (std::min(e.lx, e.ly) < 2.0 * cut_off)
@@ -306,7 +309,7 @@ double time_to_target(const Settings &s, const std::vector<RawRow> &rows) {
                        : std::nan("");
   const RawRow &before = rows[rows.size() * 3 / 4];
   const double growth = std::log(last.p_top / before.p_top) / (last.time - before.time);
-  return before.p_top > 0.0 && growth > 0.0 && share > 0.0
+  return before.p_top > 0.0 && growth > 0.0 && share > kFirmShare
              ? std::max(0.0, -std::log(share)) / growth
              : std::nan("");
 }

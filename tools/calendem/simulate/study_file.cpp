@@ -41,8 +41,8 @@ std::string unknown_key(const std::string &name) {
   for (const Key &k : recipe_keys())
     if (k.name != "material")
       all.push_back("recipe." + k.name);
-  return fmt::format("'{}' is not a key that can be varied. Did you mean '{}'?", name,
-                     closest(name, all));
+  return fmt::format("'{}' is not a key that can be varied. {}", name,
+                     did_you_mean(name, closest(name, all)));
 }
 
 /// Reads the file, table by table.
