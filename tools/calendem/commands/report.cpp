@@ -134,7 +134,7 @@ void print(const StructureMeasures &m) {
                    : ", an upper bound: no path on voxels of twice the size");
   }
   const double largest = m.voxel.maxCoeff();
-  if (largest > kLargestForPorosity + 1e-9)
+  if (largest > kLargestForPorosity * (1.0 + 1e-6)) // images hold single precision
     fmt::print(stderr, "note: voxels of {:.3g} um; porosity is defined on {} um or less\n", largest,
                kLargestForPorosity);
 }

@@ -104,6 +104,12 @@ Chart thresholds(const Run &run, bool single) {
     split_missed.push_back(share(at("below_split", i)));
     split_wrong.push_back(share(above - at("above_split", i)));
   }
+  const auto nothing = [](const Column &y) {
+    return std::all_of(y.begin(), y.end(), [](double share) { return share == 0.0; });
+  };
+  if (nothing(apart_missed) && nothing(apart_wrong) && nothing(split_missed) &&
+      nothing(split_wrong))
+    return chart;
   const auto add = [&](const char *name, const Column &y, const char *colour, Symbol symbol,
                        const char *dash) {
     chart.series.push_back(line_through(name, percent, y, colour, dash));

@@ -116,7 +116,7 @@ json twin_of(Run &run, const json &comparison, const Drawings &drawings) {
           {"unfinished", run.unfinished},
           {"headline", headline},
           {"verdict", verdict_of(run, headline, comparison)},
-          {"facts", facts_of(run.summary, {"provenance", "contact_range"})},
+          {"facts", facts_of(run.summary, {"provenance", "contact_range", "presses"})},
           {"electrode",
            facts_of(run.electrode, {"provenance", "recipe", kRecipeGiven, "sphericity_histogram",
                                     "identity", "sources", "material", kMaterialNotes})},

@@ -76,7 +76,9 @@ Chart force_beyond_range(const std::vector<Run> &runs) {
   chart.note =
       "Elastic normal forces of contacts whose overlap exceeds a fraction of R, as a share of all "
       "contacts except those inside bodies. R: smaller radius of the pair; at a wall, the radius "
-      "of the sphere. Hertz' law requires contacts that are small compared with both spheres.";
+      "of the sphere. Hertz' law requires contacts that are small compared with both spheres; "
+      "contacts that yield "
+      "follow a law of their own, which the key results judge.";
   for (std::size_t i = 0; i < runs.size(); ++i)
     for (const CurveLine &limit : kLimits)
       if (runs[i].curve.has(limit.column))
