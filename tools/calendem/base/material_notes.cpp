@@ -92,11 +92,10 @@ std::vector<std::string> notes_of(const Recipe &recipe) {
 }
 
 std::vector<std::string> warnings_of_electrode(const nlohmann::json &electrode) {
-  constexpr double kWarned = 0.2;
   if (!electrode.is_object()) // cut or missing: who reads it says so
     return {};
   auto out = electrode.value(kMaterialNotes, std::vector<std::string>());
-  if (const double cut = electrode.value(kCutOff, 0.0); cut > kWarned)
+  if (const double cut = electrode.value(kCutOff, 0.0); cut > kCutOffWarned)
     out.push_back(fmt::format("{:.0f} % of the volume of the recipe's particles is in particles "
                               "wider than this cell can hold ({:.1f} um); smaller ones take its "
                               "place. A larger cell holds more.",

@@ -33,6 +33,7 @@ constexpr const char *kMaterialNotes = "material_notes";
 /// In electrode.json: the share of the powder's volume in wider particles than the cell can hold, and
 /// the largest diameter that it can.
 constexpr const char *kCutOff = "volume_fraction_cut_off_by_size_limit";
+inline constexpr double kCutOffWarned = 0.2; ///< a larger share is a warning
 constexpr const char *kLargestAllowed = "largest_equivalent_diameter_allowed_um";
 
 } // namespace calendem

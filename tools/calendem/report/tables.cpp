@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/tables.h"
 #include "base/csv_table.h"
+#include "base/material_notes.h"
 #include "base/recipe.h"
 #include "base/shown.h"
 #include "report/page.h"
@@ -20,7 +21,8 @@ using nlohmann::json;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kImbalanceThreshold = 5; // MPa
-constexpr const char *kImbalance = "Largest |P top − P bottom| / P",
+constexpr const char *kTooWide = "Powder that the cell leaves out",
+                     *kImbalance = "Largest |P top − P bottom| / P",
                      *kBeyondLaw = "Contact force beyond its law's range";
 /// A run compares with a row of Table 1 when its maximum pressure is this close to the row's.
 constexpr double kSamePressure = 0.02;
@@ -43,8 +45,11 @@ std::string meaning_of(const std::string &label) {
       {"Bonds broken at maximum", "Bonds inside particles, of those there were at first."},
       {"Cracked bodies", "Particles in two fragments or more, each held by intact bonds."},
       {"CBD nanoporosity", "Pores inside carbon and binder, which the case imposed."},
-      {kImbalance, "Platen and collector should carry the same pressure; in single rows they do "
-                   "not, so these are not quasi-static. A lower platen.speed_m_s helps."},
+      {kTooWide,
+       "Particles of the powder that are wider than the cell can hold; smaller ones take their "
+       "place. A larger cell holds more."},
+      {kImbalance, "Platen and collector should carry the same pressure; rows in which they do not "
+                   "are not quasi-static. A lower platen.speed_m_s helps."},
       {kBeyondLaw, "This part of the force between particles is carried by overlaps for which the "
                    "contact law was not compared with anything: it is extrapolated there."}};
   const auto found = meanings.find(label);
@@ -242,6 +247,9 @@ json headline_of(const Run &run) {
   if (s.contains("imposed"))
     figures.push_back(figure("CBD nanoporosity", kPercent * number_in(s["imposed"], "final"), "%",
                              1, s["imposed"].value("what", "imposed")));
+  if (run.electrode.contains(kCutOff))
+    figures.push_back(figure(kTooWide, kPercent * number_in(run.electrode, kCutOff), "%", 0,
+                             "of its volume; limit 20 %", kPercent * kCutOffWarned));
   figures.push_back(figure(kImbalance, kPercent * worst_imbalance(c, kImbalanceThreshold), "%", 1,
                            "above 5 MPa; limit 5 %", kPercent * kQuasiStatic));
   const json range = s.value("/contact_range/at_max_pressure/all"_json_pointer, json());
