@@ -111,6 +111,37 @@ TEST_F(FracturePart, StagesUpToTheRunsPressure) {
   EXPECT_TRUE(run.notes.empty());
 }
 
+// A frame of a later press has the film of the press before, however near its pressure is.
+TEST_F(FracturePart, StagesAreOfTheFirstPressToTheirPressure) {
+  ReportRun run = made(150, true);
+  const auto expected = stages_of(run);
+  const double top = run.curve["time_us"][run.curve.row_of_max_pressure()];
+  Column &pressure = run.curve.columns.at("pressure_MPa");
+  for (std::size_t i = 0; i < pressure.size(); ++i) // released at 100 MPa, and pressed once more
+    if (pressure[i] > 100 && run.curve["time_us"][i] < top)
+      pressure[i] = 20.1;
+  const auto stages = stages_of(run);
+  ASSERT_GE(stages.size(), 3u);
+  EXPECT_EQ(stages[2].name, "Paper: 20.1 MPa");
+  EXPECT_DOUBLE_EQ(stages[2].time_us, expected[2].time_us);
+}
+
+// A measured porosity is one after release: every press has its own.
+TEST_F(FracturePart, PorosityIsDrawnAfterEveryPress) {
+  ReportRun run = made(150, false);
+  run.summary["presses"] = {{{"pressure_MPa", 80}, {"porosity_released", 0.3}},
+                            {{"pressure_MPa", 150}, {"porosity_released", 0.25}}};
+  const std::vector<ReportRun> runs{run};
+  for (const Chart &chart : plots_of(runs))
+    for (const Series &s : chart.series)
+      if (chart.id == "porosity-pressure" && s.name == "total after relaxation") {
+        EXPECT_EQ(s.x, (Column{80, 150}));
+        EXPECT_EQ(s.y, (Column{30, 25}));
+        return;
+      }
+  FAIL() << "no such series";
+}
+
 // Bonds that will break have another colour than those that stay.
 TEST_F(FracturePart, FateIsDrawn) {
   ReportRun run = made(150, true);

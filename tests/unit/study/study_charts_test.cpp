@@ -87,6 +87,24 @@ TEST(Charts, SettingsAreWrittenInWords) {
   EXPECT_EQ(setting_in_words("recipe.seed"), "seed");
 }
 
+// A yield pressure of 0 GPa is none at all: it lies beyond the highest one, not below the lowest.
+TEST(Charts, OffIsALevelWhereTheAxisHasNoPlaceForIt) {
+  const std::string key = "case.effects.nmc_plasticity.yield_pressure_GPa";
+  const StudyTable two(CsvTable::parse("status,run," + key +
+                                       ",max_pressure_MPa,porosity_after_relaxation,springback\n"
+                                       "done,a,0,80,0.4,0.1\ndone,b,3,80,0.3,0.1\n"),
+                       {key});
+  for (const auto &chart : study_charts(two, [](const auto &) { return CsvTable::parse(""); }))
+    if (chart.id == key + "-porosity_after_relaxation") {
+      EXPECT_EQ(chart.series[0].x, std::vector<double>{3});
+      ASSERT_EQ(chart.limits.size(), 1u);
+      EXPECT_DOUBLE_EQ(chart.limits[0].y, 40);
+      EXPECT_EQ(chart.limits[0].label, "off");
+      return;
+    }
+  FAIL() << "no such chart";
+}
+
 // The strengths of two kinds of bonds have one short name.
 TEST(Charts, EachHasAnIdOfItsOwn) {
   const std::vector<std::string> varied = {"case.bond.tensile_strength_MPa",
