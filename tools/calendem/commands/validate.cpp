@@ -81,7 +81,8 @@ std::string experiment_in_words(const std::string &file) {
 
 std::string case_in_words(const Settings &settings) {
   std::string out = "case";
-  if (const std::string &electrode = settings.text("electrode"); !fs::exists(electrode))
+  if (const std::string &electrode = settings.text("electrode");
+      !std::filesystem::exists(electrode))
     out += fmt::format("\n- {} is not there yet: calendem pack RECIPE -o {} makes it", electrode,
                        electrode);
   for (const std::string &slow : slow_speeds(settings))

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/case.h"
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "base/registry.h"
