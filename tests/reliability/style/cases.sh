@@ -37,7 +37,7 @@ includes_point_one_way() { # physics <- laws <- liggghts, tools/calendem; tests 
   # A folder of tools/calendem knows itself, those before it in this list, and its CMake library links no other.
   local folder known=physics\|laws
   for folder in effects base inference electrode/structure electrode/pack electrode/slurry electrode simulate bank measure report press \
-    compare films predict diagnose commands .; do
+    compare commands films predict diagnose film_commands .; do
     known="$known|$folder"
     find "tools/calendem/$folder" -maxdepth 1 -name '*.h' -o -maxdepth 1 -name '*.cpp' | LC_ALL=C sort |
       xargs grep -nE '^ *# *include *"' /dev/null | without "include \"($known)/[a-z0-9_]+\.h\"" |

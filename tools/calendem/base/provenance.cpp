@@ -99,6 +99,8 @@ std::string input_scripts() {
   return fs::weakly_canonical(program_folder() / "../share/calendem/input_scripts").string();
 }
 
+std::string program_beside(const std::string &name) { return (program_folder() / name).string(); }
+
 std::string liggghts_program() {
   const fs::path installed = program_folder() / "liggghts-calendem";
   return (fs::exists(installed) ? installed : program_folder() / "liggghts").string();

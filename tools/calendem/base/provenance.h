@@ -28,6 +28,8 @@ std::string version();
 
 /// ../share/calendem/input_scripts, seen from this program's folder.
 std::string input_scripts();
+/// The path of a program in this one's folder.
+std::string program_beside(const std::string &name);
 /// The LIGGGHTS program beside this one: liggghts-calendem where installed, else liggghts.
 std::string liggghts_program();
 

@@ -24,26 +24,14 @@ void add_tomogram_verb(CLI::App &app); ///< tomogram SPEC.toml -o FILE.mhd
 void add_run_verb(CLI::App &app);      ///< run CASE.toml -o DIR [--ranks N] [--resume]
 void add_collect_verb(CLI::App &app);  ///< collect DIR: of what plain input scripts left there
 void add_study_verb(CLI::App &app);    ///< study STUDY.toml -o DIR [--jobs N] [--slurm] ...
-void add_bank_verb(CLI::App &app); ///< bank BANK.toml -o DIR [--check], with the options of study
-/// Makes the runs of a bank of points and its table. `from`: tables whose runs are taken.
-void make_bank(const StudyOptions &options, const std::vector<std::string> &from);
-/// Prints how well the emulator of such a bank predicts packings that are left out. `table`: empty:
-/// the one beside the bank's file.
-void check_bank_of_points(const std::string &file, const std::string &table);
-void add_measure_verb(CLI::App &app);   ///< measure DIR|IMAGE -o OUT
-void add_sample_verb(CLI::App &app);    ///< sample DIR... --one gap|pressure -o DIR
-void add_press_verb(CLI::App &app);     ///< press RAW.csv... -o CURVE.csv --diameter-mm D
-void add_report_verb(CLI::App &app);    ///< report DIR... [-o FILE.html]
-void add_export_verb(CLI::App &app);    ///< export RUN [--bpx FILE] [--lammps FILE] [--phases FILE]
-void add_compare_verb(CLI::App &app);   ///< compare EXPERIMENT.toml DIR... -o DIR
-void add_diagnose_verb(CLI::App &app);  ///< diagnose EXPERIMENT.toml -o DIR [--bank BANK.toml]
-void add_calibrate_verb(CLI::App &app); ///< calibrate EXPERIMENT.toml... -o DIR [--bank BANK.toml]
-void add_predict_verb(
-    CLI::App &app);                  ///< predict MODEL.json RECIPE.toml... --pressure 20:300 -o DIR
-void add_design_verb(CLI::App &app); ///< design MODEL.json RECIPE.toml --porosity 30 -o DIR
+void add_measure_verb(CLI::App &app);  ///< measure DIR|IMAGE -o OUT
+void add_sample_verb(CLI::App &app);   ///< sample DIR... --one gap|pressure -o DIR
+void add_press_verb(CLI::App &app);    ///< press RAW.csv... -o CURVE.csv --diameter-mm D
+void add_report_verb(CLI::App &app);   ///< report DIR... [-o FILE.html]
+void add_export_verb(CLI::App &app);   ///< export RUN [--bpx FILE] [--lammps FILE] [--phases FILE]
+void add_compare_verb(CLI::App &app);  ///< compare EXPERIMENT.toml DIR... -o DIR
 void add_effects_verb(CLI::App &app);  ///< effects [NAME] [--json]
 void add_registry_verb(CLI::App &app); ///< registry DIR [--check]
-void add_validate_verb(CLI::App &app); ///< validate FILE...
 
 /// A finite number from `low` to `high`; CLI11's own check of a range lets NaN through.
 CLI::Validator finite_range(double low, double high);

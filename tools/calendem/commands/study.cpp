@@ -10,36 +10,6 @@
 
 namespace calendem {
 
-namespace {
-
-struct BankOptions {
-  StudyOptions study;
-  std::vector<std::string> from; ///< tables whose runs are taken
-  bool check = false;
-};
-
-} // namespace
-
-void add_bank_verb(CLI::App &app) {
-  auto o = std::make_shared<BankOptions>();
-  CLI::App *verb =
-      app.add_subcommand("bank", "Make the simulations that diagnose and calibrate learn from");
-  verb->add_option("BANK", o->study.file, "bank (TOML)")->required();
-  add_study_options(*verb, o->study);
-  verb->add_option("--from", o->from, "tables of this bank whose runs are used again");
-  CLI::Option *check = verb->add_flag(
-      "--check", o->check,
-      "make no runs: print how well the emulator predicts packings that are left out");
-  for (const char *other : {"--only", "--table", "--slurm", "--slurm-dry-run"})
-    check->excludes(verb->get_option(other));
-  verb->callback([o] {
-    if (o->check)
-      check_bank_of_points(o->study.file, o->from.empty() ? "" : o->from.front());
-    else
-      make_bank(o->study, o->from);
-  });
-}
-
 void add_study_options(CLI::App &verb, StudyOptions &o) {
   o.verb = verb.get_name();
   o.liggghts = liggghts_program();

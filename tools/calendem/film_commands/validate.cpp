@@ -5,12 +5,12 @@
 #include "base/material_notes.h"
 #include "base/particle_sizes.h"
 #include "base/toml_reader.h"
-#include "commands/commands.h"
 #include "compare/observables.h"
 #include "electrode/pack/from_structure.h"
 #include "electrode/pack/measured_bodies.h"
 #include "electrode/slurry/dry.h"
 #include "electrode/tomogram.h"
+#include "film_commands/film_commands.h"
 #include "simulate/study_file.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -132,16 +132,14 @@ void validate(const std::vector<std::string> &files) {
 
 } // namespace
 
-void add_validate_verb(CLI::App &app) {
+void set_up_validate(CLI::App &verb) {
   auto files = std::make_shared<std::vector<std::string>>();
-  CLI::App *verb =
-      app.add_subcommand("validate", "Check TOML files of any kind and list all mistakes at once");
-  verb->add_option("FILE", *files, "TOML files")->required();
-  verb->footer(
+  verb.add_option("FILE", *files, "TOML files")->required();
+  verb.footer(
       list_of_experiment_keys() +
       "Keys of the others: calendem pack --help, calendem run --help, calendem tomogram --help,\n"
       "calendem dry --help, calendem study --help");
-  verb->callback([files] { validate(*files); });
+  verb.callback([files] { validate(*files); });
 }
 
 } // namespace calendem

@@ -4,8 +4,8 @@
 #include "base/output_folder.h"
 #include "base/provenance.h"
 #include "base/shown.h"
-#include "commands/commands.h"
-#include "commands/films_asked.h"
+#include "film_commands/film_commands.h"
+#include "film_commands/films_asked.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fmt/format.h>
@@ -157,23 +157,20 @@ void run_calibrate(const CalibrateOptions &o) {
 
 } // namespace
 
-void add_calibrate_verb(CLI::App &app) {
+void set_up_calibrate(CLI::App &verb) {
   auto o = std::make_shared<CalibrateOptions>();
   o->bank = input_scripts() + "/cases/films/bank.toml";
-  CLI::App *verb =
-      app.add_subcommand("calibrate", "Infer a material's parameters and effects from measured "
-                                      "films; predict each film from the others");
-  verb->add_option("EXPERIMENT", o->experiments, "experiment files (TOML)")->required();
-  verb->add_option("-o,--output", o->folder, "folder for model.json, case.toml and model.html")
+  verb.add_option("EXPERIMENT", o->experiments, "experiment files (TOML)")->required();
+  verb.add_option("-o,--output", o->folder, "folder for model.json, case.toml and model.html")
       ->required();
-  verb->add_option("--bank", o->bank, "bank (TOML) with its table (CSV) beside it");
-  verb->add_option("--samples", o->settings.samples, "number of samples of the posterior")
+  verb.add_option("--bank", o->bank, "bank (TOML) with its table (CSV) beside it");
+  verb.add_option("--samples", o->settings.samples, "number of samples of the posterior")
       ->check(CLI::Range(64, 1 << 20));
   add_run_options(
-      *verb, o->runs, o->study, "--confirm",
+      verb, o->runs, o->study, "--confirm",
       "number of simulations of every film at every pressure, each with another draw of "
       "the material on another packing");
-  verb->callback([o] { run_calibrate(*o); });
+  verb.callback([o] { run_calibrate(*o); });
 }
 
 } // namespace calendem

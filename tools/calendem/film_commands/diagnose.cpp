@@ -4,9 +4,9 @@
 #include "base/material_notes.h"
 #include "base/output_folder.h"
 #include "base/provenance.h"
-#include "commands/commands.h"
-#include "commands/films_asked.h"
 #include "diagnose/run_again.h"
+#include "film_commands/film_commands.h"
+#include "film_commands/films_asked.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <optional>
@@ -101,23 +101,21 @@ void run_diagnose(DiagnoseOptions o) {
 
 } // namespace
 
-void add_diagnose_verb(CLI::App &app) {
+void set_up_diagnose(CLI::App &verb) {
   auto o = std::make_shared<DiagnoseOptions>();
   o->bank = input_scripts() + "/cases/films/bank.toml";
-  CLI::App *verb = app.add_subcommand(
-      "diagnose", "Find where simulation and experiment disagree, and which effect explains it");
-  verb->add_option("EXPERIMENT", o->experiment, "experiment file (TOML)")->required();
-  verb->add_option("-o,--output", o->folder, "folder for gap.json and gap.html")->required();
-  verb->add_option("--case", o->case_file,
-                   "your model's case (TOML): what acts in it; default: the bank's reference");
-  CLI::Option *bank = verb->add_option("--bank", o->bank, "bank (TOML) with its table beside it");
-  verb->add_option("--prior", o->prior,
-                   "model.json of calibrate, with what other films have taught and its bank")
+  verb.add_option("EXPERIMENT", o->experiment, "experiment file (TOML)")->required();
+  verb.add_option("-o,--output", o->folder, "folder for gap.json and gap.html")->required();
+  verb.add_option("--case", o->case_file,
+                  "your model's case (TOML): what acts in it; default: the bank's reference");
+  CLI::Option *bank = verb.add_option("--bank", o->bank, "bank (TOML) with its table beside it");
+  verb.add_option("--prior", o->prior,
+                  "model.json of calibrate, with what other films have taught and its bank")
       ->excludes(bank);
-  add_run_options(*verb, o->runs, o->study, "--run",
+  add_run_options(verb, o->runs, o->study, "--run",
                   "number of simulations of the model and of the leading explanation at every "
                   "pressure, each with another draw on another packing");
-  verb->callback([o] { run_diagnose(*o); });
+  verb.callback([o] { run_diagnose(*o); });
 }
 
 } // namespace calendem

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "commands/films_asked.h"
+#include "film_commands/films_asked.h"
 #include "base/material_notes.h"
 #include "base/provenance.h"
 #include "base/recipe.h"
 #include "base/shown.h"
-#include "commands/commands.h"
 #include "electrode/pack/from_structure.h"
+#include "film_commands/film_commands.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What predict and design have in common on the command line: the model, the films that are asked
 // for, and runs of their own.
-#ifndef CALENDEM_COMMANDS_FILMS_ASKED_H
-#define CALENDEM_COMMANDS_FILMS_ASKED_H
+#ifndef CALENDEM_FILM_COMMANDS_FILMS_ASKED_H
+#define CALENDEM_FILM_COMMANDS_FILMS_ASKED_H
 
 #include "base/messages.h"
 #include "predict/files.h"

@@ -2,8 +2,8 @@
 #include "base/output_folder.h"
 #include "base/provenance.h"
 #include "base/shown.h"
-#include "commands/commands.h"
-#include "commands/films_asked.h"
+#include "film_commands/film_commands.h"
+#include "film_commands/films_asked.h"
 #include "predict/by_gap.h"
 #include <fmt/format.h>
 
@@ -118,21 +118,18 @@ void run_predict(const FilmOptions &o) {
 
 } // namespace
 
-void add_predict_verb(CLI::App &app) {
+void set_up_predict(CLI::App &verb) {
   auto o = std::make_shared<FilmOptions>();
-  CLI::App *verb =
-      app.add_subcommand("predict", "Predict porosity, springback and cracked particles of a film "
-                                    "against pressure, with intervals");
-  add_film_options(*verb, *o);
-  verb->add_option("--pressure", o->pressures,
-                   "MPa: 20,50,80 or a range 20:300; default: the bank's range");
+  add_film_options(verb, *o);
+  verb.add_option("--pressure", o->pressures,
+                  "MPa: 20,50,80 or a range 20:300; default: the bank's range");
   add_run_options(
-      *verb, o->runs, o->study, "--runs",
+      verb, o->runs, o->study, "--runs",
       "number of simulations of each recipe at each pressure or gap, each with another draw of "
       "the material, instead of the bank's emulators: for electrodes and pressures "
       "that the bank does not have");
-  add_gap_options(*verb, *o, "--runs");
-  verb->callback([o] { run_predict(*o); });
+  add_gap_options(verb, *o, "--runs");
+  verb.callback([o] { run_predict(*o); });
 }
 
 } // namespace calendem

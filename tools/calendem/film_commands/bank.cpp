@@ -4,7 +4,9 @@
 #include "base/output_folder.h"
 #include "base/provenance.h"
 #include "commands/commands.h"
+#include "film_commands/film_commands.h"
 #include "simulate/making.h"
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
@@ -39,9 +41,9 @@ const char *const kNames[kFilmNumbers] = {
     "porosity after release", "springback",         "cracked particles",  "ln of unloading modulus",
     "broken bonds",           "inverse tortuosity", "nanoporosity of CBD"};
 
-} // namespace
-
-void check_bank_of_points(const std::string &file, const std::string &table) {
+/// Prints how well the emulator of such a bank predicts packings that are left out. `table`: empty:
+/// the one beside the bank's file.
+void check_bank(const std::string &file, const std::string &table) {
   const bank::Bank spec = bank::read_bank(file);
   const std::string from = table.empty() ? bank::table_of(spec) : table;
   const bank::Runs runs = bank::read_runs(spec, from);
@@ -64,6 +66,7 @@ void check_bank_of_points(const std::string &file, const std::string &table) {
     }
 }
 
+/// Makes the runs of a bank of points and its table. `from`: tables whose runs are taken.
 void make_bank(const StudyOptions &given, const std::vector<std::string> &from) {
   const bank::Bank spec = bank::read_bank(given.file);
   std::vector<bank::Run> runs;
@@ -97,6 +100,32 @@ void make_bank(const StudyOptions &given, const std::vector<std::string> &from) 
   const auto there = [](const bank::Run &run) { return run.failed.empty(); };
   if (!runs.empty() && std::none_of(runs.begin(), runs.end(), there))
     throw Failure(kSimulationFailed, given.folder + ": no point has a run.");
+}
+
+struct BankOptions {
+  StudyOptions study;
+  std::vector<std::string> from; ///< tables whose runs are taken
+  bool check = false;
+};
+
+} // namespace
+
+void set_up_bank(CLI::App &verb) {
+  auto o = std::make_shared<BankOptions>();
+  verb.add_option("BANK", o->study.file, "bank (TOML)")->required();
+  add_study_options(verb, o->study);
+  verb.add_option("--from", o->from, "tables of this bank whose runs are used again");
+  CLI::Option *check = verb.add_flag(
+      "--check", o->check,
+      "make no runs: print how well the emulator predicts packings that are left out");
+  for (const char *other : {"--only", "--table", "--slurm", "--slurm-dry-run"})
+    check->excludes(verb.get_option(other));
+  verb.callback([o] {
+    if (o->check)
+      check_bank(o->study.file, o->from.empty() ? "" : o->from.front());
+    else
+      make_bank(o->study, o->from);
+  });
 }
 
 } // namespace calendem

@@ -2,8 +2,8 @@
 #include "base/output_folder.h"
 #include "base/provenance.h"
 #include "base/shown.h"
-#include "commands/commands.h"
-#include "commands/films_asked.h"
+#include "film_commands/film_commands.h"
+#include "film_commands/films_asked.h"
 #include <fmt/format.h>
 
 namespace calendem {
@@ -184,35 +184,32 @@ void run_design(const DesignOptions &o) {
 
 } // namespace
 
-void add_design_verb(CLI::App &app) {
+void set_up_design(CLI::App &verb) {
   auto o = std::make_shared<DesignOptions>();
-  CLI::App *verb = app.add_subcommand(
-      "design",
-      "Choose the pressure or gap that meets a target, with the probability that it does");
-  add_film_options(*verb, *o);
-  verb->add_option("--porosity", o->porosity, "wanted total porosity after release [%]")
+  add_film_options(verb, *o);
+  verb.add_option("--porosity", o->porosity, "wanted total porosity after release [%]")
       ->required()
       ->check(finite_range(1.0, 79.0));
-  verb->add_option("--within", o->within, "allowed deviation from it in points (default 1)")
+  verb.add_option("--within", o->within, "allowed deviation from it in points (default 1)")
       ->check(finite_range(0.01, 20.0));
-  verb->add_option("--cracked-below", o->cracked_below,
-                   "limit of the cracked particles [%]; default: none")
+  verb.add_option("--cracked-below", o->cracked_below,
+                  "limit of the cracked particles [%]; default: none")
       ->check(finite_range(0.1, 100.0));
-  verb->add_option("--tortuosity-below", o->tortuosity_below,
-                   "limit of the tortuosity factor of the pores through the plane; default: none")
+  verb.add_option("--tortuosity-below", o->tortuosity_below,
+                  "limit of the tortuosity factor of the pores through the plane; default: none")
       ->check(finite_range(1.0, kMostTortuosity));
-  verb->add_option("--pressure", o->pressures,
-                   "MPa to choose from: a list or a range; default: the bank's");
-  add_run_options(*verb, o->runs, o->study, "--confirm",
+  verb.add_option("--pressure", o->pressures,
+                  "MPa to choose from: a list or a range; default: the bank's");
+  add_run_options(verb, o->runs, o->study, "--confirm",
                   "number of simulations of each recipe at the pressure or gap proposed, each with "
                   "another draw of the material on another packing");
-  add_gap_options(*verb, *o, "--confirm");
+  add_gap_options(verb, *o, "--confirm");
   const CLI::Option *runs =
-      add_other_runs(*verb, o->runs, "--runs", "--confirm",
+      add_other_runs(verb, o->runs, "--runs", "--confirm",
                      "number of simulations of each recipe at each pressure or gap, instead of the "
                      "bank's emulators: "
                      "for electrodes that the bank does not have, such as other particle sizes");
-  verb->callback([o, runs] {
+  verb.callback([o, runs] {
     o->by_runs = runs->count() > 0;
     run_design(*o);
   });
