@@ -104,13 +104,17 @@ std::vector<std::size_t> first_loading(const Column &pressure, const std::vector
   return found;
 }
 
-double worst_imbalance(const Curve &curve, double threshold_MPa) {
-  const Column difference = imbalance(curve);
+std::vector<std::size_t> first_loading(const Curve &curve) {
   std::vector<bool> released;
   for (const std::string &stage : curve.stage)
     released.push_back(stage == "relaxation");
+  return first_loading(curve["pressure_MPa"], released);
+}
+
+double worst_imbalance(const Curve &curve, double threshold_MPa) {
+  const Column difference = imbalance(curve);
   double worst = kNaN;
-  for (const std::size_t i : first_loading(curve["pressure_MPa"], released))
+  for (const std::size_t i : first_loading(curve))
     if (curve["pressure_MPa"][i] > threshold_MPa)
       worst = std::fmax(worst, difference[i]);
   return worst;

@@ -57,6 +57,7 @@ Column imbalance(const Curve &curve);
 /// was released from it loads elastically, as in a release. Of each row its pressure, and whether it
 /// is of a release.
 std::vector<std::size_t> first_loading(const Column &pressure, const std::vector<bool> &released);
+std::vector<std::size_t> first_loading(const Curve &curve);
 
 /// The largest imbalance over rows of first loading with P_top above `threshold_MPa`; NaN if none.
 double worst_imbalance(const Curve &curve, double threshold_MPa);

@@ -178,8 +178,9 @@ std::vector<GeneratedFile> generated_files(const std::string &top) {
   return all;
 }
 
-CLI::Validator finite_range(double low, double high) {
-  const std::string range = fmt::format("in [{:g} - {:g}]", low, high);
+CLI::Validator finite_range(double low, double high, const std::string &unit) {
+  const std::string range =
+      fmt::format("in [{:g} - {:g}]{}{}", low, high, unit.empty() ? "" : " ", unit);
   return {[=](std::string &text) {
             double value = 0.0;
             const bool good =

@@ -34,7 +34,7 @@ void add_effects_verb(CLI::App &app);  ///< effects [NAME] [--json]
 void add_registry_verb(CLI::App &app); ///< registry DIR [--check]
 
 /// A finite number from `low` to `high`; CLI11's own check of a range lets NaN through.
-CLI::Validator finite_range(double low, double high);
+CLI::Validator finite_range(double low, double high, const std::string &unit = "");
 
 /// The options of all verbs that make a study. `options` must outlive `verb`.
 void add_study_options(CLI::App &verb, StudyOptions &options);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // export: a moment of a run for other programs.
+#include "base/material_notes.h"
 #include "base/provenance.h"
+#include "base/run_folder.h"
 #include "commands/commands.h"
 #include "measure/exports.h"
 #include <CLI/CLI.hpp>
@@ -52,6 +54,9 @@ void export_run(const ExportArguments &a) {
                a.bpx, e.thickness, 100.0 * e.porosity, e.transport_efficiency, e.particle_radius,
                e.active_fraction);
   }
+  for (const std::string &warning :
+       warnings_of_electrode(RunFolder(a.run).object("electrode.json")))
+    fmt::print(stderr, "warning: {}\n", warning);
 }
 
 } // namespace

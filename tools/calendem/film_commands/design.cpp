@@ -189,12 +189,12 @@ void set_up_design(CLI::App &verb) {
   add_film_options(verb, *o);
   verb.add_option("--porosity", o->porosity, "wanted total porosity after release [%]")
       ->required()
-      ->check(finite_range(1.0, 79.0));
+      ->check(finite_range(1.0, 79.0, "%"));
   verb.add_option("--within", o->within, "allowed deviation from it in points (default 1)")
-      ->check(finite_range(0.01, 20.0));
+      ->check(finite_range(0.01, 20.0, "points"));
   verb.add_option("--cracked-below", o->cracked_below,
                   "limit of the cracked particles [%]; default: none")
-      ->check(finite_range(0.1, 100.0));
+      ->check(finite_range(0.1, 100.0, "%"));
   verb.add_option("--tortuosity-below", o->tortuosity_below,
                   "limit of the tortuosity factor of the pores through the plane; default: none")
       ->check(finite_range(1.0, kMostTortuosity));

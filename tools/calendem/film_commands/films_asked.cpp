@@ -244,7 +244,7 @@ void add_film_options(CLI::App &verb, FilmOptions &o) {
                   "one that was not measured");
   verb.add_option("--press-percent", o.press_percent,
                   "standard deviation of the press's pressure [%]; default 0: exact")
-      ->check(finite_range(0.0, 50.0));
+      ->check(finite_range(0.0, 50.0, "%"));
 }
 
 void add_gap_options(CLI::App &verb, FilmOptions &o, const std::string &runs) {

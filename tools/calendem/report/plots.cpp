@@ -133,18 +133,20 @@ Chart quasi_static_check(const std::vector<Run> &runs) {
       "film has not borne before: neither a release nor the way back to its pressure.";
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const Column &p = runs[i].curve["pressure_MPa"], difference = imbalance(runs[i].curve);
-    const auto add = [&](const char *what, Rows rows, const char *colour, const char *dash) {
-      rows.erase(std::remove_if(rows.begin(), rows.end(),
-                                [&](std::size_t row) { return p[row] <= kThreshold; }),
-                 rows.end());
+    const Rows first = first_loading(runs[i].curve);
+    Rows judged, others;
+    for (std::size_t row = 0; row < p.size(); ++row)
+      if (p[row] > kThreshold)
+        (std::binary_search(first.begin(), first.end(), row) ? judged : others).push_back(row);
+    const auto add = [&](const char *what, const Rows &rows, const char *colour, const char *dash) {
       for (const double y : add_line(chart, runs, i, what, picked(p, rows),
                                      picked(difference, rows, kPercent), colour, dash)
                                 .y)
         chart.y_top = std::max(chart.y_top, std::min(y, kPercent));
     };
-    add("compression", runs[i].curve.compression(), kBlue, "");
-    if (!runs[i].curve.relaxation().empty())
-      add("relaxation", runs[i].curve.relaxation(), kRed, "5 4");
+    add("first loading", judged, kBlue, "");
+    if (!others.empty())
+      add("release and way back", others, kRed, "5 4");
   }
   return chart;
 }

@@ -22,7 +22,7 @@ const char *const kStageNames[] = {"hold", "compression", "dwell", "relaxation",
 constexpr double kImbalanceWindow = 0.5; // us
 // Rows are up to 0.1 um apart: the highest of them lies a little below the pressure that was met.
 // Gaps are averages: where the platen turns at once, a quarter of the window's travel is cut off.
-constexpr double kTargetTolerance = 0.02, kCutOff = 0.25 * kAverageTravel; // um
+constexpr double kTargetTolerance = 0.02, kLastTravel = 0.25 * kAverageTravel; // um
 
 // |P_top - P_bottom| / P_top with both averaged over kImbalanceWindow: rows are averages over
 // `average` already, so those of the time before the rest of the window count.
@@ -136,8 +136,8 @@ std::string platen_stopped(const std::vector<RawRow> &rows, const Settings &s) {
   const double target = s.number(key);
   const bool reached = control == "pressure" ? pressure >= (1.0 - kTargetTolerance) * target
                        : control == "thickness" || control == "roll_gap"
-                           ? gap <= (1.0 + kTargetTolerance) * target + kCutOff
-                           : moved >= (1.0 - kTargetTolerance) * target - kCutOff;
+                           ? gap <= (1.0 + kTargetTolerance) * target + kLastTravel
+                           : moved >= (1.0 - kTargetTolerance) * target - kLastTravel;
   return reached
              ? ""
              : fmt::format("the platen stopped at its lowest position, {:.2f} um, at {:.1f} MPa "

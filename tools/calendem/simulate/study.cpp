@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "simulate/study.h"
 #include "base/liggghts_job.h"
+#include "base/material_notes.h"
 #include "base/output_folder.h"
 #include "base/provenance.h"
 #include "base/run_folder.h"
@@ -45,6 +46,29 @@ void prepare(const Study &study, const StudyOptions &o) {
   fs::create_directories(o.folder + "/runs");
 }
 
+/// Says once what electrodes of the study warn of: that one in whose cell the powder fits least.
+void say_warnings(const Making &making) {
+  int runs = 0, warned = 0;
+  double most = -1.0;
+  std::vector<std::string> said;
+  for (const std::string &folder : making.finished()) {
+    if (folder.empty())
+      continue;
+    ++runs;
+    RunFolder run(folder);
+    const std::vector<std::string> warnings = warnings_of_electrode(run.object("electrode.json"));
+    if (warnings.empty())
+      continue;
+    ++warned;
+    if (const double cut = run.object("electrode.json").value(kCutOff, 0.0); cut > most) {
+      most = cut;
+      said = warnings;
+    }
+  }
+  for (const std::string &text : said)
+    fmt::print(stderr, "warning: {} of {} runs; one of them: {}\n", warned, runs, text);
+}
+
 void make(Making &making, const Study &study, const StudyOptions &o) {
   const int n = static_cast<int>(study.runs.size());
   write_file(o.folder + "/study.json", making.description().dump(2) + "\n");
@@ -61,6 +85,8 @@ void make(Making &making, const Study &study, const StudyOptions &o) {
     return stop_if_failed(making);
   making.write_table();
   fmt::print("study: {} of {} runs done, {}/study.csv\n", making.count("done"), n, o.folder);
+  std::cout << std::flush;
+  say_warnings(making);
   stop_if_failed(making);
 }
 
