@@ -174,6 +174,8 @@ mutants_change_something() {
     expression=$(sed 's/^ *//; s/ *$//' <<<"$expression")
     if [ ! -f "$file" ]; then
       echo "$name: no $file"
+    elif ! sed "$expression" "$file" >/dev/null 2>&1; then
+      echo "$name: no sed expression: $expression"
     elif sed "$expression" "$file" | cmp -s - "$file"; then
       echo "$name"
     fi
