@@ -257,13 +257,14 @@ double faded(double inset, double fading, int bonds) {
 }
 
 // A body of three primaries in a row around `middle`, and one of another body above the one in the
-// middle: 0.05 um above where their surfaces meet.
+// middle: kGap above where their surfaces meet, and nearer than without the inset of bonds that are yet to be made.
+constexpr double kGap = 0.01; // um
 Files row_and_one(double middle, double inset, double fading) {
   std::vector<BodySphere> all;
   for (const double x : {0.0, kSpacing, -kSpacing})
     all.push_back({{middle + x, 0, 0}, R, 1});
   const double meeting = 2.0 * R - faded(inset, fading, 2) - faded(inset, fading, 0);
-  all.push_back({{middle, 0, meeting + 0.05}, R, 2});
+  all.push_back({{middle, 0, meeting + kGap}, R, 2});
   return files_of(all, {-6, -6, -6}, {6, 6, 6});
 }
 
@@ -292,8 +293,18 @@ TEST(VerificationSlip, AnInsetFadesWithTheBonds) {
         EXPECT_NEAR(row.at("force"), last, 1e-9 * hertz_force(E, R_eff, 0.1)) << row.at("step");
       }
       EXPECT_EQ(meeting, later);
-      EXPECT_NEAR(last, hertz_force(E, R_eff, 0.05 + fading * inset / 6.0), 1e-6 * last);
+      EXPECT_NEAR(last, hertz_force(E, R_eff, 0.1 - kGap + fading * inset / 6.0), 1e-6 * last);
     }
+}
+
+// The surface of the first lists, which hold until spheres have moved, is that of the bonds which the set-up makes later.
+TEST(VerificationSlip, AnInsetCountsBondsThatAreYetToBeMade) {
+  Settings s = settings(1.0);
+  s.insert({{"inset", "0.1"}, {"fading", "1"}, {"check", "yes"}});
+  s["dt"] = "1e-4";
+  const CaseRun run("slip/in.fade", s, 1, row_and_one(0.0, 0.1, 1.0));
+  ASSERT_TRUE(run.finished()) << run.why();
+  EXPECT_EQ(run.rows("curve.csv").front().at("force"), 0.0); // of step 10, when 0.009 um are left
 }
 
 TEST(VerificationSlip, AFadedInsetIsTheSameOnTwoRanksAndAfterARestart) {
