@@ -2,6 +2,7 @@
 #include "base/output_folder.h"
 #include "base/provenance.h"
 #include "base/shown.h"
+#include "commands/commands.h"
 #include "film_commands/film_commands.h"
 #include "film_commands/films_asked.h"
 #include <fmt/format.h>

@@ -4,6 +4,7 @@
 #include "base/provenance.h"
 #include "base/recipe.h"
 #include "base/shown.h"
+#include "commands/commands.h"
 #include "electrode/pack/from_structure.h"
 #include "film_commands/film_commands.h"
 #include <algorithm>
