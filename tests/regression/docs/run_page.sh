@@ -14,7 +14,7 @@ mkdir -p "$work/tree/build" "$work/blocks"
 cp -r "$top"/{CMakeLists.txt,CMakePresets.json,src_plugin,tools,input_scripts,patches,docs,tests} "$work/tree"
 mkdir -p "$work/tree/build/bin" "$work/tree/build/share/calendem"
 ln -s ../../../input_scripts "$work/tree/build/share/calendem"
-cp "$bin"/{liggghts,calendem} "$work/tree/build/bin" # a page may build its own
+cp "$bin"/{liggghts,calendem,calendem-films} "$work/tree/build/bin" # a page may build its own
 [ -z "${CALENDEM_HEAVY:-}" ] || cp -r "$bin/../host" "$work/tree/build"
 awk -v to="$work/blocks/" '
   /^```/ && kind != "" { kind = ""; close(file); next }

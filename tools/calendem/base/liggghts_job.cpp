@@ -50,8 +50,6 @@ StopRequests::~StopRequests() {
 
 int stop_requested() { return received; }
 
-std::string this_program() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
-
 namespace {
 
 /// This program's environment with the child's own variables, each NAME=VALUE.

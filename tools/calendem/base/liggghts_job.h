@@ -28,9 +28,6 @@ private:
 /// The last signal that asked to stop; 0: none.
 int stop_requested();
 
-/// Path of the program that runs, to start it again.
-std::string this_program();
-
 struct ChildProgram {
   std::vector<std::string> words; ///< the program, found in PATH, and its arguments
   std::string output;             ///< file that takes what it prints

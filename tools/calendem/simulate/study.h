@@ -4,7 +4,7 @@
 #ifndef CALENDEM_SIMULATE_STUDY_H
 #define CALENDEM_SIMULATE_STUDY_H
 
-#include "base/liggghts_job.h"
+#include "base/provenance.h"
 #include "simulate/study_file.h"
 
 namespace calendem {
@@ -25,7 +25,7 @@ struct StudyOptions {
   std::vector<std::string> further; ///< options that the verb needs for it
   std::string folder;
   std::string liggghts;
-  std::string calendem = this_program(); ///< makes each packing and run
+  std::string calendem = program_beside("calendem"); ///< makes each packing and run
   int jobs = 0;  ///< runs at a time; 0: one, in Slurm's queue as many as it lets run
   int ranks = 1; ///< MPI ranks of each
   int only = 0;  ///< number of the one run to make; 0: all
