@@ -297,16 +297,6 @@ TEST(VerificationSlip, AnInsetFadesWithTheBonds) {
     }
 }
 
-// The surface of the first lists, which hold until spheres have moved, is that of the bonds which the set-up makes later.
-TEST(VerificationSlip, AnInsetCountsBondsThatAreYetToBeMade) {
-  Settings s = settings(1.0);
-  s.insert({{"inset", "0.1"}, {"fading", "1"}, {"check", "yes"}});
-  s["dt"] = "1e-4";
-  const CaseRun run("slip/in.fade", s, 1, row_and_one(0.0, 0.1, 1.0));
-  ASSERT_TRUE(run.finished()) << run.why();
-  EXPECT_EQ(run.rows("curve.csv").front().at("force"), 0.0); // of step 10, when 0.009 um are left
-}
-
 TEST(VerificationSlip, AFadedInsetIsTheSameOnTwoRanksAndAfterARestart) {
   Settings s = settings(1.0);
   s.insert({{"inset", "0.1"}, {"fading", "1"}});
@@ -327,6 +317,16 @@ TEST(VerificationSlip, AFadedInsetIsTheSameOnTwoRanksAndAfterARestart) {
     ASSERT_TRUE(later.finished()) << later.why();
     EXPECT_EQ(later.rows("curve.csv").back(), one.rows("curve.csv").back());
   }
+}
+
+// The surface of the first lists, which hold until spheres have moved, is that of the bonds which the set-up makes later.
+TEST(VerificationSlip, AnInsetCountsBondsThatAreYetToBeMade) {
+  Settings s = settings(1.0);
+  s.insert({{"inset", "0.1"}, {"fading", "1"}, {"check", "yes"}});
+  s["dt"] = "1e-4";
+  const CaseRun run("slip/in.fade", s, 1, row_and_one(0.0, 0.1, 1.0));
+  ASSERT_TRUE(run.finished()) << run.why();
+  EXPECT_EQ(run.rows("curve.csv").front().at("force"), 0.0); // of step 10, when 0.009 um are left
 }
 
 TEST(VerificationSlip, ARestartWithAnotherDiameterStops) {

@@ -111,6 +111,16 @@ Experiment experiment_of_its_material(const std::string &file) {
   return experiment;
 }
 
+/// A case for each material. Throws Failure(2) where a file of that name is not of a calibration.
+std::vector<std::string> files_of_cases(const std::string &folder, const Calibration &c) {
+  std::vector<std::string> cases;
+  for (std::size_t m = 0; m < c.materials.size(); ++m) {
+    cases.push_back(folder + (m == 0 ? "/case.toml" : fmt::format("/case_{}.toml", m + 1)));
+    require_own_file(cases.back(), kHeadOfCase);
+  }
+  return cases;
+}
+
 void run_calibrate(const CalibrateOptions &o) {
   const FilmBank bank(o.bank);
   Calibration c;
@@ -123,11 +133,7 @@ void run_calibrate(const CalibrateOptions &o) {
     recipes.push_back(experiment.recipe);
   }
   make_output_folder(o.folder);
-  std::vector<std::string> cases;
-  for (std::size_t m = 0; m < c.materials.size(); ++m) {
-    cases.push_back(o.folder + (m == 0 ? "/case.toml" : fmt::format("/case_{}.toml", m + 1)));
-    require_own_file(cases.back(), kHeadOfCase);
-  }
+  const std::vector<std::string> cases = files_of_cases(o.folder, c);
   fmt::print("calibrate: {}\n", data_in_words(c));
   calibrate(bank, o.settings, c);
   for (const std::string &text : warnings_of(bank, c))
