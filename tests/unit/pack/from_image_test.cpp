@@ -156,7 +156,10 @@ TEST(ImageAsElectrode, AnyAxisMayLeadUpFromTheCollector) {
   }
   const LabelImage down = turned(image, "-y");
   EXPECT_EQ(down.n, (std::array{48, 80, 80})); // the image's z, and its x and y backwards
-  EXPECT_EQ(down.at(5, 7, 9), image.at(80 - 1 - 7, 80 - 1 - 9, 5));
+  for (int k = 0; k < 80; ++k)
+    for (int j = 0; j < 80; ++j)
+      for (int i = 0; i < 48; ++i)
+        ASSERT_EQ(down.at(i, j, k), image.at(80 - 1 - j, 80 - 1 - k, i));
 }
 
 TEST(ImageAsElectrode, MistakesAreNamed) {
