@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <fmt/core.h>
+#include <string>
 #include <vector>
 
 namespace calendem {

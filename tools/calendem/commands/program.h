@@ -5,7 +5,6 @@
 #define CALENDEM_COMMANDS_PROGRAM_H
 
 #include <functional>
-#include <string>
 
 namespace CLI {
 class App;

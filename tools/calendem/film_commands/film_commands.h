@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The verbs of the second program, calendem-films: those that learn from a bank of films. The first build leaves it out
-// until a run has been seen. Each function adds the options of its verb, and its work.
+// The verbs of the second program, calendem-films: those that learn from a bank of films, and validate, which also reads
+// the file of a bank. The demo builds it after its report. Each function adds the options of its verb, and its work.
 #ifndef CALENDEM_FILM_COMMANDS_FILM_COMMANDS_H
 #define CALENDEM_FILM_COMMANDS_FILM_COMMANDS_H
 
