@@ -74,6 +74,15 @@ void FixTimeBpm::init() {
   begun_ = true;
 }
 
+int FixTimeBpm::setmask() { return FixConst::INITIAL_INTEGRATE; }
+
+void FixTimeBpm::initial_integrate(int) {
+  if (count_.length != update->dt)
+    error->fix_error(FLERR, this,
+                     "the time step was changed before 'run ... pre no', in which LIGGGHTS' "
+                     "integrators keep the old one: leave out 'pre no'");
+}
+
 void FixTimeBpm::reset_dt() {
   count_.set_length(static_cast<double>(update->ntimestep), update->dt);
 }

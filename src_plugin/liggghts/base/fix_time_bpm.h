@@ -29,9 +29,10 @@ namespace LAMMPS_NS {
 class FixTimeBpm : public Fix {
 public:
   FixTimeBpm(class LAMMPS *, int, char **);
-  int setmask() { return 0; }
+  int setmask();
   void post_create();
   void init();
+  void initial_integrate(int);
   void reset_dt();
   void reset_timestep(bigint newstep, bigint oldstep);
   double compute_scalar() { return now(); }

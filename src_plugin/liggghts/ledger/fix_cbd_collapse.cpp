@@ -11,6 +11,7 @@
 #include "global_properties.h"
 #include "memory.h"
 #include "modify.h"
+#include "physics/pi.h"
 #include "physics/sjkr_cohesion.h"
 #include "stop_run.h"
 #include "update.h"
@@ -23,7 +24,7 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 
 namespace {
-const double kFourThirdsPi = 4.18879020478639098462;
+const double kFourThirdsPi = 4.0 / 3.0 * calendem::kPi;
 } // namespace
 
 FixCbdCollapse::FixCbdCollapse(LAMMPS *lmp, int narg, char **arg)
@@ -109,10 +110,7 @@ void FixCbdCollapse::init() {
   pairs_have_effects_ = ContactEffects::in_use(lmp);
   force->registry.registerProperty("cohEnergyDens", &MODEL_PARAMS::createCohesionEnergyDensity);
   force->registry.connect("cohEnergyDens", cohesion_energy_density_, "fix cbd/collapse");
-  walls_.clear();
-  for (int k = 0; k < modify->nfix; ++k)
-    if (FixWallGranPlaten *wall = dynamic_cast<FixWallGranPlaten *>(modify->fix[k]))
-      walls_.push_back(wall);
+  walls_ = FixWallGranPlaten::all(*modify);
   upper_ = NULL;
   for (FixWallGranPlaten *wall : walls_)
     if (wall->is_top())
@@ -146,13 +144,14 @@ void FixCbdCollapse::add_wall_forces(std::vector<calendem::WideSum> &sum) const 
   for (FixWallGranPlaten *wall : walls_) {
     const int tw = wall->atom_type_wall();
     for (int i = 0; i < atom->nlocal; ++i) {
-      const double R = atom->radius[i], r = std::fabs(atom->x[i][2] - wall->position());
       if (!is_mine(i))
         continue;
+      const double R = atom->radius[i];
+      const calendem::WallContact at = wall->contact(i);
       const double ced = wall->sticks() ? cohesion_energy_density_[type_][tw] : 0.0;
       sum[i].add(
-          effects_.force(EffectContact::at_wall(type_, tw, R, R - r), wall->effect_memory(i)) -
-          calendem::sjkr_wall_force(ced, r, R));
+          effects_.force(EffectContact::at_wall(type_, tw, R, at.overlap), wall->effect_memory(i)) -
+          calendem::sjkr_wall_force(ced, at.distance, R));
     }
   }
 }

@@ -58,10 +58,7 @@ int FixCbdGrowth::setmask() { return PRE_FORCE | END_OF_STEP; }
 
 void FixCbdGrowth::init() {
   bonds_ = FixBondBpm::find(lmp, "fix cbd/growth");
-  walls_.clear();
-  for (int k = 0; k < modify->nfix; ++k)
-    if (FixWallGranPlaten *wall = dynamic_cast<FixWallGranPlaten *>(modify->fix[k]))
-      walls_.push_back(wall);
+  walls_ = FixWallGranPlaten::all(*modify);
 }
 
 // Ghosts are new whenever neighbours are listed.
@@ -107,8 +104,7 @@ void FixCbdGrowth::add_pairs(std::vector<Caps> &caps) const {
 void FixCbdGrowth::add_walls(std::vector<Caps> &caps) const {
   for (FixWallGranPlaten *wall : walls_)
     for (int i = 0; i < atom->nlocal; ++i)
-      add(caps, i, atom->radius[i] - std::fabs(atom->x[i][2] - wall->position()), atom->radius[i],
-          1);
+      add(caps, i, wall->contact(i).overlap, atom->radius[i], 1);
 }
 
 void FixCbdGrowth::end_of_step() {

@@ -88,10 +88,13 @@ void FixCheckTimestepBpm::add_contacts(Spheres &spheres) const {
   const double *R = atom->radius, *m = atom->rmass;
   FixBondBpm *bonds = FixBondBpm::find(lmp, "fix check/timestep/bpm");
   bonds->pairs().for_each_touching_copy([&](int i, int j, double r, const BondHistory &bond) {
+    const double overlap = bond.contact(r, R[i] + R[j]).overlap;
+    if (overlap <= 0.0)
+      return;
     const int ti = atom->type[i], tj = atom->type[j];
-    const double a = effects_.stiffness_radius(
-        EffectContact::of_spheres(ti, tj, R[i], R[j], bond.contact(r, R[i] + R[j]).overlap),
-        pairs_have_effects_ ? bond.effect_memory() : NULL);
+    const double a =
+        effects_.stiffness_radius(EffectContact::of_spheres(ti, tj, R[i], R[j], overlap),
+                                  pairs_have_effects_ ? bond.effect_memory() : NULL);
     const calendem::BondCoefficients k = stiffness_of(ti, tj, a);
     const calendem::BondCoefficients c = calendem::contact_damping(
         k, effects_.damping(ti, tj), calendem::effective_mass(m[i], m[j]));

@@ -161,7 +161,7 @@ void FixEnergyBpm::collect_walls() {
 // The force that a flat wall exerts on atom i: Hertz, cohesion and damping along z, friction
 // across, with the arm of the host's default surface model.
 void FixEnergyBpm::collect(Wall &wall, int i, const double *force) {
-  const calendem::WallContact at(atom->x[i][2] - wall.fix->position(), atom->radius[i]);
+  const calendem::WallContact at = wall.fix->contact(i);
   const EffectContact contact = EffectContact::at_wall(atom->type[i], wall.fix->atom_type_wall(),
                                                        atom->radius[i], at.overlap);
   const double held =
@@ -229,7 +229,7 @@ double FixEnergyBpm::wall_energy(bool of_cohesion) const {
   for (const Wall &wall : walls_)
     for (int i = 0; i < atom->nlocal; ++i) {
       const double radius = atom->radius[i];
-      const calendem::WallContact at(atom->x[i][2] - wall.fix->position(), radius);
+      const calendem::WallContact at = wall.fix->contact(i);
       sum += of_cohesion
                  ? calendem::sjkr_wall_potential(wall_cohesion(wall, i), at.distance, radius)
                  : effects_.elastic_energy(EffectContact::at_wall(atom->type[i],

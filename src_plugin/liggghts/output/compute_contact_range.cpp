@@ -42,10 +42,7 @@ void ComputeContactRange::init() {
   bonds_ = FixBondBpm::find(lmp, "compute contact/range");
   pairs_have_effects_ = ContactEffects::in_use(lmp);
   effects_.connect(force->registry, "compute contact/range");
-  walls_.clear();
-  for (int k = 0; k < modify->nfix; ++k)
-    if (FixWallGranPlaten *wall = dynamic_cast<FixWallGranPlaten *>(modify->fix[k]))
-      walls_.push_back(wall);
+  walls_ = FixWallGranPlaten::all(*modify);
 }
 
 // Rows of the pairs: those of the first phase, then what the second adds, ...; -1: none.
@@ -82,10 +79,9 @@ void ComputeContactRange::add_pairs() {
 void ComputeContactRange::add_walls() {
   for (FixWallGranPlaten *wall : walls_)
     for (int i = 0; i < atom->nlocal; ++i) {
-      const double radius = atom->radius[i];
       add(kWalls,
-          EffectContact::at_wall(atom->type[i], wall->atom_type_wall(), radius,
-                                 radius - std::fabs(atom->x[i][2] - wall->position())),
+          EffectContact::at_wall(atom->type[i], wall->atom_type_wall(), atom->radius[i],
+                                 wall->contact(i).overlap),
           wall->effect_memory(i));
     }
 }

@@ -14,7 +14,7 @@
 
 namespace LAMMPS_NS {
 
-constexpr const char *kFixesThatReadContacts[] = {"heat/gran", "heat/gran/conduction"};
+constexpr const char *kFixesThatReadContacts[] = {"heat/gran/conduction"};
 constexpr const char *kComputesThatReadContacts[] = {"contact/atom/gran"};
 
 inline bool contacts_are_read(const Modify &modify) {

@@ -232,6 +232,18 @@ void FixWallGranPlaten::set_window() {
   record_.height.set_window(window_ / update->dt);
 }
 
+std::vector<FixWallGranPlaten *> FixWallGranPlaten::all(const Modify &modify) {
+  std::vector<FixWallGranPlaten *> out;
+  for (int k = 0; k < modify.nfix; ++k)
+    if (FixWallGranPlaten *wall = dynamic_cast<FixWallGranPlaten *>(modify.fix[k]))
+      out.push_back(wall);
+  return out;
+}
+
+calendem::WallContact FixWallGranPlaten::contact(int i) const {
+  return {atom->x[i][2] - position(), atom->radius[i]};
+}
+
 double FixWallGranPlaten::mean_position() const {
   return record_.height.empty() ? record_.state.position : record_.height.value();
 }

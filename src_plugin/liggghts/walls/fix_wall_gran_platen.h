@@ -32,6 +32,7 @@ FixStyle(wall/gran/platen, FixWallGranPlaten)
 #define LMP_FIX_WALL_GRAN_PLATEN_H
 
 #include "fix_wall_gran.h"
+#include "physics/contact_pair.h"
 #include "physics/fixed_point.h"
 #include "physics/moving_average.h"
 #include "physics/platen_motion.h"
@@ -59,6 +60,7 @@ public:
   void post_create();
   void pre_delete(bool);
   void init();
+  void reset_dt() { set_window(); }
   void setup_pre_force(int);
   void setup(int);
   void initial_integrate(int);
@@ -68,7 +70,12 @@ public:
   void write_restart(FILE *);
   void restart(char *);
 
+  /// The platens and collectors of the script, in its order.
+  static std::vector<FixWallGranPlaten *> all(const class Modify &modify);
+
   double position() const { return record_.state.position; }
+  /// How atom i touches this wall.
+  calendem::WallContact contact(int i) const;
   double start() const { return programme_.start; }
   bool rolls() const { return programme_.control == calendem::PlatenControl::Roll; }
   double last_gap() const { return programme_.target; } ///< of the last pass of a roll

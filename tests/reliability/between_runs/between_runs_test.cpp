@@ -102,6 +102,24 @@ TEST(BetweenRuns, StepsOfAnotherLengthOrNumberTakeTheirTime) {
   }
 }
 
+// Nobody tells LIGGGHTS' integrators of a new step there.
+TEST(BetweenRuns, AStepOfAnotherLengthWithoutASetUpIsRefused) {
+  for (const char *change : {"run 10 pre no\n", "timestep 5e-5\nrun 10 pre no\n"}) {
+    const CaseRun run = hold(change);
+    EXPECT_EQ(run.finished(), change[0] == 'r') << run.why();
+    if (!run.finished())
+      EXPECT_NE(run.why().find("time step was changed before 'run ... pre no'"), std::string::npos)
+          << run.why();
+  }
+}
+
+// The host's fix sets the step anew in the middle of a run, and tells the others.
+TEST(BetweenRuns, StepsThatChangeInARunTakeTheirTime) {
+  const Dwell d = dwell_of(hold("fix step all dt/reset 50 NULL 5e-5 1 units box\n"));
+  EXPECT_NEAR(d.lasted, kDwell, 1.5e-4);
+  EXPECT_NEAR(d.clock, d.passed, 1e-9);
+}
+
 TEST(BetweenRuns, ARestartWithAnotherStepTakesItsTime) {
   const CaseRun first = hold("write_restart half.restart\n");
   const CaseRun again =

@@ -77,6 +77,7 @@ const std::vector<HostUse> kUses = {
     {"read_dump", "", "dump early all custom 100 early.txt id type x y z radius\n",
      "read_dump early.txt 200 x y z radius\n"},
     {"fix adapt", "", "variable d equal 1.0+1e-4*step\nfix grow far adapt 50 atom diameter v_d\n"},
+    {"fix dt/reset", "", "fix step all dt/reset 60 NULL 4e-5 1 units box\n"},
     {"fix ave/euler", "", "fix euler all ave/euler nevery 50 cell_size_relative 3 parallel yes\n"},
     {"fix freeze", "", "fix still far freeze\n"},
     {"fix rigid", "", "fix rig touching rigid single\n"},
@@ -91,6 +92,7 @@ const std::vector<HostUse> kUses = {
     {"velocity", "", "", "velocity far set 0 0 1 units box\n"},
     {"write_restart", "", "", "write_restart whole.restart\n"},
     {"restart", "", "restart 100 a.restart b.restart\n"},
+    {"write_dump", "", "", "write_dump all custom now.txt id x y z fx fy fz\n"},
     {"write_data", "", "", "write_data data.out\n"},
     {"atom_modify sort", "", "atom_modify sort 20 1.0\n"},
     {"run ... pre no", "", "", "run 50 pre no post no\nrun 50 pre no\n"},
@@ -113,6 +115,8 @@ struct Refusal {
 const std::vector<Refusal> kRefused = {
     {{"fix multisphere", "", "fix ms all multisphere allow_group_and_set yes\n"},
      "fix multisphere leaves pairs of spheres out of LIGGGHTS' first lists"},
+    {{"fix concave", "", "fix ms all concave allow_group_and_set yes\n"},
+     "leaves pairs of spheres out of LIGGGHTS' first lists"},
     {{"run_style respa", "", "run_style respa 2 2\n"}, "'run_style respa' makes no bonds"},
     {{"fix multicontact/halfspace", "", "fix half all multicontact/halfspace\n"},
      "Surface model is not multicontact"},
@@ -219,11 +223,23 @@ TEST_P(HostStyles, FindTheSameContactsAsBesideTheHostsLoop) {
   compare(loop, host);
 }
 
+// Fixes of the host before fix bond/bpm instead of behind it, and the other way round.
+TEST(HostStylesInTheOtherOrder, FindTheSameContacts) {
+  for (HostUse u : kUses) {
+    const bool runs =
+        (u.before + u.behind).find("run ") != std::string::npos; // bonds are made first
+    if (runs || u.before.empty() == u.behind.empty())
+      continue;
+    std::swap(u.before, u.behind);
+    SCOPED_TRACE(u.name);
+    compare(CaseRun("in.host", settings_of(u, "on"), 1, files_of_use(u)),
+            CaseRun("in.host", settings_of(u, "off"), 1, files_of_use(u)));
+  }
+}
+
 // Where spheres change ranks or places in memory; each rank has spheres of the chain and of the rubbing pair.
 TEST(HostStylesOnRanks, FindTheSameContactsOnTwoRanks) {
   for (const HostUse &u : kUses) {
-    if (u.before.empty() && u.name.find("atoms") == std::string::npos)
-      continue;
     Files halves = files_of_use(u);
     halves["ranks.in"] = "processors 2 1 1\n";
     SCOPED_TRACE(u.name);
@@ -276,6 +292,29 @@ TEST(HostStylesPage, NamesEveryUse) {
     EXPECT_NE(page.find("`" + u.name + "`"), std::string::npos) << u.name;
   for (const Refusal &r : kRefused)
     EXPECT_NE(page.find("`" + r.use.name + "`"), std::string::npos) << r.use.name;
+}
+
+// Rows whose refusals are tested in between_runs and lost_bonds.
+TEST(HostStylesPage, HasNoRowWithoutADeck) {
+  std::set<std::string> tested = {"minimize", "neigh_modify one"};
+  for (const HostUse &u : kUses)
+    tested.insert(u.name);
+  for (const Refusal &r : kRefused)
+    tested.insert(r.use.name);
+  std::istringstream page(contents(CALENDEM_PAGE));
+  int rows = 0;
+  for (std::string line; std::getline(page, line);) {
+    if (line.rfind("| `", 0) != 0)
+      continue;
+    ++rows;
+    std::istringstream cell(line.substr(2, line.find(" | ") - 2));
+    for (std::string name; std::getline(cell, name, ',');) {
+      name.erase(0, name.find('`') + 1);
+      if (!name.empty() && name.find('`') == name.size() - 1) // a name and nothing else
+        EXPECT_EQ(tested.count(name.substr(0, name.size() - 1)), 1u) << name;
+    }
+  }
+  EXPECT_GT(rows, 20);
 }
 
 TEST(HostStylesPage, KnowsEverySourceOfTheHostThatReadsContacts) {

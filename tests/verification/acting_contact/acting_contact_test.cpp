@@ -132,13 +132,15 @@ TEST(VerificationActingContact, EveryLawTakesTheOverlapBeyondTheReference) {
       {},
       {{"contact", "hertz_effects"}, {"yield", "1e5"}, {"hardening", "1e5"}},
       {{"contact", "hertz_effects"}, {"relaxed", "0.4"}, {"relaxation", "0.05"}},
-      {{"contact", "hertz_effects"}, {"bulk", "2e6"}, {"free_surface", "0.9"}}};
+      {{"contact", "hertz_effects"}, {"bulk", "2e6"}, {"free_surface", "0.9"}},
+      {{"contact", "hertz_effects"}, {"hardness", "1.2e5"}}}; // its spheres grow as they give way
   Worst worst;
   for (const Settings &law : laws)
     for (const int ways : {-15, 100}) {
       Settings settings = law;
       settings.insert({{"ced", "1e3"}});
       const Row plain = at_rest(kPlain, ways, settings);
+      EXPECT_EQ(plain.at("grown") > 0.0, law.count("hardness") == 1 && ways > 0);
       for (const Pair &pair : kPairs) {
         if (pair.inside)
           continue; // Hertz, whatever the surfaces' law
