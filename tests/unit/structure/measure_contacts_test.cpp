@@ -43,6 +43,24 @@ TEST(Coordination, OfLattices) {
                    12.0 - 4.0 * 2.0 / 8.0);
 }
 
+// Requirement: the surface of a body lies inside the tips of its primaries, less deep where bonds are broken.
+TEST(Coordination, BeginsAtTheSurfacesOfBodies) {
+  ParticleFrame particles;
+  particles.tag = {7, 8, 9, 10};
+  particles.body = {1, 1, 2, 0};
+  BondFrame bonds;
+  bonds.tags = {{7, 8}, {7, 8}, {7, 8}, {7, 8}};
+  bonds.intact = {true, true, true, false};
+  EXPECT_EQ(surface_insets(particles, bonds, 0.1, 1.0),
+            (std::vector<double>{0.05, 0.05, 0.0, 0.0}));
+  EXPECT_EQ(surface_insets(particles, bonds, 0.1, 0.0), (std::vector<double>{0.1, 0.1, 0.1, 0.0}));
+  for (const double inset : {0.04, 0.06}) {
+    const std::vector<Sphere> two = {{{1, 5, 5}, kPrimary, 1, inset},
+                                     {{1 + 2 * kPrimary - 0.1, 5, 5}, kPrimary, 2, inset}};
+    EXPECT_EQ(coordination(two, {10, 10, 12}).am_am, inset < 0.05 ? 1.0 : 0.0);
+  }
+}
+
 // Requirement: bodies count once whatever their primaries; CBD spheres singly; itself never.
 TEST(Coordination, OfBodiesAndCbd) {
   const double d = 2 * kPrimary - 0.05;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "electrode/structure/measured_shape.h"
 #include "measure/structure.h"
+#include "physics/surface_inset.h"
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -32,7 +33,7 @@ Pairs touching(std::vector<Sphere> spheres, const Cell &cell) {
       d.x() -= cell.lx * std::round(d.x() / cell.lx);
       d.y() -= cell.ly * std::round(d.y() / cell.ly);
       const int a = owner(p, int(i)), b = owner(q, int(j));
-      if (a != b && d.squaredNorm() < std::pow(p.radius + q.radius, 2))
+      if (a != b && d.squaredNorm() < std::pow(p.radius - p.inset + q.radius - q.inset, 2))
         pairs.insert(std::minmax(a, b));
     }
   return pairs;
@@ -77,6 +78,21 @@ long visit_part(const PhaseImage &image, size_t start, std::vector<char> &done, 
 }
 
 } // namespace
+
+std::vector<double> surface_insets(const ParticleFrame &particles, const BondFrame &bonds,
+                                   double whole, double fading) {
+  std::map<int, int> intact; // by tag
+  for (std::size_t k = 0; k < bonds.tags.size(); ++k)
+    if (bonds.intact[k]) {
+      ++intact[bonds.tags[k].first];
+      ++intact[bonds.tags[k].second];
+    }
+  std::vector<double> out(particles.body.size(), 0.0);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    if (particles.body[i] > 0 && !particles.tag.empty())
+      out[i] = surface_inset(whole, fading, intact[particles.tag[i]]);
+  return out;
+}
 
 Coordination coordination(const std::vector<Sphere> &spheres, const Cell &cell) {
   Coordination c;

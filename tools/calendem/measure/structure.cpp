@@ -104,6 +104,20 @@ double platen_height(const Run &run, double time, Mistakes &mistakes) {
   return height;
 }
 
+/// A run of the scripts alone has no case.toml.
+void lay_surfaces(const Run &run, const ParticleFrame &particles, const BondFrame &bonds,
+                  std::vector<Sphere> &spheres) {
+  const RunFolder folder(run.directory);
+  if (!folder.has("case.toml"))
+    return;
+  const Settings settings = folder.settings();
+  const std::vector<double> insets =
+      surface_insets(particles, bonds, settings.number("bond.surface_inset_um"),
+                     settings.number("bond.inset_fading"));
+  for (std::size_t i = 0; i < spheres.size(); ++i)
+    spheres[i].inset = insets[i];
+}
+
 // The frame nearest to `time`; `height` 0: the platen's in that frame.
 SimulatedStructure read_frame(const Run &run, const ElectrodeFacts &e, double time, double height) {
   Mistakes mistakes;
@@ -117,6 +131,7 @@ SimulatedStructure read_frame(const Run &run, const ElectrodeFacts &e, double ti
         {Eigen::Vector3d(particles.centre[i].data()), particles.radius[i], particles.body[i]});
   if (!run.bonds.empty()) {
     const auto bonds = read_bonds(closest(run.bonds, time).path, mistakes);
+    lay_surfaces(run, particles, bonds, s.spheres);
     for (size_t i = 0; i < bonds.from.size(); ++i)
       s.bonds.push_back({0.5 * (bonds.from[i][2] + bonds.to[i][2]), !bonds.intact[i]});
   }

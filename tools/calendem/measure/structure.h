@@ -5,6 +5,7 @@
 
 #include "measure/diffusion.h"
 #include "measure/phases.h"
+#include "measure/run_directory.h"
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -13,8 +14,8 @@ namespace calendem {
 
 // Coordination numbers from overlaps of spheres; the same and broken bodies as voxels show them.
 
-/// Two bodies touch if a primary of one overlaps a primary of the other; fragments of a body count
-/// as that body. Each partner counts once, however many primaries touch. Means; 0 where there is
+/// Two bodies touch if a primary of one overlaps a primary of the other by more than the insets of both,
+/// as they do in the simulation; fragments of a body count as that body. Each partner counts once, however many primaries touch. Means; 0 where there is
 /// nothing to count.
 struct Coordination {
   int bodies = 0, cbd = 0;
@@ -25,6 +26,11 @@ struct Coordination {
   double am_without_am = 0.0;  ///< share of the bodies that touch no other body
   double am_without_any = 0.0; ///< share of the bodies that touch nothing
 };
+
+/// Inset of each particle [um] for its intact bonds, as `fix bond/bpm` has it; 0 of CBD and where a frame
+/// has no tags. `whole` [um], `fading` 0-1: keys of the case.
+std::vector<double> surface_insets(const ParticleFrame &particles, const BondFrame &bonds,
+                                   double whole, double fading);
 
 Coordination coordination(const std::vector<Sphere> &spheres, const Cell &cell);
 

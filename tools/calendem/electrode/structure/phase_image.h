@@ -31,9 +31,10 @@ PhaseImage empty_phases(const std::array<int, 3> &n, const Eigen::Vector3d &voxe
 
 /// A primary of AM or a CBD sphere.
 struct Sphere {
-  Eigen::Vector3d x; ///< centre [um]; anywhere, the cell is periodic in x and y
-  double radius;     ///< [um]
-  int body;          ///< 0: CBD
+  Eigen::Vector3d x;  ///< centre [um]; anywhere, the cell is periodic in x and y
+  double radius;      ///< [um]
+  int body;           ///< 0: CBD
+  double inset = 0.0; ///< how far inside its tip its body's surface lies for others [um]
 };
 
 /// The cell between the collector at z = 0 and the platen at z = height [um].
