@@ -5,6 +5,7 @@
 #include "support/page.h"
 #include "support/test_folder.h"
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 namespace {
@@ -24,7 +25,7 @@ const std::string kTable =
     "done,d,400,400,2,80,0.28,0.1,0.01,,0.1,0.2,0.01\n"
     "failed,e,400,400,3,80,0.99,0.9,0.9,0.9,0.1,0.2,0.01\n";
 
-StudyTable table() { return {CsvTable::parse(kTable), kVaried}; }
+StudyTable table(bool of_paper = true) { return {CsvTable::parse(kTable), kVaried, of_paper}; }
 
 TEST(Groups, PackingsOfASettingAreOneGroupAndRunsThatFailedAreNone) {
   const std::vector<StudyGroup> groups = table().groups();
@@ -71,6 +72,17 @@ TEST(Charts, PorosityHasAPointForEachMaximumAndTableOneBeside) {
   EXPECT_EQ(chart.series[2].y[1], 27.75);
 }
 
+TEST(Charts, OnlyThePapersFilmIsComparedWithThePaper) {
+  const auto none = [](const std::string &) { return CsvTable::parse(""); };
+  std::size_t others = 0;
+  for (const report::Chart &chart : study_charts(table(false), none)) {
+    for (const report::Series &s : chart.series)
+      others += s.name.find("paper") != std::string::npos;
+    others += chart.limits.size();
+  }
+  EXPECT_EQ(others, 0u);
+}
+
 TEST(Charts, CurvesAreOfTheFirstPackingOfEachSetting) {
   std::vector<std::string> asked;
   study_charts(table(), [&](const std::string &run) {
@@ -93,7 +105,7 @@ TEST(Charts, OffIsALevelWhereTheAxisHasNoPlaceForIt) {
   const StudyTable two(CsvTable::parse("status,run," + key +
                                        ",max_pressure_MPa,porosity_after_relaxation,springback\n"
                                        "done,a,0,80,0.4,0.1\ndone,b,3,80,0.3,0.1\n"),
-                       {key});
+                       {key}, true);
   for (const auto &chart : study_charts(two, [](const auto &) { return CsvTable::parse(""); }))
     if (chart.id == key + "-porosity_after_relaxation") {
       EXPECT_EQ(chart.series[0].x, std::vector<double>{3});
@@ -114,7 +126,7 @@ TEST(Charts, EachHasAnIdOfItsOwn) {
                       "max_pressure_MPa,porosity_after_relaxation,springback\n"
                       "done,a,200,1,80,0.3,0.1\ndone,b,400,1,80,0.3,0.1\n"
                       "done,c,200,2,80,0.3,0.1\n"),
-      varied);
+      varied, true);
   std::multiset<std::string> ids;
   for (const auto &chart : study_charts(two, [](const auto &) { return CsvTable::parse(""); }))
     ids.insert(chart.id);
@@ -138,6 +150,12 @@ TEST(StudyPage, IsDrawnFromTheTableAndSaysWhatIsMissing) {
   EXPECT_EQ(data["name"], "a < b</script>");
   EXPECT_EQ(data["charts"][0]["id"], "porosity");
   EXPECT_EQ(data["table"]["rows"].size(), 2u);
+  EXPECT_NE(page.find("minus Table 1"), std::string::npos);
+  std::filesystem::create_directories(folder + "/runs/a");
+  write_file(folder + "/runs/a/electrode.json",
+             R"({"recipe": {"composition.am_weight_percent": "90"}})");
+  draw_study(kVaried, folder);
+  EXPECT_EQ(text_of_file(folder + "/study.html").find("minus Table 1"), std::string::npos);
 }
 
 } // namespace

@@ -8,7 +8,7 @@
 namespace calendem {
 namespace {
 
-constexpr double kSameDensity = 0.03; // true densities of NMC111, 622 and 811 differ by less
+constexpr double kSameDensity = 0.03;
 const char *const kDensity = "density.am_g_cm3";
 const char *const kWhatToDo = "Give the recipe's key 'material' that one, or a file of your own "
                               "(input_scripts/materials has examples), or correct the recipe.";
@@ -50,12 +50,13 @@ std::string names_other(const Recipe &r, const ReferenceMaterial &other) {
 
 } // namespace
 
+bool are_of_one_density(double a, double b) { return std::fabs(a / b - 1.0) <= kSameDensity; }
+
 std::vector<std::string> other_material(const Recipe &r) {
   std::vector<std::string> out;
   const auto density = r.material.values.find(kDensity);
   if (density != r.material.values.end())
-    if (const double of_material = std::stod(density->second.text);
-        std::fabs(r.am_density / of_material - 1.0) > kSameDensity)
+    if (!are_of_one_density(r.am_density, std::stod(density->second.text)))
       out.push_back(fmt::format("{} is {:g}, and {} of its material '{}': more than {:.0f} % apart",
                                 kDensity, r.am_density, density->second.text, r.material.name,
                                 100.0 * kSameDensity));

@@ -185,7 +185,8 @@ std::string runs_in_words(const Json &runs) {
   for (const Json &m : runs["models"])
     out += fmt::format("{}{}: {:.1f} standard deviations", out.empty() ? "" : "; ",
                        m["role"].get<std::string>(), m["gap"].get<double>());
-  return out + ". Means over runs at several draws, each on a packing of its own.";
+  return out + ". Means over runs at several draws, each on a packing of its own. Another "
+               "explanation may close the gap as well.";
 }
 
 } // namespace

@@ -67,6 +67,7 @@ DiagnosisOptions options_of(const DiagnoseOptions &o, const FilmBank &bank, cons
 
 void run_diagnose(DiagnoseOptions o) {
   const Experiment experiment = read_experiment(o.experiment);
+  stop_if_of_other_material(experiment.recipe);
   std::optional<Model> prior;
   if (!o.prior.empty())
     prior.emplace(read_model(o.prior));

@@ -63,6 +63,29 @@ ByVolume by_volume(const Recipe &film, const Recipe &bank) {
 std::string bare_of(const std::string &key) { return key.substr(key.find('.') + 1); }
 bool is_composition(const std::string &bare) { return bare.rfind("composition.", 0) == 0; }
 
+void add_differences_of_packings(std::vector<std::string> &to, const Recipe &recipe,
+                                 const Recipe &bank, bool alike) {
+  if (recipe.structure.given() || bank.structure.given())
+    return;
+  const auto differs = [&](const char *key) {
+    if (recipe.settings.number(key) != bank.settings.number(key))
+      to.push_back(fmt::format("{}: {:g} instead of {:g}", key, recipe.settings.number(key),
+                               bank.settings.number(key)));
+  };
+  if (!alike) {
+    for (const char *key : {"particles.min_um", "particles.max_um"})
+      differs(key);
+    to.push_back(fmt::format("half of the particles' volume lies below {:.3g} instead of {:.3g} um",
+                             sizes_by_volume(recipe, recipe.max_diameter)[1],
+                             sizes_by_volume(bank, bank.max_diameter)[1]));
+  }
+  for (const char *key :
+       {"particles.primary_diameter_um", "particles.lattice_um", "effects.cbd_gradient.slope"})
+    differs(key);
+  if (recipe.settings.line("particles.irregularity") > 0) // of a material it is the model's
+    differs("particles.irregularity");
+}
+
 } // namespace
 
 Film FilmBank::described(const Recipe &recipe) const {
@@ -117,25 +140,15 @@ std::vector<std::string> FilmBank::differences(const Recipe &recipe) const {
     }
   if (spec_.nanoporosity_within > 0.0)
     any("cbd.nanoporosity_percent");
-  const bool packed = !recipe.structure.given() && !bank.structure.given(),
-             alike = has_particles_of(recipe, bank);
+  const bool alike = has_particles_of(recipe, bank);
   if (alike)
     for (const char *key : {"particles.median_um", "particles.sigma_ln"})
       any(key);
   std::vector<std::string> out = other_electrode(wanted, recipe.settings.all());
-  const auto differs = [&](const char *key) {
-    if (packed && recipe.settings.number(key) != bank.settings.number(key))
-      out.push_back(fmt::format("{}: {:g} instead of {:g}", key, recipe.settings.number(key),
-                                bank.settings.number(key)));
-  };
-  if (!alike)
-    for (const char *key : {"particles.min_um", "particles.max_um"})
-      differs(key);
-  for (const char *key :
-       {"particles.primary_diameter_um", "particles.lattice_um", "effects.cbd_gradient.slope"})
-    differs(key);
-  if (recipe.settings.line("particles.irregularity") > 0) // of a material it is the model's
-    differs("particles.irregularity");
+  add_differences_of_packings(out, recipe, bank, alike);
+  if (!are_of_one_density(recipe.am_density, bank.am_density))
+    out.push_back(fmt::format("density.am_g_cm3: {:g} instead of {:g}, that of another material",
+                              recipe.am_density, bank.am_density));
   if (const double least = kThinnest * recipe_.loading; recipe.loading < least)
     out.push_back(
         fmt::format("coating.loading_mg_cm2: {:g}; its faces count more than the bank can "

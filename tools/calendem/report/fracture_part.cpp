@@ -66,9 +66,11 @@ Chart cracked_by_pressure(const std::vector<Run> &runs) {
                 {"bodies_cracked", "cracked: apart and 8 % broken", "#c8321e", ""},
                 {"bodies_split", "split: largest below 90 %", "#0064b0", "9 4"}},
                true);
-  chart.note =
-      "Secondary particles that have bonds, up to the maximum pressure. The paper's tomograms show "
-      "intact particles at 80 MPa and obvious cracks in some of them at 150 MPa.";
+  chart.note = "Secondary particles that have bonds, up to the maximum pressure.";
+  if (std::any_of(runs.begin(), runs.end(), [](const Run &run) { return is_of_paper(run); }))
+    chart.note +=
+        " The paper's tomograms show intact particles at 80 MPa and obvious cracks in some "
+        "of them at 150 MPa.";
   return chart;
 }
 

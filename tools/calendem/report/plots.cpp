@@ -39,7 +39,7 @@ void add_branches(Chart &chart, const std::vector<Run> &runs, std::size_t i, con
 }
 
 bool any_of_paper(const std::vector<Run> &runs) {
-  return std::any_of(runs.begin(), runs.end(), is_of_paper);
+  return std::any_of(runs.begin(), runs.end(), [](const Run &run) { return is_of_paper(run); });
 }
 
 Chart pressure_displacement(const std::vector<Run> &runs) {

@@ -36,7 +36,7 @@ void add(Series &series, double x, const MeanAndSd &y, double factor) {
   series.y_error.push_back(factor * y.sd);
 }
 
-/// The paper's Figure 4a: a point for every maximum pressure, a line for all other settings.
+/// Like the paper's Figure 4a: a point for every maximum pressure, a line for all other settings.
 Chart porosity_chart(const StudyTable &table) {
   Chart chart{"porosity", "Porosity after relaxation against maximum pressure",
               "Maximum pressure (MPa)", "Total porosity after relaxation (%)"};
@@ -53,9 +53,12 @@ Chart porosity_chart(const StudyTable &table) {
       add(s, pressure, mean_and_sd(values), 100.0);
     chart.series.push_back(s);
   }
-  chart.series.push_back(report::porosity_of_paper("measured (paper, Table 1)"));
-  chart.note = "Mean and standard deviation over packings. The porosity at 0 MPa is an input from "
-               "the recipe. The measured pressures are uncertain by 10–25 %.";
+  chart.note = "Mean and standard deviation over packings.";
+  if (table.of_paper()) {
+    chart.series.push_back(report::porosity_of_paper("measured (paper, Table 1)"));
+    chart.note += " The porosity at 0 MPa is an input from the recipe. The measured pressures are "
+                  "uncertain by 10–25 %.";
+  }
   return chart;
 }
 
@@ -74,7 +77,8 @@ Chart broken_chart(const StudyTable &table) {
       add(s, p, table.mean_and_sd(group, fmt::format("broken_fraction_at_{:g}_MPa", p)), 100.0);
     chart.series.push_back(s);
   }
-  chart.series.push_back(report::breaks_of_paper("paper (simulation)"));
+  if (table.of_paper())
+    chart.series.push_back(report::breaks_of_paper("paper (simulation)"));
   chart.note =
       "Where compression first reaches the pressure; mean and standard deviation over packings.";
   return chart;
@@ -162,7 +166,8 @@ bool shows_anything(const Chart &chart) {
 
 std::vector<Chart> charts_of_setting(const StudyTable &table, const std::string &setting) {
   std::vector<Chart> out;
-  const auto published = report::paper_breaks();
+  const auto published =
+      table.of_paper() ? report::paper_breaks() : std::vector<report::PublishedBreaks>();
   for (const double p : table.pressures("broken_fraction")) {
     Chart chart = against(table, setting, fmt::format("broken_fraction_at_{:g}_MPa", p),
                           fmt::format("Broken bonds at {:g} MPa (%)", p), 100.0);

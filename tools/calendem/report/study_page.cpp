@@ -61,8 +61,8 @@ MeanAndSd mean_and_sd(const std::vector<double> &values) {
   return s;
 }
 
-StudyTable::StudyTable(CsvTable table, const std::vector<std::string> &varied)
-    : table_(std::move(table)) {
+StudyTable::StudyTable(CsvTable table, const std::vector<std::string> &varied, bool of_paper)
+    : table_(std::move(table)), of_paper_(of_paper) {
   const std::vector<std::string> status = table_.texts("status");
   for (std::size_t k = 0; k < status.size(); ++k)
     if (status[k] == "done")
@@ -173,11 +173,14 @@ nlohmann::json row_of(const StudyTable &table, const StudyGroup &group) {
   for (const double p : table.pressures("broken_fraction"))
     cells.push_back(shown(table.mean_and_sd(group, fmt::format("broken_fraction_at_{:g}_MPa", p)),
                           100.0, "{:.1f}"));
-  const double far = distance_to_paper(table, group);
-  cells.push_back(std::isfinite(far) ? fmt::format("{:.1f}", far) : "–");
+  if (table.of_paper()) {
+    const double far = distance_to_paper(table, group);
+    cells.push_back(std::isfinite(far) ? fmt::format("{:.1f}", far) : "–");
+  }
   cells.push_back(shown(table.mean_and_sd(group, "porosity_at_max"), 100.0, "{:.1f}"));
   cells.push_back(shown(table.mean_and_sd(group, "porosity_after_relaxation"), 100.0, "{:.1f}"));
-  cells.push_back(porosity_distance(table, group));
+  if (table.of_paper())
+    cells.push_back(porosity_distance(table, group));
   cells.push_back(shown(table.mean_and_sd(group, "springback"), 100.0, "{:.1f}"));
   const MeanAndSd difference = table.mean_and_sd(group, "pressure_difference_max_above_5_MPa");
   cells.push_back(shown(difference, 100.0, "{:.1f}") +
@@ -193,9 +196,13 @@ nlohmann::json head(const StudyTable &table) {
   out.push_back("maximum pressure (MPa)");
   for (const double p : table.pressures("broken_fraction"))
     out.push_back(fmt::format("broken at {:g} MPa (%)", p));
-  for (const char *name : {"broken: distance from paper (points)", "porosity at maximum (%)",
-                           "porosity after relaxation (%)", "minus Table 1 (points)",
-                           "springback (%)", "pressure difference (%)"})
+  if (table.of_paper())
+    out.push_back("broken: distance from paper (points)");
+  for (const char *name : {"porosity at maximum (%)", "porosity after relaxation (%)"})
+    out.push_back(name);
+  if (table.of_paper())
+    out.push_back("minus Table 1 (points)");
+  for (const char *name : {"springback (%)", "pressure difference (%)"})
     out.push_back(name);
   return out;
 }
@@ -222,8 +229,17 @@ std::string study_page(const StudyTable &table, const std::vector<report::Chart>
   for (const StudyGroup &group : table.groups())
     rows.push_back(row_of(table, group));
   page.json["finished"] = table.finished();
+  page.json["of_paper"] = table.of_paper();
   page.json["table"] = {{"head", head(table)}, {"rows", rows}};
   return report::to_html(page);
+}
+
+/// The recipes of a study differ at most in what is no other electrode: its cell, its seed.
+bool are_of_paper(const std::vector<std::string> &runs, const std::string &folder) {
+  return std::all_of(runs.begin(), runs.end(), [&](const std::string &run) {
+    RunFolder its(folder + "/runs/" + run);
+    return report::is_of_paper(its.object("electrode.json"));
+  });
 }
 
 void draw_study(const std::vector<std::string> &columns, const std::string &folder) {
@@ -236,7 +252,8 @@ void draw_study(const std::vector<std::string> &columns, const std::string &fold
         kBadInput,
         "{}/study.json is missing or damaged. Make it again with calendem study ... --table.",
         folder);
-  const StudyTable table(CsvTable::parse(text_of_file(folder + "/study.csv")), columns);
+  const CsvTable csv = CsvTable::parse(text_of_file(folder + "/study.csv"));
+  const StudyTable table(csv, columns, are_of_paper(csv.texts("run"), folder));
   const auto curve = [&](const std::string &run) {
     return RunFolder(folder + "/runs/" + run).table("curve.csv");
   };

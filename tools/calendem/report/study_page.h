@@ -27,7 +27,8 @@ struct StudyGroup {
 class StudyTable {
 public:
   /// `varied`: the study's columns. Columns that say the same as one before them are left out.
-  StudyTable(CsvTable table, const std::vector<std::string> &varied);
+  /// `of_paper`: its films are of the paper's recipe, and compared with the paper.
+  StudyTable(CsvTable table, const std::vector<std::string> &varied, bool of_paper);
 
   /// Varied columns but for the seed of the packing.
   const std::vector<std::string> &settings() const { return settings_; }
@@ -44,11 +45,13 @@ public:
   /// Pressures [MPa] of columns `name`_at_…_MPa.
   std::vector<double> pressures(const std::string &name) const;
   std::size_t finished() const { return finished_.size(); }
+  bool of_paper() const { return of_paper_; }
 
 private:
   CsvTable table_;
   std::vector<std::string> settings_;
   std::vector<std::size_t> finished_;
+  bool of_paper_;
 };
 
 /// The curve.csv of a run by its name in the table; a table without rows if it is not there.
@@ -59,8 +62,8 @@ std::string setting_in_words(const std::string &key);
 
 std::vector<report::Chart> study_charts(const StudyTable &table, const CurveOfRun &curve);
 
-/// The page of a study: charts, and a table of its settings with the distance to the paper's
-/// numbers. `description` is study.json.
+/// The page of a study: charts, and a table of its settings; films of the paper's recipe have their
+/// distance to the paper's numbers. `description` is study.json.
 std::string study_page(const StudyTable &table, const std::vector<report::Chart> &charts,
                        const nlohmann::json &description);
 

@@ -52,7 +52,9 @@ struct PublishedBreaks {
 /// Presses of summary.json; a sample of cells has only the one that its summary is of.
 nlohmann::json presses_of(const Run &run);
 
-/// The run's recipe is the paper's, that of every key's default. One that is not known counts as it.
+/// The recipe in electrode.json is the paper's, that of every key's default. One that is not known counts
+/// as it.
+bool is_of_paper(const nlohmann::json &electrode);
 bool is_of_paper(const Run &run);
 
 std::vector<MeasuredPorosity> paper_porosity();
