@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/particle_sizes.h"
+#include "base/normal_law.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -69,7 +70,42 @@ std::string contradiction(const Settings &s, const std::vector<Percentile> &p, c
   return "";
 }
 
+// Quantile of a truncated lognormal law with ln-mean mu, by bisection.
+double truncated_quantile(double q, double mu, double sigma, double low, double high) {
+  const double a = normal_cdf((std::log(low) - mu) / sigma);
+  const double b = normal_cdf((std::log(high) - mu) / sigma);
+  if (!(b - a > 1e-12)) // the law lies beyond one of the limits
+    return mu > std::log(low) ? high : low;
+  const double wanted = a + q * (b - a);
+  double lo = std::log(low), hi = std::log(high);
+  for (int i = 0; i < 80; ++i) {
+    const double mid = 0.5 * (lo + hi);
+    (normal_cdf((mid - mu) / sigma) < wanted ? lo : hi) = mid;
+  }
+  return std::exp(0.5 * (lo + hi));
+}
+
 } // namespace
+
+double SizeLaw::quantile(double q) const {
+  return truncated_quantile(q, std::log(median), sigma_ln, low, high);
+}
+
+double SizeLaw::volume_quantile(double q) const {
+  return truncated_quantile(q, std::log(median) + 3.0 * sigma_ln * sigma_ln, sigma_ln, low, high);
+}
+
+double SizeLaw::volume_above(double limit) const {
+  if (limit >= high)
+    return 0.0;
+  const double mu = std::log(median) + 3.0 * sigma_ln * sigma_ln;
+  const auto F = [&](double d) { return normal_cdf((std::log(d) - mu) / sigma_ln); };
+  return (F(high) - F(std::max(limit, low))) / (F(high) - F(low));
+}
+
+SizeLaw measured_law(const Recipe &r) {
+  return {r.median, r.sigma_ln, r.min_diameter, r.max_diameter};
+}
 
 std::vector<Key> volume_percentile_keys() {
   std::vector<Key> out;
@@ -104,7 +140,7 @@ void take_sizes_by_volume(Settings &s, const std::vector<Key> &keys, Mistakes &m
       wrong = "gives a law that is not allowed: " +
               out_of_range->substr(0, out_of_range->find(" It looks"));
   const double z = (std::log(s.number(kLargest)) - law.ln_median) / law.sigma,
-               beyond = 0.5 * std::erfc(z / std::sqrt(2.0));
+               beyond = normal_cdf(-z);
   if (wrong.empty() && beyond > kMostBeyond)
     wrong = fmt::format("gives a powder {:.0f} % of whose volume lies above {} = {} um; at most "
                         "{:.0f} % are left out without a word. Give a larger {}: its D90 is {:.3g} "

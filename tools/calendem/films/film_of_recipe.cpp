@@ -2,10 +2,10 @@
 // Which films a bank has, and what its parameters are for them.
 #include "base/material_notes.h"
 #include "base/messages.h"
+#include "base/particle_sizes.h"
 #include "base/shown.h"
 #include "films/film_bank.h"
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
@@ -13,14 +13,8 @@
 namespace calendem {
 
 std::array<double, 3> sizes_by_volume(const Recipe &r, double largest) {
-  const boost::math::normal normal;
-  const double middle = std::log(r.median) + 3.0 * r.sigma_ln * r.sigma_ln;
-  const auto below = [&](double d) { return cdf(normal, (std::log(d) - middle) / r.sigma_ln); };
-  const double low = below(r.min_diameter), high = below(largest);
-  const auto at = [&](double share) {
-    return std::exp(middle + r.sigma_ln * quantile(normal, low + share * (high - low)));
-  };
-  return {at(0.1), at(0.5), at(0.9)};
+  const SizeLaw law{r.median, r.sigma_ln, r.min_diameter, largest};
+  return {law.volume_quantile(0.1), law.volume_quantile(0.5), law.volume_quantile(0.9)};
 }
 
 namespace {

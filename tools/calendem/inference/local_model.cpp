@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "inference/local_model.h"
+#include "base/normal_law.h"
 #include "physics/pi.h"
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
@@ -17,10 +18,9 @@ constexpr double kStep = 0.5; // of a parameter's score, to either side of the p
 double node(int k) { return kFirstNode + k; }
 
 /// Probability that a standard normal is below, and its logarithm far out in the tail, too.
-double below(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 double log_below(double z) {
   if (z > -30.0)
-    return std::log(below(z));
+    return std::log(normal_cdf(z));
   const double s = 1.0 / (z * z); // of Mills' ratio, relative error 15 s^3
   return -0.5 * z * z - 0.5 * std::log(2.0 * kPi) - std::log(-z) + std::log1p(-s + 3.0 * s * s);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "inference/quantities.h"
 #include "base/messages.h"
+#include "base/normal_law.h"
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
@@ -35,7 +36,7 @@ constexpr double kOutermost = 1e-12; // probability beyond which a bounded param
 double Prior::value(double score) const {
   if (kind == normal)
     return a + b * score;
-  const double share = 0.5 * std::erfc(-score / std::sqrt(2.0));
+  const double share = normal_cdf(score);
   return kind == uniform ? a + (b - a) * share : a * std::pow(b / a, share);
 }
 

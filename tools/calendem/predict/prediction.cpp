@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "predict/prediction.h"
 #include "base/messages.h"
+#include "base/normal_law.h"
 #include <algorithm>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
@@ -15,7 +16,7 @@ namespace {
 double share_below(const MeanVariance &g, double value) {
   if (!(g.variance > 0.0))
     return g.mean < value ? 1.0 : 0.0;
-  return 0.5 * std::erfc((g.mean - value) / std::sqrt(2.0 * g.variance));
+  return normal_cdf((value - g.mean) / std::sqrt(g.variance));
 }
 
 std::vector<Band> bands_of(const Predictions &draws, double low, double high) {

@@ -13,23 +13,6 @@ namespace {
 
 double sphere_volume(double d) { return kPi / 6.0 * d * d * d; }
 
-double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
-
-// Quantile of a truncated lognormal law with ln-mean mu, by bisection.
-double truncated_quantile(double q, double mu, double sigma, double low, double high) {
-  const double a = normal_cdf((std::log(low) - mu) / sigma);
-  const double b = normal_cdf((std::log(high) - mu) / sigma);
-  if (!(b - a > 1e-12)) // the law lies beyond one of the limits
-    return mu > std::log(low) ? high : low;
-  const double wanted = a + q * (b - a);
-  double lo = std::log(low), hi = std::log(high);
-  for (int i = 0; i < 80; ++i) {
-    const double mid = 0.5 * (lo + hi);
-    (normal_cdf((mid - mu) / sigma) < wanted ? lo : hi) = mid;
-  }
-  return std::exp(0.5 * (lo + hi));
-}
-
 // n quantiles in equal steps of number.
 std::vector<double> stratified(const Quantile &law, int n, double offset) {
   std::vector<double> d;
@@ -44,26 +27,6 @@ double total_volume(const std::vector<double> &d) {
 }
 
 } // namespace
-
-double SizeLaw::quantile(double q) const {
-  return truncated_quantile(q, std::log(median), sigma_ln, low, high);
-}
-
-double SizeLaw::volume_quantile(double q) const {
-  return truncated_quantile(q, std::log(median) + 3.0 * sigma_ln * sigma_ln, sigma_ln, low, high);
-}
-
-double SizeLaw::volume_above(double limit) const {
-  if (limit >= high)
-    return 0.0;
-  const double mu = std::log(median) + 3.0 * sigma_ln * sigma_ln;
-  const auto F = [&](double d) { return normal_cdf((std::log(d) - mu) / sigma_ln); };
-  return (F(high) - F(std::max(limit, low))) / (F(high) - F(low));
-}
-
-SizeLaw measured_law(const Recipe &r) {
-  return {r.median, r.sigma_ln, r.min_diameter, r.max_diameter};
-}
 
 std::vector<double> draw_diameters(const Recipe &recipe, double volume, Random &random) {
   SizeLaw law = measured_law(recipe);

@@ -4,6 +4,7 @@
 #ifndef CALENDEM_ELECTRODE_PACK_BODY_H
 #define CALENDEM_ELECTRODE_PACK_BODY_H
 
+#include "base/particle_sizes.h"
 #include "base/random.h"
 #include "base/recipe.h"
 #include "electrode/pack/hull.h"
@@ -13,22 +14,6 @@
 #include <vector>
 
 namespace calendem {
-
-/// Lognormal law by number of the diameter [um], truncated to [low, high].
-struct SizeLaw {
-  double median, sigma_ln, low, high;
-
-  /// Diameter below which the fraction q of the number lies.
-  double quantile(double q) const;
-  /// Share of the volume above `limit`; the third moment of a lognormal shifts ln(median) by
-  /// 3 sigma^2.
-  double volume_above(double limit) const;
-  /// Diameter below which the fraction q of the volume lies.
-  double volume_quantile(double q) const;
-};
-
-/// The law as measured, before the cell limits it.
-SizeLaw measured_law(const Recipe &recipe);
 
 /// Diameters [um], largest first, that together fill `volume` [um^3] as nearly as whole bodies can:
 /// quantiles of the law in equal steps of number, with one random offset (stratified sampling), so
