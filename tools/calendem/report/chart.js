@@ -93,7 +93,11 @@ Plot.prototype.fixAxes = function() {
   this.right = d3.scale.linear().domain(domains.right);
   if (!this.zoom)
     [[ this.x, this.ticks.x ], [ this.left, this.ticks.y ], [ this.right, this.ticks.y ]].forEach(
-        function(axis) { axis[0].nice(axis[1]); });
+        function(axis) {
+          var low = axis[0].domain()[0], high = axis[0].nice(axis[1]).domain()[1];
+          if (low < 0 && low > -0.02 * high) // a hair below 0 is no reason for a step below it
+            axis[0].domain([ low, high ]);
+        });
   this.placed = function(s, i) {
     var y = s.y[i];
     return isNumber(s.x[i]) && isNumber(y) && (s.right || !self.log || y > 0)
