@@ -80,6 +80,17 @@ void add_differences_of_packings(std::vector<std::string> &to, const Recipe &rec
     differs("particles.irregularity");
 }
 
+/// What is said of a film's material, which the bank does not vary.
+std::string remark_on(const ReferenceMaterial &film, const ReferenceMaterial &bank) {
+  std::string out = not_calibrated(film);
+  if (film.name != bank.name)
+    out =
+        fmt::format("the material is '{}', and the bank's runs are of '{}': the numbers are those "
+                    "of the bank's material{}",
+                    film.name, bank.name, out.empty() ? "" : "; " + out);
+  return out;
+}
+
 } // namespace
 
 Film FilmBank::described(const Recipe &recipe) const {
@@ -95,7 +106,7 @@ Film FilmBank::described(const Recipe &recipe) const {
   out.loading = volumes.loading;
   out.nanoporosity = recipe.nanoporosity;
   out.of_bank = differences(recipe).empty();
-  out.remark = not_calibrated(recipe.material);
+  out.remark = remark_on(recipe.material, bank.material);
   for (const bank::Input &p : film_) {
     double sum = 0.0;
     for (const std::string &key : p.keys) {

@@ -227,6 +227,12 @@ bool is_of_paper(const json &electrode) {
 
 bool is_of_paper(const Run &run) { return is_of_paper(run.electrode); }
 
+/// After the last press.
+std::string share_of_bonded(const json &presses) {
+  const double share = number_in(presses.back(), "cracked_fraction");
+  return std::isfinite(share) ? shown(kPercent * share, 1) + " % of those that have bonds" : "";
+}
+
 json headline_of(const Run &run) {
   const Curve &c = run.curve;
   const std::size_t top = c.row_of_max_pressure();
@@ -248,7 +254,8 @@ json headline_of(const Run &run) {
       figure("Springback", kPercent * number_in(s, "springback"), "%", 1),
       figure("Bonds broken at maximum", percent("broken_fraction", top), "%", 1,
              of_all("bonds_initial")),
-      figure("Cracked bodies", number_in(s, "cracked_bodies"), "", 0, of_all("bodies"))};
+      figure("Cracked bodies", number_in(s, "cracked_bodies"), "", 0,
+             share_of_bonded(presses_of(run)))};
   if (s.contains("imposed"))
     figures.push_back(figure("CBD nanoporosity", kPercent * number_in(s["imposed"], "final"), "%",
                              1, s["imposed"].value("what", "imposed")));
