@@ -219,6 +219,18 @@ TEST(FilmBank, LargerParticlesCountAsAnError) {
   EXPECT_NE(bank.beyond(film)[0].find("an error of 2.6 points"), std::string::npos);
 }
 
+// Films of another material get the numbers of the bank's, and are told so; the paper's NMC111 is NMC111.
+TEST(FilmBank, OtherMaterialsAreRemarkedOn) {
+  const FilmBank &bank = made_film_bank();
+  const std::vector<std::string> said =
+      bank.beyond(bank.film_of(recipe_of("material = \"nmc811\"\n")));
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("the material is 'NMC811', and the bank's runs are of 'NMC111'"),
+            std::string::npos)
+      << said[0];
+  EXPECT_TRUE(bank.beyond(bank.film_of(recipe_of("material = \"xu2023\"\n"))).empty());
+}
+
 TEST(FilmBank, OtherParticlesAreRefused) {
   for (const char *sizes : {"median_um = 9", "sigma_ln = 0.3", "median_um = 2"})
     EXPECT_THROW(made_film_bank().film_of(recipe_of(std::string("[particles]\n") + sizes + "\n")),

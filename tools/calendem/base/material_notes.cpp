@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/material_notes.h"
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
@@ -49,6 +50,12 @@ std::string names_other(const Recipe &r, const ReferenceMaterial &other) {
 }
 
 } // namespace
+
+bool share_a_name(const ReferenceMaterial &a, const ReferenceMaterial &b) {
+  const std::vector<std::string> names = names_of(a), others = names_of(b);
+  return std::find_first_of(names.begin(), names.end(), others.begin(), others.end()) !=
+         names.end();
+}
 
 bool are_of_one_density(double a, double b) { return std::fabs(a / b - 1.0) <= kSameDensity; }
 

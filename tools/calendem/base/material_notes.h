@@ -14,6 +14,9 @@ namespace calendem {
 /// True densities of NMC111, 622 and 811 differ by less than 3 %.
 bool are_of_one_density(double a, double b);
 
+/// Both go by one name, whatever their values are: NMC111 and that of Xu et al.
+bool share_a_name(const ReferenceMaterial &a, const ReferenceMaterial &b);
+
 /// In what the recipe is not of its material: its density differs by more than 3 %, its name or its
 /// file's is that of another known material. Empty: in nothing.
 std::vector<std::string> other_material(const Recipe &recipe);

@@ -83,7 +83,7 @@ void add_differences_of_packings(std::vector<std::string> &to, const Recipe &rec
 /// What is said of a film's material, which the bank does not vary.
 std::string remark_on(const ReferenceMaterial &film, const ReferenceMaterial &bank) {
   std::string out = not_calibrated(film);
-  if (film.name != bank.name)
+  if (!share_a_name(film, bank))
     out =
         fmt::format("the material is '{}', and the bank's runs are of '{}': the numbers are those "
                     "of the bank's material{}",
