@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/shown.h"
 #include "report/plots.h"
+#include "report/tables.h"
 
 #include <algorithm>
 #include <cmath>
