@@ -28,7 +28,7 @@ constexpr const char *kTooWide = "Powder that the cell leaves out",
 constexpr double kSamePressure = 0.02;
 /// The paper's pressures are converted from gaps: at least 10 % uncertain.
 constexpr double kPressureError = 0.1;
-/// Scatter of the porosity over packings of the demo's cell [points], assumed: docs/validation/demo.md.
+/// Scatter of the porosity over packings [points]: nine of them in docs/validation/demo.md.
 constexpr double kPackingError = 1.0;
 
 /// What the labels of the headline stand for.
