@@ -92,6 +92,17 @@ TEST(StudyFile, EveryCombinationOfTheGroupsIsARun) {
   EXPECT_EQ(second.settings.number("bond.damping"), 0.2);
 }
 
+TEST(StudyFile, ARunOfManySettingsIsNamedByTheFirstSix) {
+  const Study s = read_study(write_study(
+      kHead + "[[vary]]\nkeys = [\"case.material.am.friction\", \"case.material.cbd.friction\", "
+              "\"case.bond.tensile_strength_MPa\", \"case.bond.shear_strength_MPa\", "
+              "\"case.bond.damping\", \"case.platen.speed_m_s\", \"case.platen.dwell_us\", "
+              "\"recipe.seed\"]\nvalues = [[0.3, 0.3, 77, 77, 0.1, 0.7, 0.2, 9]]\n"));
+  ASSERT_EQ(s.runs.size(), 1u);
+  EXPECT_NE(s.runs[0].said.find("am.friction 0.3, cbd.friction 0.3"), std::string::npos);
+  EXPECT_EQ(s.runs[0].said.substr(s.runs[0].said.size() - 11), " and 2 more");
+}
+
 // Two moduli are told apart, what is as in the files is not repeated.
 TEST(StudyFile, ARunIsNamedByWhatDiffersFromRecipeAndCase) {
   const Study s = read_study(write_study(

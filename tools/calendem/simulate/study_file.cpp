@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kMostRuns = 100000;
 constexpr int kMostRunsListed = 5;
+constexpr std::size_t kSettingsSaid = 6; // of a run, in a line of the terminal
 
 /// Keys that change together; each row is one combination of their values.
 struct Group {
@@ -272,7 +273,11 @@ std::string differences(const Study &study, const std::vector<std::string> &row,
     if (row[c] != (key[0] == 'r' ? recipe : settings).text(bare))
       out.push_back(short_name(key, study.columns) + " " + row[c]);
   }
-  return out.empty() ? "as recipe and case" : fmt::format("{}", fmt::join(out, ", "));
+  if (out.empty())
+    return "as recipe and case";
+  const auto shown = out.begin() + std::min(out.size(), kSettingsSaid);
+  return fmt::format("{}{}", fmt::join(out.begin(), shown, ", "),
+                     shown == out.end() ? "" : fmt::format(" and {} more", out.end() - shown));
 }
 
 } // namespace
