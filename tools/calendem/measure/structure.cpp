@@ -104,7 +104,7 @@ double platen_height(const Run &run, double time, Mistakes &mistakes) {
   return height;
 }
 
-/// A run of the scripts alone has no case.toml.
+/// Gives spheres the insets that the run's case has; a run of the scripts alone has no case.
 void lay_surfaces(const Run &run, const ParticleFrame &particles, const BondFrame &bonds,
                   std::vector<Sphere> &spheres) {
   const RunFolder folder(run.directory);
