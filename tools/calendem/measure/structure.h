@@ -14,9 +14,9 @@ namespace calendem {
 
 // Coordination numbers from overlaps of spheres; the same and broken bodies as voxels show them.
 
-/// Two bodies touch if a primary of one overlaps a primary of the other by more than the insets of both,
-/// as they do in the simulation; fragments of a body count as that body. Each partner counts once, however many primaries touch. Means; 0 where there is
-/// nothing to count.
+/// Two bodies touch if a primary of one overlaps a primary of the other by more than the insets of
+/// both, as in the simulation; fragments of a body count as that body. Each partner counts once,
+/// however many primaries touch. Means; 0 where there is nothing to count.
 struct Coordination {
   int bodies = 0, cbd = 0;
   double am_am = 0.0;          ///< other bodies that a body touches
