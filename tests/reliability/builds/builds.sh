@@ -19,5 +19,5 @@ rm -rf "$work"
 mkdir -p "$work"
 (cd "$top" && git ls-files -z --cached --others --exclude-standard | tar --null -cf - -T -) | tar -xf - -C "$work"
 "$work/tools/test" "${options[@]}" -L 'unit|verification|regression' -E paraview
-[ "$case" != sanitize ] || # beside the host's styles, between runs and at their ends, on one and two ranks
-  "$work/tools/test" "${options[@]}" -R '^(host_styles|between_runs|lost_bonds)\.'
+[ "$case" != sanitize ] || # also beside the host's styles, between runs and at their ends, on several ranks
+  "$work/tools/test" "${options[@]}" -R '^(host_styles|between_runs|lost_bonds|same_physics)\.'

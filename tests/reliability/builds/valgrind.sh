@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # valgrind.sh WORK BIN: everything the plugin has, once (valgrind/in.memory), under valgrind's memcheck on one rank and
-# on two, and the decks of three tests of BIN; fails when the program's own code reads or writes where it must not, or uses what was never set. Errors
-# inside MPI's libraries alone do not count. Runs with CALENDEM_HEAVY=1; builds a program for it in WORK, because
-# valgrind does not know every instruction of -march=native.
+# on two, and the decks of some tests of BIN; fails when the program's own code reads or writes where it must not, or
+# uses what was never set. Errors inside MPI's libraries alone do not count. Runs with CALENDEM_HEAVY=1; builds a
+# program for it in WORK, because valgrind does not know every instruction of -march=native.
 set -euo pipefail
 [ "${CALENDEM_HEAVY:-0}" = 1 ] || { echo "skipped: builds.valgrind runs with tools/test --all"; exit 77; }
 command -v valgrind >/dev/null || { echo "skipped: no valgrind; tools/install-dependencies --test brings it"; exit 77; }
@@ -56,8 +56,10 @@ mkdir -p "$decks"
 printf '#!/bin/sh\nexec %s --log-file=%s/valgrind.%%p.txt %s "$@"\n' "${check[*]}" "$decks" "$work/build/bin/liggghts" \
   >"$work/liggghts"
 chmod +x "$work/liggghts"
-for test in host_styles between_runs lost_bonds; do
-  CALENDEM_LIGGGHTS=$work/liggghts "$2/${test}_test" >"$decks/$test.txt" 2>&1 ||
+for test in host_styles between_runs lost_bonds same_physics verification; do
+  options=()
+  [ $test != verification ] || options=(--gtest_filter='VerificationTypes.*:VerificationUnits.*')
+  CALENDEM_LIGGGHTS=$work/liggghts "$2/${test}_test" "${options[@]}" >"$decks/$test.txt" 2>&1 ||
     { grep -E 'FAILED|Failure' "$decks/$test.txt"; failed=1; }
 done
 our_errors "$decks"/valgrind.*.txt >"$decks/errors.txt"

@@ -30,6 +30,10 @@ std::string not_calibrated(const ReferenceMaterial &material);
 /// Both, as sentences.
 std::vector<std::string> notes_of(const Recipe &recipe);
 
+/// That this share of a powder's volume (0-1) is in particles wider than a cell can hold [um]; empty
+/// up to a share of kCutOffWarned.
+std::string cut_off_in_words(double share, double largest);
+
 /// What electrode.json says of its material and of the powder that the cell cannot hold: warnings of
 /// whoever packs or presses it.
 std::vector<std::string> warnings_of_electrode(const nlohmann::json &electrode);

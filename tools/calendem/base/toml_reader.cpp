@@ -56,14 +56,16 @@ std::pair<size_t, size_t> place_of(const std::string &text, int line) {
   return {begin, std::min(text.find('\n', begin), text.size())};
 }
 
-/// A line has a key, right or wrong, before its '='. Titles of other files have a sentence there.
+/// A line has a key, right or wrong, before its '='. Titles of other files have a sentence there,
+/// comments of a CSV a '#'.
 bool has_keys(const std::string &text) {
   constexpr long kMostWords = 3;
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) {
     std::istringstream words(line.substr(0, line.find('=')));
     const long n = std::distance(std::istream_iterator<std::string>(words), {});
-    if (line.find('=') != std::string::npos && n <= kMostWords)
+    const size_t first = line.find_first_not_of(" \t");
+    if (line.find('=') != std::string::npos && line[first] != '#' && n <= kMostWords)
       return true;
   }
   return false;

@@ -59,6 +59,11 @@ std::vector<GapDraws> films_at_gaps(const AskedFilms &a, const FilmOptions &o, M
   return out;
 }
 
+void say_what_the_bank_lacks(const FilmBank &bank) {
+  if (const std::string cut = bank.powder_cut_off(); !cut.empty())
+    fmt::print("note: {}\n", cut);
+}
+
 void run_predict_at_gaps(const FilmOptions &o) {
   AskedFilms a = o.runs > 0 ? asked_to_run(o) : asked(o);
   MissedRuns missed;
@@ -85,6 +90,7 @@ void run_predict_at_gaps(const FilmOptions &o) {
     for (const std::string &text : beyond_at_gaps(a.model.bank, a.films[k], all[k].front().runs))
       fmt::print("  note: {}\n", text);
   }
+  say_what_the_bank_lacks(a.model.bank);
   fmt::print("page: {0}/gap.html\ntable: {0}/gap.csv\n", o.folder);
   missed.stop_if_any();
 }
@@ -112,6 +118,7 @@ void run_predict(const FilmOptions &o) {
     for (const std::string &text : f.beyond)
       fmt::print("  note: {}\n", text);
   }
+  say_what_the_bank_lacks(a.model.bank);
   fmt::print("page: {0}/prediction.html\ntable: {0}/prediction.csv\n", o.folder);
   missed.stop_if_any();
 }

@@ -162,6 +162,13 @@ std::vector<std::string> FilmBank::differences(const Recipe &recipe) const {
   return out;
 }
 
+std::string FilmBank::powder_cut_off() const {
+  const double largest = recipe_.largest_body();
+  const std::string cut =
+      cut_off_in_words(measured_law(recipe_).volume_above(largest), largest);
+  return cut.empty() ? cut : "In the runs of the bank " + cut;
+}
+
 double FilmBank::carbon_and_binder(const Film &film) const {
   double percent = 0.0;
   for (const char *key :

@@ -262,6 +262,8 @@ std::vector<std::string> warnings_of(const FilmBank &bank, const Calibration &c)
                               "misses lies at the upper end of its range, {:g} points of porosity. "
                               "Check pressures and porosities, or use a bank of such films.",
                               100.0 * missed.b));
+  if (const std::string cut = bank.powder_cut_off(); !cut.empty())
+    out.push_back(cut);
   if (c.acceptance < kFewMoves)
     out.push_back(
         fmt::format("In its worst step the sampler took {:.1f} % of its moves ({:g} % or more are "
