@@ -166,7 +166,7 @@ std::string FilmBank::powder_cut_off() const {
   const double largest = recipe_.largest_body();
   const std::string cut =
       cut_off_in_words(measured_law(recipe_).volume_above(largest), largest);
-  return cut.empty() ? cut : "In the runs of the bank " + cut;
+  return cut.empty() ? cut : "In the runs of the bank, " + cut;
 }
 
 double FilmBank::carbon_and_binder(const Film &film) const {
