@@ -57,7 +57,7 @@ void BondWatch::stop_lost(bigint acting, bigint intact, bigint spheres) const {
 }
 
 std::string BondWatch::why_lost(bigint spheres) const {
-  char reason[400];
+  char reason[500];
   if (spheres < spheres_)
     snprintf(reason, sizeof reason,
              BIGINT_FORMAT
@@ -73,7 +73,8 @@ std::string BondWatch::why_lost(bigint spheres) const {
     snprintf(
         reason, sizeof reason,
         "Either a bond was stretched within one step to more than %.2f times the sum of radii, "
-        "where its history is lost: the time step is too large. Or the host lost histories: "
+        "where its history is lost: the time step is too large. Or a command between two runs, "
+        "such as displace_atoms or replicate, parted bonded spheres. Or the host lost histories: "
         "leave 'one' and 'page' of neigh_modify as they are",
         kContactDistanceFactor);
   return reason;

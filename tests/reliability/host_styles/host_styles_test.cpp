@@ -47,6 +47,11 @@ const std::vector<HostUse> kUses = {
      "pressure.txt\n"},
     {"compute stress/atom", "", "compute s all stress/atom pair\n", "", "c_s[1] c_s[2] c_s[4]"},
     {"compute pe", "", "compute e all pe\nfix e all ave/time 1 1 1 c_e file energy.txt\n"},
+    {"compute pe/atom", "", "compute e all pe/atom\n", "", "c_e"},
+    {"fix fiber/spring/simple",
+     "fix v all property/global characteristicVelocity scalar 2.0\ngroup sixth id 6\n"
+     "displace_atoms sixth move -0.15 0 0 units box\n", // springs act from 0.1 of overlap on
+     "fix springs all fiber/spring/simple tether 10.0 0 0 0 0\n"},
     {"fix insert/pack",
      kSpheresToInsert +
          "fix ins all insert/pack seed 32452843 distributiontemplate some vel constant 0 0 0 "
@@ -96,6 +101,7 @@ const std::vector<HostUse> kUses = {
     {"write_data", "", "", "write_data data.out\n"},
     {"atom_modify sort", "", "atom_modify sort 20 1.0\n"},
     {"run ... pre no", "", "", "run 50 pre no post no\nrun 50 pre no\n"},
+    {"run_time", "", "", "run_time 5e-4\n"},
     {"run ... every", "", "", "run 60 every 20 \"print 'bonds $(f_bonds[2])'\"\n"},
     {"reset_timestep", "", "", "reset_timestep 0\n"},
     {"pair_style", "pair_style gran model hertz tangential history\npair_coeff * *\nrun 0\n",
@@ -120,6 +126,9 @@ const std::vector<Refusal> kRefused = {
     {{"run_style respa", "", "run_style respa 2 2\n"}, "'run_style respa' makes no bonds"},
     {{"fix multicontact/halfspace", "", "fix half all multicontact/halfspace\n"},
      "Surface model is not multicontact"},
+    {{"replicate", "", "", "replicate 2 1 1 offset 10 0 0 shift 0 0 0\n"},
+     "replicate, parted bonded spheres"},
+    {{"delete_bonds", "", "", "delete_bonds all bond 1\n"}, "non-molecular system"},
     {{"compute group/group", "",
       "compute g held group/group chain\nfix g all ave/time 1 1 1 c_g file energy.txt\n"},
      "Pair style does not support compute group/group"},
