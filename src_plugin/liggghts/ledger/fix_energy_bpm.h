@@ -5,8 +5,9 @@
 // dissipated work is summed every step with the trapezoid that the integrator itself exchanges
 // kinetic energy by: over the step from x(n) to x(n+1) a force does the work
 // (F(n) + F(n+1))/2 . (x(n+1) - x(n)). So work of the platens = change of kinetic energy, bond
-// strain and terms 1-2, plus terms 3-5, plus what fix bond/bpm counts as released by breaks; what
-// is left over is the error of the conservative forces over a step and the work of gravity.
+// strain and terms 1-2, plus terms 3-8, less term 9, plus what fix bond/bpm counts as released by
+// breaks; what is left over is the error of the conservative forces over a step and the work of
+// gravity.
 // Global vector [fJ]: 1 elastic energy of the Hertz contacts, walls included, 2 potential of SJKR
 //   (<= 0), walls included, 3 dissipated by normal damping of contacts and by damping of bonds, 4
 //   work against the tangential contact forces: slip, their damping, and what their springs hold at

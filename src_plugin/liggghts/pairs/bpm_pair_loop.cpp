@@ -72,8 +72,7 @@ bool BpmPairLoop::serves(PairGran *pair) const {
   return spring_ >= 0 && pair->computeflag() && atom->rmass && !pair->fr_pair() &&
          !pair->freeze_group_bit() && !pair->storeSumDelta() && !pair->storeContactForces() &&
          !pair->storeContactForcesStress() && !pair->store_sum_normal_force() &&
-         force->nktv2p == 1.0 && !force->newton_pair &&
-         !modify->n_fixes_style("insert/stream/predefined");
+         force->nktv2p == 1.0 && !force->newton_pair;
 }
 
 void BpmPairLoop::check_reference() const {

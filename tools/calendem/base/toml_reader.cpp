@@ -130,7 +130,7 @@ const Described kKinds[] = {
     {FileKind::Experiment, "an experiment", "compare, diagnose or calibrate",
      " experiment condition "},
     {FileKind::Study, "a study", "study", " study vary "},
-    {FileKind::Bank, "a bank", "bank", " bank full_cell numerics "},
+    {FileKind::Bank, "a bank", "bank", " bank larger_cell numerics "},
     {FileKind::Material, "a material", "validate, or its path to the key 'material' of a recipe",
      " also_called calibrated_on base material bond "}};
 

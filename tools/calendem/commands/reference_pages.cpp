@@ -34,9 +34,9 @@ std::string default_on_page(const Key &key) {
 }
 
 /// Text of the rows as print has it: µm, g/cm³, a minus before a number, a dash between two.
-std::string typeset(std::string text) {
+std::string typeset_words(std::string text) {
   static const std::pair<std::regex, const char *> rules[] = {
-      {std::regex("\\bum\\b"), "µm"},
+      {std::regex("\\bum([23]?)\\b"), "µm$1"},
       {std::regex("\\bus\\b"), "µs"},
       {std::regex("\\b(m|cm|µm)2\\b"), "$1²"},
       {std::regex("\\b(m|cm|µm)3\\b"), "$1³"},
@@ -48,6 +48,19 @@ std::string typeset(std::string text) {
   for (const auto &[what, by] : rules)
     text = std::regex_replace(text, what, by);
   return text;
+}
+
+/// Typeset, but for DOIs, whose hyphens are part of an address.
+std::string typeset(const std::string &text) {
+  static const std::regex doi("doi:[^ ]*");
+  std::string out;
+  std::size_t at = 0;
+  for (std::sregex_iterator found(text.begin(), text.end(), doi), end; found != end; ++found) {
+    const auto begin = static_cast<std::size_t>(found->position());
+    out += typeset_words(text.substr(at, begin - at)) + found->str();
+    at = begin + static_cast<std::size_t>(found->length());
+  }
+  return out + typeset_words(text.substr(at));
 }
 
 std::string range_of(const Key &key) {

@@ -156,7 +156,7 @@ inline Effect cbd_ductility() {
   e.source =
       "Zunker & Kamrin 2024 (MDR); indented, a matrix of carbon black and PVdF has a hardness "
       "of 0.043 +- 0.010 GPa (Xu et al., J. Electrochem. Soc. 164 (2017) A3333); the range "
-      "is a factor of 2 and 10 around it, an unsourced prior";
+      "is from half of it to ten times it, an unsourced prior";
   e.law = DuctileContact::kHeader;
   e.verification = "ductile_contact";
   return e;
