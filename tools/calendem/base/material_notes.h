@@ -30,8 +30,8 @@ std::string not_calibrated(const ReferenceMaterial &material);
 /// Both, as sentences.
 std::vector<std::string> notes_of(const Recipe &recipe);
 
-/// That this share of a powder's volume (0-1) is in particles wider than a cell can hold [um]; empty
-/// up to a share of kCutOffWarned.
+/// Says which share of a powder's volume (0-1) is in particles wider than `largest` [um], the widest
+/// that a cell holds; empty up to kCutOffWarned.
 std::string cut_off_in_words(double share, double largest);
 
 /// What electrode.json says of its material and of the powder that the cell cannot hold: warnings of

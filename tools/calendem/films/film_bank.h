@@ -77,7 +77,7 @@ public:
   /// Describes any electrode: what the bank's parameters are for it.
   Film described(const Recipe &recipe) const;
   const Recipe &recipe() const { return recipe_; } ///< the bank's
-  /// That much of its powder is wider than the cells of its runs; empty: it is not.
+  /// Says how much of its powder is too wide for the cells of its runs; empty: hardly any.
   std::string powder_cut_off() const;
   /// In what a recipe is another electrode than the bank's, in words.
   std::vector<std::string> differences(const Recipe &recipe) const;

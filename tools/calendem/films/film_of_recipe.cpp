@@ -130,6 +130,12 @@ Film FilmBank::film_of(const Recipe &recipe) const {
   return described(recipe);
 }
 
+std::string FilmBank::powder_cut_off() const {
+  const double largest = recipe_.largest_body();
+  const std::string cut = cut_off_in_words(measured_law(recipe_).volume_above(largest), largest);
+  return cut.empty() ? cut : "In the runs of the bank, " + cut;
+}
+
 std::vector<std::string> FilmBank::differences(const Recipe &recipe) const {
   const Recipe &bank = recipe_;
   std::map<std::string, std::string> wanted = bank.settings.all();
@@ -160,13 +166,6 @@ std::vector<std::string> FilmBank::differences(const Recipe &recipe) const {
                     "tell below {:g}",
                     recipe.loading, least));
   return out;
-}
-
-std::string FilmBank::powder_cut_off() const {
-  const double largest = recipe_.largest_body();
-  const std::string cut =
-      cut_off_in_words(measured_law(recipe_).volume_above(largest), largest);
-  return cut.empty() ? cut : "In the runs of the bank, " + cut;
 }
 
 double FilmBank::carbon_and_binder(const Film &film) const {
