@@ -266,8 +266,8 @@ void run_case(const Settings &settings, RunOptions o) {
   facts.ranks = o.ranks;
   facts.case_hash = hash;
   facts.program = hash_of_file(o.liggghts);
-  fmt::print("run: {} atoms, {} bonds, {} ranks -> {}\n", electrode.atoms, electrode.bonds, o.ranks,
-             folder);
+  fmt::print("run: {} spheres, {} bonds, {} rank{} -> {}\n", electrode.atoms, electrode.bonds,
+             o.ranks, o.ranks == 1 ? "" : "s", folder);
   LineLoadSearch search(folder, settings, lowest_gap(electrode), o.resume);
   do {
     simulate(search.settings(), electrode, o, electrode_hash, facts);

@@ -312,7 +312,7 @@ BodiesToPack make_bodies_to_pack(const PackInput &in, const std::string &folder)
   const Placement &loose = out.placed.loose;
   if (const std::string sizes = sizes_in_words(r); !sizes.empty())
     fmt::print("pack: {}\n", sizes);
-  fmt::print("pack: {} bodies, {} particles, densifying from {:.0f} to {:.1f} um\n",
+  fmt::print("pack: {} bodies, {} spheres, densifying from {:.0f} to {:.1f} um\n",
              out.made.bodies.size(), loose.particles.size(), loose.height, r.thickness());
   std::cout << std::flush;
   write_file(folder + "/start.data", data_file(r, loose.particles, loose.height));
