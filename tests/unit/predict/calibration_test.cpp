@@ -120,7 +120,7 @@ TEST(Calibrate, SaysThatAParameterIsAtTheEndOfItsRange) {
 TEST(Calibrate, SaysWhatTheBanksCellsCannotHold) {
   const auto said = warnings_of(made_film_bank(), of({}));
   ASSERT_EQ(said.size(), 1u);
-  EXPECT_EQ(said[0].rfind("In the runs of the bank, 84 % of the volume", 0), 0u) << said[0];
+  EXPECT_EQ(said[0].rfind("84 % of the volume of the bank's powder", 0), 0u) << said[0];
 }
 
 // Porosities that rise with pressure are no material's.

@@ -99,23 +99,15 @@ std::vector<std::string> notes_of(const Recipe &recipe) {
   return out;
 }
 
-std::string cut_off_in_words(double share, double largest) {
-  return share > kCutOffWarned
-             ? fmt::format("{:.0f} % of the volume of the recipe's particles is in particles wider "
-                           "than this cell can hold ({:.1f} um); smaller ones take its place. A "
-                           "larger cell holds more.",
-                           100.0 * share, largest)
-             : "";
-}
-
 std::vector<std::string> warnings_of_electrode(const nlohmann::json &electrode) {
   if (!electrode.is_object()) // cut or missing: who reads it says so
     return {};
   auto out = electrode.value(kMaterialNotes, std::vector<std::string>());
-  if (const std::string cut =
-          cut_off_in_words(electrode.value(kCutOff, 0.0), electrode.value(kLargestAllowed, 0.0));
-      !cut.empty())
-    out.push_back(cut);
+  if (const double cut = electrode.value(kCutOff, 0.0); cut > kCutOffWarned)
+    out.push_back(fmt::format("{:.0f} % of the volume of the recipe's particles is in particles "
+                              "wider than this cell can hold ({:.1f} um); smaller ones take its "
+                              "place. A larger cell holds more.",
+                              100.0 * cut, electrode.value(kLargestAllowed, 0.0)));
   return out;
 }
 

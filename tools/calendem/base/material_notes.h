@@ -30,10 +30,6 @@ std::string not_calibrated(const ReferenceMaterial &material);
 /// Both, as sentences.
 std::vector<std::string> notes_of(const Recipe &recipe);
 
-/// Says which share of a powder's volume (0-1) is in particles wider than `largest` [um], the widest
-/// that a cell holds; empty up to kCutOffWarned.
-std::string cut_off_in_words(double share, double largest);
-
 /// What electrode.json says of its material and of the powder that the cell cannot hold: warnings of
 /// whoever packs or presses it.
 std::vector<std::string> warnings_of_electrode(const nlohmann::json &electrode);

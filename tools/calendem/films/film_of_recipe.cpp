@@ -132,8 +132,12 @@ Film FilmBank::film_of(const Recipe &recipe) const {
 
 std::string FilmBank::powder_cut_off() const {
   const double largest = recipe_.largest_body();
-  const std::string cut = cut_off_in_words(measured_law(recipe_).volume_above(largest), largest);
-  return cut.empty() ? cut : "In the runs of the bank, " + cut;
+  const double cut = measured_law(recipe_).volume_above(largest);
+  return cut > kCutOffWarned
+             ? fmt::format("{:.0f} % of the volume of the bank's powder is in particles wider than "
+                           "its cells can hold ({:.1f} um); smaller ones take its place.",
+                           100.0 * cut, largest)
+             : "";
 }
 
 std::vector<std::string> FilmBank::differences(const Recipe &recipe) const {
