@@ -82,5 +82,8 @@ void BondRecord::read(const char *buf, Error *error, Fix *owner) {
     value = static_cast<std::remove_reference_t<decltype(value)>>(next());
   });
   events.resize(static_cast<size_t>(next()));
-  memcpy(events.data(), buf, events.size() * sizeof(BreakEvent));
+  for (BreakEvent &event : events) {
+    memcpy(&event, buf, sizeof event);
+    buf += sizeof event;
+  }
 }
