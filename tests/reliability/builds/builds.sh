@@ -19,5 +19,6 @@ rm -rf "$work"
 mkdir -p "$work"
 (cd "$top" && git ls-files -z --cached --others --exclude-standard | tar --null -cf - -T -) | tar -xf - -C "$work"
 "$work/tools/test" "${options[@]}" -L 'unit|verification|regression' -E paraview
-[ "$case" != sanitize ] || # also beside the host's styles, between runs and at their ends, on several ranks
-  "$work/tools/test" "${options[@]}" -R '^(host_styles|between_runs|lost_bonds|same_physics)\.'
+[ "$case" != sanitize ] || # also beside the host's styles, between runs and at their ends; undefined behaviour ends a run
+  UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1 "$work/tools/test" "${options[@]}" \
+    -R '^(host_styles|between_runs|lost_bonds|same_physics)\.'
