@@ -41,8 +41,9 @@ inline Effect drying_stress() {
             "drying and at lower pressures";
   e.source =
       "Croll 1979; binder that swells on the foil of a graphite electrode makes 1-2 MPa "
-      "(Sethuraman et al. 2012, arXiv:1201.2155), which over a modulus of 0.08-0.11 GPa of hard "
-      "carbon electrodes (Sawhney et al. 2024, arXiv:2403.11668) is 0.6-1.8 %, widened here";
+      "(Sethuraman et al. 2012, arXiv:1201.2155), which with a modulus of 0.08-0.11 GPa of hard "
+      "carbon electrodes (Sawhney et al. 2024, arXiv:2403.11668) and a Poisson's ratio of 0.3 is a "
+      "strain in the plane of 0.6-1.8 %, widened here";
   e.law = "drying_shrinkage.h";
   e.verification = "drying_stress";
   return e;

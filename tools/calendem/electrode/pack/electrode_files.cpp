@@ -128,8 +128,8 @@ void read_positions(const std::string &dump, std::vector<Particle> &particles) {
   if (found != particles.size())
     throw Failure(
         kSimulationFailed,
-        fmt::format("'{}' holds {} of {} spheres: the packing lost some, or the file is cut",
-                    dump, found, particles.size()));
+        fmt::format("'{}' holds {} of {} spheres: the packing lost some, or the file is cut", dump,
+                    found, particles.size()));
 }
 
 } // namespace calendem
