@@ -1,9 +1,13 @@
 #!/usr/bin/env bash
 # predict_test.sh BIN CASES WORK: measured films calibrate the bank that ships, others are predicted and a pressure is
-# chosen; mistakes are reported; the calibrated case is one that `validate` takes.
+# chosen; the same bytes twice; mistakes are reported; the calibrated case is one that `validate` takes.
 # shellcheck source=tests/regression/predict/calibrated.sh
 source "$(dirname "${BASH_SOURCE[0]}")/calibrated.sh"
 
+calendem calibrate "${films[@]}" -o again --bank "$cases/films/bank.toml" >/dev/null
+for file in model.json model.html case.toml; do
+  cmp "model/$file" "again/$file" || fail "the same input gave another $file"
+done
 grep -q "p006: its pressure is not known, or outside" calibrate.log || fail "what is left out is not reported"
 grep -q "^  friction + nmc_plasticity + cbd_plasticity + body_scatter: " calibrate.log || fail "the reference material is no set of effects"
 calendem validate model/case.toml || fail "the calibrated case is none"

@@ -97,6 +97,7 @@ void expect_loading_and_width(const Recipe &recipe, const ShapeLibrary &library)
   }
   const double wanted = recipe.area() * recipe.am_column();
   EXPECT_NEAR(volume, wanted, 0.5 * std::pow(recipe.lattice, 3) + 1e-9);
+  EXPECT_EQ(bodies.front().primaries, make_bodies(recipe, library).front().primaries);
 }
 
 // One body's volume is rounded to whole lattice cells; D10-D90 then agree within 5 %.
