@@ -58,7 +58,7 @@ printf '#!/bin/sh\nexec %s --log-file=%s/valgrind.%%p.txt %s "$@"\n' "${check[*]
 chmod +x "$work/liggghts"
 for test in host_styles between_runs lost_bonds same_physics verification; do
   case $test in
-    same_physics) only='*.RestartInMidDamage*:*.RebuildingEveryStep*:*.OnePass*' ;;
+    same_physics) only='*.RestartInMidDamage*:*.RebuildingEveryStep*' ;;
     verification) only='VerificationTypes.*:VerificationUnits.*' ;;
     *) only='*' ;;
   esac
