@@ -14,7 +14,7 @@ mkdir -p "$work"
 case $case in
   gradient) # the film that LIGGGHTS densified: the content is the gradient's times that of the film without one
     for asked in 0 -0.8 0.8; do
-      recipe "$work/gradient.toml" 8 10 "[effects.cbd_gradient]" "slope = $asked"
+      recipe "$work/gradient.toml" 5 10 "[effects.cbd_gradient]" "slope = $asked"
       "$bin/calendem" validate "$work/gradient.toml"
       rm -rf "$work/gradient_$asked"
       "$bin/calendem" pack "$work/gradient.toml" -o "$work/gradient_$asked" --ranks 1

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Read by the tests with their arguments BIN CASES WORK: in WORK/model two measured films have calibrated the bank that
-# ships; film.toml is one to predict.
+# ships, with $samples samples where they are set; film.toml is one to predict.
 set -euo pipefail
 bin=$1 cases=$2 work=$3
 fail() { echo "FAILED: $*" >&2; exit 1; }
@@ -10,7 +10,7 @@ cd "$work"
 films=("$cases/paper/experiment_with_nanopores.toml" "$cases/real/artistic_96/experiment.toml")
 calendem() { "$bin/calendem" "$@"; }
 
-calendem calibrate "${films[@]}" -o model --bank "$cases/films/bank.toml" | tee calibrate.log
+calendem calibrate "${films[@]}" -o model --bank "$cases/films/bank.toml" ${samples:+--samples "$samples"} | tee calibrate.log
 
 cat >film.toml <<'END'
 name = "film"

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # own_runs_test.sh BIN CASES WORK: a film that the bank has not, and what is proposed, are simulated; with
 # CALENDEM_HEAVY=1 also a gap under a roll, and the films of a calibration.
+samples=128
 # shellcheck source=tests/regression/predict/calibrated.sh
 source "$(dirname "${BASH_SOURCE[0]}")/calibrated.sh"
 

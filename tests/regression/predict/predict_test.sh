@@ -4,9 +4,11 @@
 # shellcheck source=tests/regression/predict/calibrated.sh
 source "$(dirname "${BASH_SOURCE[0]}")/calibrated.sh"
 
-calendem calibrate "${films[@]}" -o again --bank "$cases/films/bank.toml" >/dev/null
+for time in once again; do
+  calendem calibrate "${films[0]}" -o $time --samples 64 --bank "$cases/films/bank.toml" >/dev/null
+done
 for file in model.json model.html case.toml; do
-  cmp "model/$file" "again/$file" || fail "the same input gave another $file"
+  cmp "once/$file" "again/$file" || fail "the same input gave another $file"
 done
 grep -q "p006: its pressure is not known, or outside" calibrate.log || fail "what is left out is not reported"
 grep -q "^  friction + nmc_plasticity + cbd_plasticity + body_scatter: " calibrate.log || fail "the reference material is no set of effects"
@@ -25,22 +27,27 @@ awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
   <(sed 's/^"[^"]*"/film/' prediction/prediction.csv) || fail "prediction.csv: order $?"
 calendem design model/model.json film.toml --porosity 30 --cracked-below 60 -o design | tee design.log
 grep -q "MPa meets the target with .* % (with .* % or more for four of five materials" design.log || fail "no pressure is proposed"
-# Two films of other materials and powders, whose particles and densities differ little, too. What the page says of each
-# reading left out, in tenths of a point; one may be rounded the other way.
+# Two films of other materials and powders, whose particles and densities differ little, too. With CALENDEM_HEAVY=1 what the
+# page says of each reading left out, in tenths of a point; one may be rounded the other way.
+fewer=(--samples 64)
+[ "${CALENDEM_HEAVY:-0}" = 0 ] || fewer=()
 calendem calibrate "${films[@]}" "$cases/real/blb_nmc111_90/experiment.toml" "$cases/real/zhang_nmc111_96/experiment.toml" \
-  -o four --bank "$cases/films/bank.toml" >four.log
+  -o four --bank "$cases/films/bank.toml" "${fewer[@]}" >four.log
 sed -n 's/.* \([0-9]*\) MPa  measured \([0-9.]*\), predicted \([0-9.]*\) (90 %: \([0-9.]*\) to \([0-9.]*\)), Heckel \([0-9.]*\), Meyer \([0-9.]*\)/\1 \2 \3 \4 \5 \6 \7/p' \
   four.log >left_out.txt
 sed -n '/^## Each coating from the others/,/median error/s/^| [^|]* | \([0-9]*\) | \([0-9.]*\) ± [0-9.]* | \([0-9.]*\) | \([0-9.]*\)–\([0-9.]*\) | \([0-9.]*\) | \([0-9.]*\) |$/\1 \2 \3 \4 \5 \6 \7/p' \
   "$cases/../../docs/validation/predictions.md" >on_page.txt
-paste -d' ' left_out.txt on_page.txt | awk '
-  { for (k = 1; k <= 7; ++k) if (($k - $(k + 7)) ^ 2 > 0.11 ^ 2) { print "row " NR ": " $k " is not " $(k + 7); bad = 1 }
-    inside += $2 >= $4 && $2 <= $5 }
-  END { exit bad || NF != 14 || NR != 12 || inside < 10 }' ||
-  fail "docs/validation/predictions.md has other predictions of films left out"
-nanopores=$(sed -n 's/.* 150 MPa  measured 27.0, predicted \([0-9.]*\) (90 %: \([0-9.]*\) to \([0-9.]*\)), nanoporosity after release, %$/\1 % (\2 to \3)/p' four.log)
-grep -qF "are predicted as ${nanopores:?is not said of the film left out}" "$cases/../../docs/validation/predictions.md" ||
-  fail "docs/validation/predictions.md has another nanoporosity of the film left out"
+[ "$(wc -l <left_out.txt)" = 12 ] || fail "not each of twelve readings is left out in turn"
+if [ "${CALENDEM_HEAVY:-0}" = 1 ]; then
+  paste -d' ' left_out.txt on_page.txt | awk '
+    { for (k = 1; k <= 7; ++k) if (($k - $(k + 7)) ^ 2 > 0.11 ^ 2) { print "row " NR ": " $k " is not " $(k + 7); bad = 1 }
+      inside += $2 >= $4 && $2 <= $5 }
+    END { exit bad || NF != 14 || NR != 12 || inside < 10 }' ||
+    fail "docs/validation/predictions.md has other predictions of films left out"
+  nanopores=$(sed -n 's/.* 150 MPa  measured 27.0, predicted \([0-9.]*\) (90 %: \([0-9.]*\) to \([0-9.]*\)), nanoporosity after release, %$/\1 % (\2 to \3)/p' four.log)
+  grep -qF "are predicted as ${nanopores:?is not said of the film left out}" "$cases/../../docs/validation/predictions.md" ||
+    fail "docs/validation/predictions.md has another nanoporosity of the film left out"
+fi
 grep -q "Other readings" four/model.html || fail "the page lacks readings that are no porosity of the film"
 grep -q "1.09 times the bank's: counted as an error of 0.6 points" four.log || fail "its particles are not remarked on"
 # Particles of one were crushed: what the model says of those of 5 and 12 um holds what was measured.

@@ -121,11 +121,12 @@ comments_are_sentences() {
     find tools -maxdepth 1 -type f; } | LC_ALL=C sort -u | xargs awk -f tests/reliability/style/comment_beginnings.awk |
     report "comments that begin with Of, That, Those, And, Then or The same"
 }
-# compile_commands.json of BUILD, with each source of a file that CMake made of several (UNITY_BUILD) by itself.
+# compile_commands.json of BUILD, with each source of a file that CMake made of several (UNITY_BUILD) by itself, and
+# without precompiled headers, which only the compiler that made them can read.
 write_commands_of_sources() { # BUILD FOLDER
   mkdir -p "$2"
   awk '
-    /^  "command"/ { command = $0 }
+    /^  "command"/ { sub(/ -include [^ ]*cmake_pch\.hxx/, ""); command = $0 }
     /^  "file": ".*\/unity_[0-9]+_cxx\.cxx"/ {
       split($0, part, "\""); unity = part[4]; n = 0
       while ((getline line < unity) > 0)

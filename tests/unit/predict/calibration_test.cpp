@@ -11,7 +11,7 @@ const std::vector<double> kPressures = {25.0, 50.0, 90.0, 150.0, 250.0};
 
 CalibrationSettings few() {
   CalibrationSettings s;
-  s.samples = 1024;
+  s.samples = 512;
   s.draws = 200;
   return s;
 }
@@ -199,7 +199,7 @@ TEST(Calibrate, FilmsOfAnotherMaterialDoNotMislead) {
   }
 }
 
-// Whichever comes first, within what 1024 samples leave open.
+// Whichever comes first, within what 512 samples leave open.
 TEST(Calibrate, TheOrderOfMaterialsDoesNotMatter) {
   const Truth soft = {{190.0, 2.0, 400.0}, 0.0}, stiff = {{190.0, 2.8, 560.0}, 1.5};
   const auto calibrated = [&](int first) {

@@ -81,14 +81,13 @@ TEST(Tomogram, MistakesOfItsSpecAreNamed) {
   expect_parts(refusal([] { tomogram_of("[image]\nvoxel_um = 0.01\n"); }), {"2.7e+10", "1e9"});
 }
 
-Recipe recipe_of_cell() {
+Recipe recipe_of_cell(double side) {
   const std::string file = (test_folder() / "recipe.toml").string();
-  std::ofstream(file) << "[cell]\nx_um = 20\ny_um = 20\n";
+  std::ofstream(file) << "[cell]\nx_um = " << side << "\ny_um = " << side << "\n";
   return read_recipe(file);
 }
 
-void expect_loading_and_width(const Recipe &recipe, const ShapeLibrary &library) {
-  const std::vector<Body> bodies = make_bodies(recipe, library);
+void expect_loading_and_width(const Recipe &recipe, const std::vector<Body> &bodies) {
   double volume = 0.0;
   for (const Body &b : bodies) {
     volume += b.volume;
@@ -97,13 +96,19 @@ void expect_loading_and_width(const Recipe &recipe, const ShapeLibrary &library)
   }
   const double wanted = recipe.area() * recipe.am_column();
   EXPECT_NEAR(volume, wanted, 0.5 * std::pow(recipe.lattice, 3) + 1e-9);
-  EXPECT_EQ(bodies.front().primaries, make_bodies(recipe, library).front().primaries);
+}
+
+void expect_same_bodies_again(const Recipe &recipe, const ShapeLibrary &library) {
+  const std::vector<Body> once = make_bodies(recipe, library), again = make_bodies(recipe, library);
+  ASSERT_EQ(once.size(), again.size());
+  for (std::size_t k = 0; k < once.size(); ++k)
+    EXPECT_EQ(once[k].primaries, again[k].primaries);
 }
 
 // One body's volume is rounded to whole lattice cells; D10-D90 then agree within 5 %.
-void expect_measured_sizes(Recipe recipe, const ShapeLibrary &library) {
-  recipe.cell_x = recipe.cell_y = 30.0;
-  const nlohmann::json j = describe_shapes(recipe, library, make_bodies(recipe, library));
+void expect_measured_sizes(const Recipe &recipe, const ShapeLibrary &library,
+                           const std::vector<Body> &bodies) {
+  const nlohmann::json j = describe_shapes(recipe, library, bodies);
   for (const char *q : {"D10", "D50", "D90"})
     EXPECT_NEAR(j["volume_percentiles_packed_um"][q].get<double>() /
                     j["volume_percentiles_measured_um"][q].get<double>(),
@@ -137,9 +142,11 @@ TEST(FromImage, BodiesHaveItsSizesAndFormsAndFillTheLoading) {
   ShapeLibrary library;
   recover(make_tomogram(tomogram_of("seed = 1\n[image]\nx_um = 24\ny_um = 24\nz_um = 24\n")),
           library);
-  const Recipe recipe = recipe_of_cell();
-  expect_loading_and_width(recipe, library);
-  expect_measured_sizes(recipe, library);
+  const Recipe recipe = recipe_of_cell(30);
+  const std::vector<Body> bodies = make_bodies(recipe, library);
+  expect_loading_and_width(recipe, bodies);
+  expect_same_bodies_again(recipe_of_cell(10), library);
+  expect_measured_sizes(recipe, library, bodies);
   expect_form_of_its_shape(recipe, library);
 }
 
