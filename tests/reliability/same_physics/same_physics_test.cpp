@@ -207,10 +207,13 @@ TEST(SamePhysics, RebuildingEveryStepChangesNoBit) {
   EXPECT_EQ(o.state, reference().state);
 }
 
-TEST(SamePhysics, LookingChangesNoBit) {
-  const Outcome o = throw_them({{"px", "1"}, {"py", "1"}, {"pz", "1"}, {"look", "1"}});
-  EXPECT_EQ(o.breaks, reference().breaks);
-  EXPECT_EQ(o.state, reference().state);
+TEST(SamePhysics, LookingChangesNoBitOnAnyRanks) {
+  for (const int ranks : {1, 2}) {
+    const Outcome o =
+        throw_them({{"px", std::to_string(ranks)}, {"py", "1"}, {"pz", "1"}, {"look", "1"}}, ranks);
+    EXPECT_EQ(o.breaks, reference().breaks) << ranks;
+    EXPECT_EQ(o.state, reference().state) << ranks;
+  }
 }
 
 TEST(SamePhysics, RestartInMidDamageChangesNoBit) {
