@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <unordered_map>
 
 namespace calendem {
@@ -14,6 +15,7 @@ using Site = std::array<int, 3>;
 
 constexpr int kSamplesAlong = 7; // of a cell of the mean volume
 constexpr int kIterations = 50;
+constexpr double kRounding = 1e-9; // of distances, in widths of a cell
 
 /// Points of a fine lattice at a random turn and offset: the innermost of the hull that have the
 /// volume asked for.
@@ -61,32 +63,52 @@ Samples sample(const Hull &hull, int count, double volume, double farthest, Rand
 /// Finds the nearest of some points.
 class Nearest {
 public:
-  Nearest(const std::vector<Vector3d> &points, double width) : points_(points), width_(width) {
-    low_ = high_ = points.front();
+  struct Found {
+    int place = -1;
+    double farther; ///< by how much, at least, any other point is farther away
+  };
+
+  Nearest(const std::vector<Vector3d> &points, double width) : width_(width) {
+    Vector3d high = low_ = points.front();
     for (const Vector3d &p : points) {
       low_ = low_.cwiseMin(p);
-      high_ = high_.cwiseMax(p);
+      high = high.cwiseMax(p);
     }
     for (int axis = 0; axis < 3; ++axis)
-      n_[axis] = int((high_[axis] - low_[axis]) / width) + 1;
-    bins_.resize(size_t(n_[0]) * n_[1] * n_[2]);
+      n_[axis] = int((high[axis] - low_[axis]) / width) + 1;
+    first_.resize(size_t(n_[0]) * n_[1] * n_[2] + 1);
+    for (const Vector3d &p : points)
+      ++first_[bin(index(p)) + 1];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    sorted_.resize(points.size());
+    std::vector<size_t> next = first_;
     for (size_t k = 0; k < points.size(); ++k)
-      bins_[bin(index(points[k]))].push_back(int(k));
+      sorted_[next[bin(index(points[k]))]++] = {points[k], int(k)};
   }
 
-  int of(const Vector3d &x) const {
-    for (int rings = 1;; ++rings)
-      if (const auto [k, squared] = within(x, rings);
-          k >= 0 && squared <= rings * width_ * rings * width_)
-        return k;
+  Found of(const Vector3d &x) const {
+    for (int rings = 1;; ++rings) {
+      const auto [k, least, second] = within(x, rings);
+      const double seen = rings * width_;
+      if (k >= 0 && least <= seen * seen)
+        return {k, std::min(std::sqrt(second), seen) - std::sqrt(least)};
+    }
   }
 
 private:
-  const std::vector<Vector3d> &points_;
+  struct Point {
+    Vector3d at;
+    int place;
+  };
+  struct Two {
+    int place;
+    double least, second; ///< squared distances
+  };
   double width_;
-  Vector3d low_, high_;
+  Vector3d low_;
   Site n_;
-  std::vector<std::vector<int>> bins_;
+  std::vector<size_t> first_; ///< of each bin in `sorted_`, and the end
+  std::vector<Point> sorted_;
 
   Site index(const Vector3d &x) const {
     Site at;
@@ -96,17 +118,21 @@ private:
   }
   size_t bin(const Site &at) const { return (size_t(at[2]) * n_[1] + at[1]) * n_[0] + at[0]; }
 
-  std::pair<int, double> within(const Vector3d &x, int rings) const {
+  Two within(const Vector3d &x, int rings) const {
+    constexpr double kFar = std::numeric_limits<double>::infinity();
     const Site c = index(x);
-    std::pair<int, double> best = {-1, std::numeric_limits<double>::infinity()};
+    Two best = {-1, kFar, kFar};
     const auto from = [&](int axis) { return std::max(0, c[axis] - rings); };
     const auto to = [&](int axis) { return std::min(n_[axis] - 1, c[axis] + rings); };
     for (int k = from(2); k <= to(2); ++k)
-      for (int j = from(1); j <= to(1); ++j)
-        for (int i = from(0); i <= to(0); ++i)
-          for (const int p : bins_[bin({i, j, k})])
-            if (const double squared = (x - points_[p]).squaredNorm(); squared < best.second)
-              best = {p, squared};
+      for (int j = from(1); j <= to(1) && from(0) <= to(0); ++j)
+        for (size_t p = first_[bin({from(0), j, k})]; p < first_[bin({to(0), j, k}) + 1]; ++p) {
+          const double squared = (x - sorted_[p].at).squaredNorm();
+          if (squared < best.least)
+            best = {sorted_[p].place, squared, best.least};
+          else
+            best.second = std::min(best.second, squared);
+        }
     return best;
   }
 };
@@ -124,47 +150,69 @@ std::vector<Vector3d> draw_seeds(const std::vector<Vector3d> &points, int count,
   return seeds;
 }
 
-/// The cell that each point belongs to; `width` is that of a cell.
-std::vector<int> cells_of(const std::vector<Vector3d> &points, double width,
-                          const std::vector<Vector3d> &centres) {
-  const Nearest nearest(centres, width);
-  std::vector<int> cells;
-  cells.reserve(points.size());
-  for (const Vector3d &p : points)
-    cells.push_back(nearest.of(p));
-  return cells;
-}
-
-void move_to_centroids(const std::vector<Vector3d> &points, double width,
-                       std::vector<Vector3d> &centres) {
-  const std::vector<int> cells = cells_of(points, width, centres);
-  std::vector<Vector3d> sum(centres.size(), Vector3d::Zero());
-  std::vector<int> number(centres.size(), 0);
-  for (size_t k = 0; k < cells.size(); ++k) {
-    sum[cells[k]] += points[k];
-    ++number[cells[k]];
+/// Points, each in the cell of the nearest of some centres that move. A point is looked up again only where
+/// the centres may have moved far enough for another to be nearest (Hamerly 2010, SIAM Data Mining).
+class Cells {
+public:
+  /// `width` is that of a cell.
+  Cells(const std::vector<Vector3d> &points, double width, std::vector<Vector3d> centres)
+      : points_(points), width_(width), centres_(std::move(centres)), of_(points.size(), {0, 0.0}) {
+    look_up();
   }
-  for (size_t c = 0; c < centres.size(); ++c)
-    if (number[c] > 0)
-      centres[c] = sum[c] / number[c];
-}
+
+  const std::vector<Vector3d> &centres() const { return centres_; }
+  int of(size_t point) const { return of_[point].place; }
+
+  void move_to_centroids() {
+    std::vector<Vector3d> sum(centres_.size(), Vector3d::Zero());
+    std::vector<int> number(centres_.size(), 0);
+    for (size_t k = 0; k < points_.size(); ++k) {
+      sum[of(k)] += points_[k];
+      ++number[of(k)];
+    }
+    std::vector<double> moved(centres_.size(), 0.0);
+    for (size_t c = 0; c < centres_.size(); ++c)
+      if (number[c] > 0) {
+        const Vector3d centroid = sum[c] / number[c];
+        moved[c] = (centroid - centres_[c]).norm();
+        centres_[c] = centroid;
+      }
+    const double most = *std::max_element(moved.begin(), moved.end());
+    for (Nearest::Found &cell : of_)
+      cell.farther -= moved[cell.place] + most;
+    look_up();
+  }
+
+private:
+  const std::vector<Vector3d> &points_;
+  double width_;
+  std::vector<Vector3d> centres_;
+  std::vector<Nearest::Found> of_;
+
+  void look_up() {
+    const Nearest nearest(centres_, width_);
+    for (size_t k = 0; k < points_.size(); ++k)
+      if (of_[k].farther < kRounding * width_)
+        of_[k] = nearest.of(points_[k]);
+  }
+};
 
 /// Area of all facets. A staircase of samples has 3/2 times the area of a surface at random turns.
 double area_of_facets(const Samples &samples, const std::vector<Vector3d> &centres) {
-  const std::vector<int> cells = cells_of(samples.points, kSamplesAlong * samples.spacing, centres);
+  const Cells cells(samples.points, kSamplesAlong * samples.spacing, centres);
   const auto key = [](const Site &s) {
     return (long(s[0]) * 4096 + s[1]) * 4096 + s[2]; // sites are within 2000 of 0
   };
   std::unordered_map<long, int> cell_at;
-  for (size_t k = 0; k < cells.size(); ++k)
-    cell_at[key(samples.sites[k])] = cells[k];
+  for (size_t k = 0; k < samples.sites.size(); ++k)
+    cell_at[key(samples.sites[k])] = cells.of(k);
   long faces = 0;
-  for (size_t k = 0; k < cells.size(); ++k)
+  for (size_t k = 0; k < samples.sites.size(); ++k)
     for (int axis = 0; axis < 3; ++axis) {
       Site beside = samples.sites[k];
       ++beside[axis];
       const auto found = cell_at.find(key(beside));
-      faces += found != cell_at.end() && found->second != cells[k];
+      faces += found != cell_at.end() && found->second != cells.of(k);
     }
   return double(faces) * samples.spacing * samples.spacing / 1.5;
 }
@@ -198,10 +246,10 @@ std::vector<Vector3d> grow(std::vector<Vector3d> left, double bond) {
 
 std::vector<Vector3d> spread_centres(const std::vector<Vector3d> &points, int count, double width,
                                      Random &random) {
-  std::vector<Vector3d> centres = draw_seeds(points, count, random);
+  Cells cells(points, width, draw_seeds(points, count, random));
   for (int k = 0; k < kIterations; ++k)
-    move_to_centroids(points, width, centres);
-  return centres;
+    cells.move_to_centroids();
+  return cells.centres();
 }
 
 Grains make_grains(const Hull &hull, int count, double volume, double farthest, double bond,
