@@ -57,6 +57,44 @@ TEST(Grains, AreSpacedAsTheirVolumeAsks) {
   }
 }
 
+// Fifty of Lloyd's iterations, from the points that a partial shuffle draws; every centre is asked.
+std::vector<Eigen::Vector3d> by_all_distances(const std::vector<Eigen::Vector3d> &points, int count,
+                                              Random &random) {
+  std::vector<Eigen::Vector3d> left = points;
+  for (size_t k = 0; k < size_t(count); ++k)
+    std::swap(left[k], left[k + size_t(random.uniform() * double(left.size() - k))]);
+  std::vector<Eigen::Vector3d> centres(left.begin(), left.begin() + count);
+  for (int iteration = 0; iteration < 50; ++iteration) {
+    std::vector<Eigen::Vector3d> sum(centres.size(), Eigen::Vector3d::Zero());
+    std::vector<int> number(centres.size(), 0);
+    for (const Eigen::Vector3d &p : points) {
+      size_t nearest = 0;
+      for (size_t c = 1; c < centres.size(); ++c)
+        if ((p - centres[c]).squaredNorm() < (p - centres[nearest]).squaredNorm())
+          nearest = c;
+      sum[nearest] += p;
+      ++number[nearest];
+    }
+    for (size_t c = 0; c < centres.size(); ++c)
+      if (number[c] > 0)
+        centres[c] = sum[c] / number[c];
+  }
+  return centres;
+}
+
+TEST(SpreadCentres, AreThoseThatAllDistancesGive) {
+  for (const int count : {1, 2, 40, 200}) {
+    Random random(7, std::uint64_t(count));
+    std::vector<Eigen::Vector3d> points;
+    for (int k = 0; k < 4000; ++k)
+      points.push_back(random.uniform3().cwiseProduct(Eigen::Vector3d(3.0, 1.0, 1.0)));
+    Random same = random;
+    EXPECT_EQ(spread_centres(points, count, std::cbrt(3.0 / count), random),
+              by_all_distances(points, count, same))
+        << count;
+  }
+}
+
 // Two cubes of side a share one face: so do two grains of a box of twice that length.
 TEST(Grains, FacetHasTheAreaBetweenTwoCells) {
   const double a = 1.28;
