@@ -6,6 +6,7 @@
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <fmt/format.h>
+#include <future>
 #include <map>
 #include <numeric>
 
@@ -277,28 +278,44 @@ std::vector<RuleOfThumb> rules_of_thumb(const std::vector<Pressed> &data) {
   return out;
 }
 
+namespace {
+
+std::vector<LeftOut> readings_left_out(const FilmBank &bank, const Calibration &all,
+                                       const CalibrationSettings &settings, int film) {
+  std::vector<LeftOut> out;
+  Calibration others = without(all, film);
+  if (others.data.empty() || others.data.size() == all.data.size())
+    return out;
+  calibrate(bank, settings, others);
+  const Film &f = all.films[std::size_t(film)];
+  const std::vector<RuleOfThumb> no_rules, rules = rules_of_thumb(pressed_of(bank, all, film));
+  for (const Datum &d : all.data) {
+    if (d.film != film)
+      continue;
+    LeftOut row = {f.name,     d.condition, d.number,
+                   d.pressure, d.measured,  band_of_reading(bank, others, f, d),
+                   {}};
+    for (const RuleOfThumb &rule : d.number == FilmNumber::PorosityAfter ? rules : no_rules)
+      row.rules[rule.name] = rule.porosity(rule.constants, porosity_before(bank, f), d.pressure);
+    out.push_back(row);
+  }
+  return out;
+}
+
+} // namespace
+
 std::vector<LeftOut> left_out(const FilmBank &bank, const Calibration &all,
                               const CalibrationSettings &settings) {
+  bank.error_correlation(); // made once, before several ask for it
+  std::vector<std::future<std::vector<LeftOut>>> films;
+  for (int film = 0; film < int(all.films.size()) && all.films.size() > 1; ++film)
+    films.push_back(std::async(std::launch::async, [&bank, &all, &settings, film] {
+      return readings_left_out(bank, all, settings, film);
+    }));
   std::vector<LeftOut> out;
-  const std::vector<RuleOfThumb> no_rules;
-  for (int film = 0; film < int(all.films.size()) && all.films.size() > 1; ++film) {
-    Calibration others = without(all, film);
-    if (others.data.empty() || others.data.size() == all.data.size())
-      continue;
-    calibrate(bank, settings, others);
-    const auto rules = rules_of_thumb(pressed_of(bank, all, film));
-    for (const Datum &d : all.data) {
-      if (d.film != film)
-        continue;
-      const Film &f = all.films[std::size_t(film)];
-      LeftOut row = {f.name,     d.condition, d.number,
-                     d.pressure, d.measured,  band_of_reading(bank, others, f, d),
-                     {}};
-      for (const RuleOfThumb &rule : d.number == FilmNumber::PorosityAfter ? rules : no_rules)
-        row.rules[rule.name] = rule.porosity(rule.constants, porosity_before(bank, f), d.pressure);
-      out.push_back(row);
-    }
-  }
+  for (auto &film : films)
+    for (LeftOut &row : film.get())
+      out.push_back(std::move(row));
   return out;
 }
 

@@ -120,7 +120,8 @@ struct LeftOut {
   std::map<std::string, double> rules;   ///< of a porosity, by the name of the rule of thumb
 };
 
-/// Every reading of a film, predicted from the other films. Empty with one film.
+/// Every reading of a film, predicted from the other films; films are left out side by side, a thread each. Empty with
+/// one film.
 std::vector<LeftOut> left_out(const FilmBank &bank, const Calibration &calibration,
                               const CalibrationSettings &settings);
 
