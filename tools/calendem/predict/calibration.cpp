@@ -129,23 +129,36 @@ struct Predicted {
   Vector mean, variance, by_pressure; ///< by_pressure: for one sd of the press's pressure
 };
 
-Predicted predicted_data(const FilmBank &bank, const Calibration &c, const Draw &draw) {
-  std::map<std::pair<int, FilmNumber>, std::vector<MeanVariance>> curves;
+/// Of a film at the bank's pressures, under each draw: the emulator takes many materials at a time.
+std::vector<std::vector<MeanVariance>> curves_of(const FilmBank &bank, FilmNumber number,
+                                                 const Film &film, const std::vector<Draw> &draws) {
+  std::vector<const Material *> materials;
+  for (const Draw &draw : draws)
+    materials.push_back(&draw.of(film));
+  return bank.at_pressures(number, film, materials);
+}
+
+/// Under each draw.
+std::vector<Predicted> predicted_data(const FilmBank &bank, const Calibration &c,
+                                      const std::vector<Draw> &draws) {
+  std::map<std::pair<int, FilmNumber>, std::vector<std::vector<MeanVariance>>> curves;
   const auto n = Eigen::Index(c.data.size());
-  Predicted out = {Vector(n), Vector(n), Vector(n)};
+  std::vector<Predicted> out(draws.size(), {Vector(n), Vector(n), Vector(n)});
   for (Eigen::Index k = 0; k < n; ++k) {
     const Datum &d = c.data[std::size_t(k)];
-    const Film &film = c.films[std::size_t(d.film)];
     auto [at, is_new] = curves.try_emplace({d.film, d.number});
     if (is_new)
-      at->second = bank.at_pressures(d.number, film, draw.of(film));
-    const MeanVariance g = bank.at(at->second, d.pressure);
-    out.mean[k] = g.mean;
-    out.variance[k] = g.variance;
+      at->second = curves_of(bank, d.number, c.films[std::size_t(d.film)], draws);
     const auto [below, above] = bank.beside(d.pressure);
-    const double slope = (bank.at(at->second, above).mean - bank.at(at->second, below).mean) /
-                         std::log(above / below);
-    out.by_pressure[k] = slope * d.pressure_sd;
+    for (std::size_t m = 0; m < draws.size(); ++m) {
+      const std::vector<MeanVariance> &curve = at->second[m];
+      const MeanVariance g = bank.at(curve, d.pressure);
+      out[m].mean[k] = g.mean;
+      out[m].variance[k] = g.variance;
+      const double slope =
+          (bank.at(curve, above).mean - bank.at(curve, below).mean) / std::log(above / below);
+      out[m].by_pressure[k] = slope * d.pressure_sd;
+    }
   }
   return out;
 }
@@ -205,17 +218,21 @@ Vector measured_of(const Calibration &c) {
 
 } // namespace
 
-std::vector<MeanVariance> each_from_the_others(const FilmBank &bank, const Calibration &c,
-                                               const Draw &draw) {
-  const Predicted p = predicted_data(bank, c, draw);
+Predictions each_from_the_others(const FilmBank &bank, const Calibration &c) {
+  const std::vector<Predicted> predicted = predicted_data(bank, c, c.draws);
+  const Matrix correlation = output_correlation(bank, c, spots_of(c));
   const auto n = Eigen::Index(c.data.size());
-  const Matrix covariance = covariance_of(c, p, draw, films_alike(bank, c.films, draw),
-                                          output_correlation(bank, c, spots_of(c)));
-  const Matrix precision = Cholesky(covariance).solve(Matrix::Identity(n, n));
-  const Vector measured = measured_of(c), pull = precision * (measured - p.mean);
-  std::vector<MeanVariance> out;
-  for (Eigen::Index k = 0; k < n; ++k)
-    out.push_back({measured[k] - pull[k] / precision(k, k), 1.0 / precision(k, k)});
+  const Vector measured = measured_of(c);
+  Predictions out(c.draws.size());
+  for (std::size_t m = 0; m < out.size(); ++m) {
+    const Draw &draw = c.draws[m];
+    const Matrix covariance =
+        covariance_of(c, predicted[m], draw, films_alike(bank, c.films, draw), correlation);
+    const Matrix precision = Cholesky(covariance).solve(Matrix::Identity(n, n));
+    const Vector pull = precision * (measured - predicted[m].mean);
+    for (Eigen::Index k = 0; k < n; ++k)
+      out[m].push_back({measured[k] - pull[k] / precision(k, k), 1.0 / precision(k, k)});
+  }
   return out;
 }
 
@@ -286,7 +303,7 @@ namespace {
 
 /// Adds to the model's own error what is predicted at a query's pressures without data, and its
 /// covariance with them.
-using Addition = std::function<void(const Draw &draw, const Predicted &data, const Matrix &alike,
+using Addition = std::function<void(std::size_t draw, const Predicted &data, const Matrix &alike,
                                     std::vector<MeanVariance> &at, Matrix &with)>;
 
 /// Normals at spots under each draw, given the data.
@@ -295,9 +312,11 @@ Predictions conditioned(const FilmBank &bank, const Calibration &c, const std::v
                         const Addition &add) {
   const std::vector<Spot> data = spots_of(c);
   const Matrix correlation = output_correlation(bank, c, data);
+  const std::vector<Predicted> predicted = predicted_data(bank, c, draws);
   Predictions out;
-  for (const Draw &draw : draws) {
-    const Predicted p = predicted_data(bank, c, draw);
+  for (std::size_t m = 0; m < draws.size(); ++m) {
+    const Draw &draw = draws[m];
+    const Predicted &p = predicted[m];
     const Matrix alike = films_alike(bank, films, draw);
     const Cholesky chol(covariance_of(c, p, draw, alike, correlation));
     const Vector weights = chol.solve(measured_of(c) - p.mean);
@@ -308,7 +327,7 @@ Predictions conditioned(const FilmBank &bank, const Calibration &c, const std::v
       for (std::size_t i = 0; i < data.size(); ++i)
         with(Eigen::Index(i), Eigen::Index(k)) = error_covariance(c.error, draw, data[i], spots[k]);
     }
-    add(draw, p, alike, at, with);
+    add(m, p, alike, at, with);
     for (std::size_t k = 0; k < at.size(); ++k) {
       const Vector column = with.col(Eigen::Index(k));
       at[k].mean += column.dot(weights);
@@ -338,9 +357,9 @@ std::vector<Spot> spots_of(const Calibration &c, const Query &query, double size
 
 Predictions missed_given_data(const FilmBank &bank, const Calibration &c,
                               const std::vector<Draw> &draws, const Query &query) {
-  return conditioned(bank, c, draws, spots_of(c, query, 0.0), c.films,
-                     [](const Draw &, const Predicted &, const Matrix &,
-                        std::vector<MeanVariance> &, Matrix &) {});
+  return conditioned(
+      bank, c, draws, spots_of(c, query, 0.0), c.films,
+      [](std::size_t, const Predicted &, const Matrix &, std::vector<MeanVariance> &, Matrix &) {});
 }
 
 Predictions given_data(const FilmBank &bank, const Calibration &c, const std::vector<Draw> &draws,
@@ -350,13 +369,12 @@ Predictions given_data(const FilmBank &bank, const Calibration &c, const std::ve
   if (place_of_film(c, query.film) == int(films.size()))
     films.push_back(query.film);
   const Matrix correlation = output_correlation(bank, c, spots);
+  const auto curves = curves_of(bank, query.number, query.film, draws);
   return conditioned(bank, c, draws, spots, films,
-                     [&](const Draw &draw, const Predicted &data, const Matrix &alike,
+                     [&](std::size_t draw, const Predicted &data, const Matrix &alike,
                          std::vector<MeanVariance> &at, Matrix &with) {
-                       const std::vector<MeanVariance> curve =
-                           bank.at_pressures(query.number, query.film, draw.of(query.film));
                        for (std::size_t k = 0; k < at.size(); ++k) {
-                         const MeanVariance g = bank.at(curve, spots[k].pressure);
+                         const MeanVariance g = bank.at(curves[draw], spots[k].pressure);
                          at[k].mean += g.mean;
                          at[k].variance += g.variance;
                          for (Eigen::Index i = 0; i < with.rows(); ++i)

@@ -77,9 +77,6 @@ struct CalibrationSettings {
   int draws = 400;   ///< that are kept
 };
 
-/// Each datum as all others predict it under a draw, with the errors of measurement and press.
-std::vector<MeanVariance> each_from_the_others(const FilmBank &bank, const Calibration &calibration,
-                                               const Draw &draw);
 /// The sets of effects that act in draws, the most probable in any material first.
 std::vector<EffectSet> effect_sets_of(const FilmBank &bank, const Calibration &calibration);
 std::string name_of(const FilmBank &bank, const std::vector<int> &effects);
@@ -112,6 +109,9 @@ struct Query {
 
 /// By draws, then pressures; none of a number that is not known.
 using Predictions = std::vector<std::vector<MeanVariance>>;
+
+/// By draws, then data: each datum as all others predict it, with the errors of measurement and press.
+Predictions each_from_the_others(const FilmBank &bank, const Calibration &calibration);
 
 /// What the model misses of a film's runs, given the data: mean and variance at each wanted pressure.
 Predictions missed_given_data(const FilmBank &bank, const Calibration &calibration,

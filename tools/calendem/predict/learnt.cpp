@@ -93,9 +93,7 @@ std::vector<LeftOutDatum> left_out_data_of(const FilmBank &bank, const Calibrati
   std::vector<LeftOutDatum> out;
   if (c.data.size() < 2)
     return out;
-  std::vector<std::vector<MeanVariance>> predicted;
-  for (const Draw &draw : c.draws)
-    predicted.push_back(each_from_the_others(bank, c, draw));
+  const Predictions predicted = each_from_the_others(bank, c);
   const std::vector<Scores> scores = scores_of(bank, c);
   for (std::size_t k = 0; k < c.data.size(); ++k)
     out.push_back(lesson_of(predicted, k, c.data[k].measured, scores));
