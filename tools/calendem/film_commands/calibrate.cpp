@@ -89,10 +89,7 @@ std::string film_in_words(const LeftOut &r) {
       kPercent * r.predicted.low90, kPercent * r.predicted.high90);
 }
 
-void say(const FilmBank &bank, const Calibration &c, const std::vector<LeftOut> &rows) {
-  say_effects(bank, c);
-  if (!rows.empty())
-    fmt::print("each film left out in turn: porosity after release, %\n");
+void say_left_out(const std::vector<LeftOut> &rows) {
   for (const LeftOut &r : rows)
     if (r.number == FilmNumber::PorosityAfter)
       fmt::print("{}, Heckel {:.1f}, Meyer {:.1f}\n", film_in_words(r),
@@ -138,6 +135,9 @@ void run_calibrate(const CalibrateOptions &o) {
   calibrate(bank, o.settings, c);
   for (const std::string &text : warnings_of(bank, c))
     not_said.push_back(text);
+  say_effects(bank, c);
+  if (c.films.size() > 1)
+    fmt::print("each film left out in turn: porosity after release, %\n");
   const std::vector<LeftOut> rows = left_out(bank, c, o.settings);
   nlohmann::ordered_json model = to_json(bank, c, rows, o.folder);
   for (const std::string &file : o.experiments)
@@ -151,7 +151,7 @@ void run_calibrate(const CalibrateOptions &o) {
   write({});
   for (std::size_t m = 0; m < c.materials.size(); ++m)
     write_file(cases[m], case_of(bank, c, m));
-  say(bank, c, rows);
+  say_left_out(rows);
   for (const std::string &text : not_said)
     fmt::print("- {}\n", text);
   const MissedRuns missed = o.runs > 0 ? confirm(bank, c, o, recipes, write) : MissedRuns();
