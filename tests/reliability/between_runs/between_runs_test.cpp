@@ -107,9 +107,10 @@ TEST(BetweenRuns, AStepOfAnotherLengthWithoutASetUpIsRefused) {
   for (const char *change : {"run 10 pre no\n", "timestep 5e-5\nrun 10 pre no\n"}) {
     const CaseRun run = hold(change);
     EXPECT_EQ(run.finished(), change[0] == 'r') << run.why();
-    if (!run.finished())
+    if (!run.finished()) {
       EXPECT_NE(run.why().find("time step was changed before 'run ... pre no'"), std::string::npos)
           << run.why();
+    }
   }
 }
 

@@ -319,8 +319,9 @@ TEST(HostStylesPage, HasNoRowWithoutADeck) {
     std::istringstream cell(line.substr(2, line.find(" | ") - 2));
     for (std::string name; std::getline(cell, name, ',');) {
       name.erase(0, name.find('`') + 1);
-      if (!name.empty() && name.find('`') == name.size() - 1) // a name and nothing else
+      if (!name.empty() && name.find('`') == name.size() - 1) { // a name and nothing else
         EXPECT_EQ(tested.count(name.substr(0, name.size() - 1)), 1u) << name;
+      }
     }
   }
   EXPECT_GT(rows, 20);

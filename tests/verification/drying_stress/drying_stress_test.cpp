@@ -90,8 +90,9 @@ TEST(VerificationDryingStress, HeldBridgeBreaksWhereItsStrengthIsReached) {
   const CaseRun run = move(to, 0.0, 0.0, shrinking(strain, time));
   ASSERT_TRUE(run.finished()) << run.why();
   for (const Row &r : run.rows("curve.csv"))
-    if (r.at("step") != 800) // round-off decides which of two steps it is
+    if (r.at("step") != 800) { // round-off decides which of two steps it is
       EXPECT_EQ(r.at("broken_cbd"), r.at("step") > 800 ? 1.0 : 0.0) << r.at("step");
+    }
 }
 
 // E eps / (1 - nu) of a triangular layer, whose E and nu are 2 k_n / sqrt 3 and 1/3 per width.

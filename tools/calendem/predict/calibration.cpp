@@ -129,7 +129,7 @@ struct Predicted {
   Vector mean, variance, by_pressure; ///< by_pressure: for one sd of the press's pressure
 };
 
-/// Of a film at the bank's pressures, under each draw: the emulator takes many materials at a time.
+/// Numbers of a film at the pressures of the bank, under each draw: the emulator takes many materials at a time.
 std::vector<std::vector<MeanVariance>> curves_of(const FilmBank &bank, FilmNumber number,
                                                  const Film &film, const std::vector<Draw> &draws) {
   std::vector<const Material *> materials;
