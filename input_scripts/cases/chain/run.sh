@@ -3,7 +3,7 @@
 #   input_scripts/cases/chain/run.sh [-o OUT] [--recipes DIR] [--ranks N] [--bin DIR]
 # -o: everything goes there (default build/chain).  --recipes: folder with tomogram.toml, film.toml and case.toml
 # (default: that of this script).  --ranks: of pack and run (default 2); slurry and drying take one.
-# About 8 minutes on 2 cores. A step that is done is not done again; after a stop, start it again.
+# One to three minutes on 2 cores. A step that is done is not done again; after a stop, start it again.
 # Exit status: 0 done, otherwise that of the step that failed (2 bad input, 3 simulation, 4 a target was missed).
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
