@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kSamePressure = 0.05; // of a press that met its target
 constexpr std::size_t kEvery = 4;      // of curve_pressures()
+constexpr int kSharing = 4;            // readings of the loading curve
 constexpr std::size_t kFewestPresses = 3, kFewestRuns = 8;
 
 inference::Prior prior_of(Spread spread, double low, double high) {
@@ -103,6 +104,17 @@ std::vector<double> pressures_of(const Bank &bank) {
 
 namespace {
 
+/// Each number has its own hyperparameters at each pressure, and so have the readings of a release; four
+/// neighbours of the loading curve share theirs.
+int group_of(int output, std::size_t presses) {
+  const int loading = loading_output(0, presses), release = release_output(0, 0, presses);
+  if (output < loading)
+    return output;
+  return output < release ? loading + (output - loading) / kSharing
+                          : loading + (release - loading) / kSharing +
+                                (output - release) / int(kReleases.size());
+}
+
 /// Loading and releases of a run, as outputs of column r.
 void add_curves(const Run &run, const std::vector<double> &pressures, Eigen::Index r,
                 inference::Matrix &values) {
@@ -137,10 +149,8 @@ inference::TrainingRuns training_of(const Runs &runs) {
   out.at.inputs.resize(Eigen::Index(space.priors.size()), n);
   out.at.amplitudes = inference::Matrix::Zero(Eigen::Index(space.amplitudes.size()) + 1, n);
   out.values = inference::Matrix::Constant(outputs, n, NAN);
-  for (Eigen::Index o = 0; o < outputs; ++o)
-    out.group.push_back(o >= release_output(0, 0, pressures.size())
-                            ? kFilmNumbers + 1
-                            : std::min(int(o) / int(pressures.size()), kFilmNumbers));
+  for (int o = 0; o < int(outputs); ++o)
+    out.group.push_back(group_of(o, pressures.size()));
   for (Eigen::Index r = 0; r < n; ++r) {
     const Run &run = *used[std::size_t(r)];
     const Point &point = run.point;

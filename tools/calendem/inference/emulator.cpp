@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "inference/emulator.h"
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <future>
 #include <limits>
 #include <map>
+#include <thread>
 
 namespace calendem::inference {
 namespace {
@@ -87,15 +90,17 @@ Emulator::Emulator(TrainingRuns runs, const std::optional<Hyperparameters> &know
   const int groups =
       runs_.group.empty() ? 0 : 1 + *std::max_element(runs_.group.begin(), runs_.group.end());
   const int inputs = int(runs_.at.inputs.rows()), effects = int(runs_.at.amplitudes.rows());
-  const auto length = Kernel::prior_means(inputs, effects).size();
+  const auto length = std::size_t(Kernel::prior_means(inputs, effects).size());
+  hyperparameters_ = known.value_or(Hyperparameters());
+  hyperparameters_.resize(std::size_t(groups));
+  std::vector<int> missing;
+  for (int group = 0; group < groups; ++group)
+    if (hyperparameters_[std::size_t(group)].size() != length)
+      missing.push_back(group);
+  fit(missing);
   for (int group = 0; group < groups; ++group) {
-    const auto place = std::size_t(group);
-    const bool stored =
-        known && place < known->size() && Eigen::Index((*known)[place].size()) == length;
-    const Vector parameters =
-        stored ? Vector(Vector::Map((*known)[place].data(), length)) : fit(group);
-    hyperparameters_.emplace_back(parameters.begin(), parameters.end());
-    kernels_.emplace_back(inputs, effects, parameters);
+    kernels_.emplace_back(inputs, effects,
+                          Vector::Map(hyperparameters_[std::size_t(group)].data(), length));
     add_factors(group);
   }
 }
@@ -128,7 +133,23 @@ Matrix Emulator::scaled_values(const std::vector<int> &outputs,
   return values;
 }
 
-Vector Emulator::fit(int group) const {
+void Emulator::fit(const std::vector<int> &groups) {
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t k = next++; k < groups.size(); k = next++) {
+      const Vector fitted = this->fitted(groups[k]);
+      hyperparameters_[std::size_t(groups[k])] = {fitted.begin(), fitted.end()};
+    }
+  };
+  std::vector<std::future<void>> workers;
+  for (unsigned w = std::thread::hardware_concurrency(); w > 1 && !groups.empty(); --w)
+    workers.push_back(std::async(std::launch::async, work));
+  work();
+  for (std::future<void> &w : workers)
+    w.get();
+}
+
+Vector Emulator::fitted(int group) const {
   struct Part {
     Points at;
     std::vector<int> packing;

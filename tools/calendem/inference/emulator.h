@@ -86,7 +86,8 @@ private:
   void set_scales();
   void add_factors(int group);
   Matrix scaled_values(const std::vector<int> &outputs, const std::vector<int> &runs) const;
-  Vector fit(int group) const;
+  void fit(const std::vector<int> &groups);
+  Vector fitted(int group) const;
   Batch predict_batch(std::size_t factor, const Points &at, bool with_variance) const;
   void leave_out(const Factor &factor, const Matrix &inverse, const std::vector<int> &of,
                  LeftOut &out) const;

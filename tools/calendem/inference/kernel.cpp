@@ -14,8 +14,8 @@ constexpr double kConstant = 4.0;  // c0, in variances of the values, whose mean
 constexpr double kDamping = 16.0;  // of trends: |x - x'|^2 per input at which half is left
 constexpr double kSmallest = 1e-5; // of the noise: keeps the matrix invertible
 
-/// Order of the parameters: six, then lengths, then those of effects.
-enum Layout { kSmooth, kSlope, kBend, kPairs, kPacking, kNoise, kFirstLength };
+/// Order of the parameters: six, then lengths, then c_e and t_e.
+enum Layout { kSmooth, kVarying, kBend, kPairs, kPacking, kNoise, kFirstLength };
 
 struct Normal {
   double mean, spread;
@@ -24,24 +24,20 @@ struct Normal {
 // Priors of the logarithms. A response is smooth over its range, which is 2: what is rough is
 // scatter. Variances are shares of the values'.
 constexpr Normal kScalars[] = {{-1.0, 1.5},  // s0
-                               {-1.5, 1.5},  // b
+                               {-1.5, 1.5},  // r
                                {-0.5, 1.0},  // q
                                {-0.5, 1.5},  // h
                                {-3.0, 1.5},  // p0
                                {-2.5, 1.5}}; // n
-constexpr Normal kLength{1.3, 1.0}, kEffectLength{1.2, 0.5};
-constexpr Normal kMain{-3.0, 2.0}, kVarying{-4.0, 1.5}, kGrowth{0.0, 0.4};
+constexpr Normal kLength{1.3, 1.0}, kEffect{-3.0, 2.0}, kGrowth{0.0, 0.4};
 
 Vector filled(int inputs, int effects, double Normal::*member) {
-  Vector all(kFirstLength + 2 * inputs + 3 * effects);
+  Vector all(kFirstLength + inputs + 2 * effects);
   for (int i = 0; i < kFirstLength; ++i)
     all[i] = kScalars[i].*member;
   all.segment(kFirstLength, inputs).setConstant(kLength.*member);
-  all.segment(kFirstLength + inputs, inputs).setConstant(kEffectLength.*member);
-  const int first = kFirstLength + 2 * inputs;
-  all.segment(first, effects).setConstant(kMain.*member);
-  all.segment(first + effects, effects).setConstant(kVarying.*member);
-  all.segment(first + 2 * effects, effects).setConstant(kGrowth.*member);
+  all.segment(kFirstLength + inputs, effects).setConstant(kEffect.*member);
+  all.tail(effects).setConstant(kGrowth.*member);
   return all;
 }
 
@@ -67,6 +63,21 @@ Matern matern(const Matrix &a, const Matrix &b, const Vector &lengths, bool slop
 
 Matrix bent(const Matrix &g) { return g.array() * (2.0 * g.array() - 1.0); }
 
+/// Rows whose products sum up to G_e: g, then sqrt(q) f.
+Matrix responses(const Matrix &g, double bend) {
+  Matrix out(2 * g.rows(), g.cols());
+  out << g, std::sqrt(bend) * bent(g);
+  return out;
+}
+
+/// Rows whose products sum up to G_e^2.
+Matrix squared_responses(const Matrix &g, double bend) {
+  const Matrix f = bent(g);
+  Matrix out(3 * g.rows(), g.cols());
+  out << g.cwiseAbs2(), std::sqrt(2.0 * bend) * g.cwiseProduct(f), bend * f.cwiseAbs2();
+  return out;
+}
+
 /// x_k' weight x_k of each row x_k.
 Vector forms(const Matrix &rows, const Matrix &weight) {
   return (rows * weight).cwiseProduct(rows).rowwise().sum();
@@ -83,65 +94,51 @@ Vector Kernel::prior_spreads(int inputs, int effects) {
 }
 
 Kernel::Kernel(int inputs, int effects, const Vector &x) : inputs_(inputs), effects_(effects) {
-  const int first = kFirstLength + 2 * inputs;
   smooth_ = std::exp(x[kSmooth]);
-  slope_ = std::exp(x[kSlope]);
+  varying_ = std::exp(x[kVarying]);
   bend_ = std::exp(x[kBend]);
   pairs_ = std::exp(x[kPairs]);
   packing_ = std::exp(x[kPacking]);
   noise_ = std::exp(x[kNoise]);
   lengths_ = x.segment(kFirstLength, inputs).array().exp();
-  effect_lengths_ = x.segment(kFirstLength + inputs, inputs).array().exp();
-  constant_ = x.segment(first, effects).array().exp();
-  varying_ = x.segment(first + effects, effects).array().exp();
-  growth_ = x.segment(first + 2 * effects, effects);
+  effect_variances_ = x.segment(kFirstLength + inputs, effects).array().exp();
+  growth_ = x.tail(effects);
 }
 
 /// What the covariance is made of, `of` x `with`.
 struct Kernel::Parts {
-  Matrix damping, product; ///< T, x.x'
-  Matrix constant, bend, varying,
-      squares; ///< sums over effects: c g g', c f f', s g g', (v g g')^2
-  Matern smooth, of_effects;
+  Matrix damping, effects, squares; ///< T, E, sum_e c_e^2 G_e^2
+  Matern smooth;                    ///< M
 };
 
 Kernel::Parts Kernel::parts(const Points &of, const Points &with, bool slopes) const {
+  const Vector twice = effect_variances_.replicate(2, 1),
+               squared = effect_variances_.cwiseAbs2().replicate(3, 1);
   Parts p;
-  p.product = of.inputs.transpose() * with.inputs;
   p.damping = 1.0 / (1.0 + squares(of.inputs, with.inputs).array() / (kDamping * inputs_));
   p.smooth = matern(of.inputs, with.inputs, lengths_, slopes);
-  p.of_effects = matern(of.inputs, with.inputs, effect_lengths_, slopes);
-  const Matrix &g = of.amplitudes, &h = with.amplitudes;
-  const Vector v = (constant_ + varying_).cwiseAbs2();
-  p.constant = g.transpose() * constant_.asDiagonal() * h;
-  p.bend = bent(g).transpose() * constant_.asDiagonal() * bent(h);
-  p.varying = g.transpose() * varying_.asDiagonal() * h;
-  p.squares = g.cwiseAbs2().transpose() * v.asDiagonal() * h.cwiseAbs2();
+  p.effects = responses(of.amplitudes, bend_).transpose() * twice.asDiagonal() *
+              responses(with.amplitudes, bend_);
+  p.squares = squared_responses(of.amplitudes, bend_).transpose() * squared.asDiagonal() *
+              squared_responses(with.amplitudes, bend_);
   return p;
 }
 
-/// All that T damps.
-Matrix Kernel::trend(const Parts &p) const {
-  const auto both = p.constant.array() + p.varying.array();
-  return p.damping.array() *
-         (kConstant + slope_ * p.product.array() + p.constant.array() + bend_ * p.bend.array() +
-          0.5 * pairs_ * (both.square() - p.squares.array()));
+Matrix Kernel::sum_of(const Parts &p) const {
+  const auto e = p.effects.array();
+  return p.damping.array() * (kConstant + e + 0.5 * pairs_ * (e.square() - p.squares.array())) +
+         p.smooth.value.array() * (smooth_ + varying_ * e);
 }
 
 Matrix Kernel::expected(const Points &of, const Points &with) const {
-  const Parts p = parts(of, with, false);
-  return trend(p).array() + smooth_ * p.smooth.value.array() +
-         p.varying.array() * p.of_effects.value.array();
+  return sum_of(parts(of, with, false));
 }
 
 Vector Kernel::prior_variance(const Points &of) const {
-  const Matrix squared = of.amplitudes.cwiseAbs2();
-  const Vector v = constant_ + varying_;
-  const Vector both = squared.transpose() * v;
-  const Vector own = squared.cwiseAbs2().transpose() * v.cwiseAbs2();
-  const Vector bend = bent(of.amplitudes).cwiseAbs2().transpose() * constant_;
-  return kConstant + smooth_ + slope_ * of.inputs.colwise().squaredNorm().transpose().array() +
-         both.array() + bend_ * bend.array() + 0.5 * pairs_ * (both.array().square() - own.array());
+  const Matrix own = of.amplitudes.cwiseAbs2() + bend_ * bent(of.amplitudes).cwiseAbs2();
+  const Eigen::ArrayXd all = own.transpose() * effect_variances_,
+                       squares = own.cwiseAbs2().transpose() * effect_variances_.cwiseAbs2();
+  return kConstant + smooth_ + (1.0 + varying_) * all + 0.5 * pairs_ * (all.square() - squares);
 }
 
 Vector Kernel::roughness(const Points &of) const {
@@ -153,9 +150,7 @@ Vector Kernel::scatter(const Points &of) const {
 }
 
 Matrix Kernel::of_runs(const Points &runs, const std::vector<int> &packing) const {
-  const Parts p = parts(runs, runs, false);
-  Matrix k = trend(p).array() + smooth_ * p.smooth.value.array() +
-             p.varying.array() * p.of_effects.value.array();
+  Matrix k = sum_of(parts(runs, runs, false));
   const Vector r = roughness(runs);
   for (Eigen::Index j = 0; j < k.cols(); ++j) {
     for (Eigen::Index i = 0; i < k.rows(); ++i)
@@ -167,36 +162,38 @@ Matrix Kernel::of_runs(const Points &runs, const std::vector<int> &packing) cons
 }
 
 /// Sums of pull_ij (x_i - x_j)^2 / length^2 for each input.
-Vector Kernel::length_slopes(const Matrix &pull, const Points &runs, const Vector &lengths) const {
+Vector Kernel::length_slopes(const Matrix &pull, const Points &runs) const {
   const Vector sums = pull.rowwise().sum();
   const Vector all = 2.0 * (runs.inputs.cwiseAbs2() * sums - forms(runs.inputs, pull));
-  return all.cwiseQuotient(lengths.cwiseAbs2());
+  return all.cwiseQuotient(lengths_.cwiseAbs2());
 }
 
 void Kernel::effect_slopes(const Parts &p, const Points &runs, const Matrix &weight,
                            Vector &out) const {
-  const Matrix &g = runs.amplitudes;
+  const Matrix &g = runs.amplitudes, f = bent(g);
   const Matrix damped = weight.cwiseProduct(p.damping);
-  const Vector v = constant_ + varying_;
-  const Vector of_pairs = pairs_ * (forms(g, damped.cwiseProduct(p.constant + p.varying)) -
-                                    v.cwiseProduct(forms(g.cwiseAbs2(), damped)));
-  const Vector bend = bend_ * forms(bent(g), damped);
-  const int first = kFirstLength + 2 * inputs_;
-  out[kBend] = constant_.dot(bend);
-  out.segment(first, effects_) = constant_.cwiseProduct(forms(g, damped) + bend + of_pairs);
-  out.segment(first + effects_, effects_) =
-      varying_.cwiseProduct(forms(g, weight.cwiseProduct(p.of_effects.value)) + of_pairs);
+  const Matrix all = damped + varying_ * weight.cwiseProduct(p.smooth.value) +
+                     pairs_ * damped.cwiseProduct(p.effects);
+  const Vector cross = forms(g.cwiseProduct(f), damped), of_bends = forms(f.cwiseAbs2(), damped),
+               bends = forms(f, all);
+  const Vector squares =
+      forms(g.cwiseAbs2(), damped) + 2.0 * bend_ * cross + bend_ * bend_ * of_bends;
+  out.segment(kFirstLength + inputs_, effects_) = effect_variances_.cwiseProduct(
+      forms(g, all) + bend_ * bends - pairs_ * effect_variances_.cwiseProduct(squares));
+  out[kBend] = bend_ * effect_variances_.dot(bends - pairs_ * effect_variances_.cwiseProduct(
+                                                                  cross + bend_ * of_bends));
 }
 
 Vector Kernel::gradient(const Points &runs, const std::vector<int> &packing,
                         const Matrix &weight) const {
   const Parts p = parts(runs, runs, true);
-  Vector out(kFirstLength + 2 * inputs_ + 3 * effects_);
-  const Matrix damped = weight.cwiseProduct(p.damping);
-  out[kSmooth] = smooth_ * weight.cwiseProduct(p.smooth.value).sum();
-  out[kSlope] = slope_ * damped.cwiseProduct(p.product).sum();
-  const Matrix pairs = (p.constant + p.varying).cwiseAbs2() - p.squares;
-  out[kPairs] = 0.5 * pairs_ * damped.cwiseProduct(pairs).sum();
+  Vector out(kFirstLength + inputs_ + 2 * effects_);
+  const Matrix smooth = weight.cwiseProduct(p.smooth.value);
+  out[kSmooth] = smooth_ * smooth.sum();
+  out[kVarying] = varying_ * smooth.cwiseProduct(p.effects).sum();
+  out[kPairs] =
+      0.5 * pairs_ *
+      weight.cwiseProduct(p.damping).cwiseProduct(p.effects.cwiseAbs2() - p.squares).sum();
   effect_slopes(p, runs, weight, out);
 
   const Vector r = roughness(runs);
@@ -211,10 +208,8 @@ Vector Kernel::gradient(const Points &runs, const std::vector<int> &packing,
   const Vector rough = packing_ * same.rowwise().sum() + (noise_ + kSmallest) * own;
   out.tail(effects_) = runs.amplitudes * rough;
 
-  const Matrix pull = smooth_ * weight.cwiseProduct(p.smooth.slope);
-  out.segment(kFirstLength, inputs_) = length_slopes(pull, runs, lengths_);
-  out.segment(kFirstLength + inputs_, inputs_) = length_slopes(
-      weight.cwiseProduct(p.varying).cwiseProduct(p.of_effects.slope), runs, effect_lengths_);
+  const Matrix slopes = p.smooth.slope.array() * (smooth_ + varying_ * p.effects.array());
+  out.segment(kFirstLength, inputs_) = length_slopes(weight.cwiseProduct(slopes), runs);
   return out;
 }
 

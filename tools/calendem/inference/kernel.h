@@ -16,15 +16,14 @@ struct Points {
 
 // clang-format off
 /// Expectation over packings, with x the inputs and g the strengths of the effects:
-///   k = T { c0 + b x.x' + sum_e c_e (g_e g_e' + q f_e f_e')
-///             + h sum_{e<f} v_e v_f g_e g_e' g_f g_f' }
-///       + s0 M0 + M1 sum_e s_e g_e g_e'
-/// f = g (2 g - 1) bends the response to an amplitude; v = c + s: strong effects act on each other
-/// most. M0 and M1 are Matern 5/2 kernels over the inputs with a length for each (Rasmussen and
-/// Williams 2006, eq. 4.17). T = 1 / (1 + |x - x'|^2 / (16 d)) for d inputs (their eq. 4.19 with
-/// alpha = 1) is little below 1 between runs and vanishes far from all: no trend is trusted there.
+///   k = T { c0 + E + h/2 (E^2 - sum_e c_e^2 G_e^2) } + M (s0 + r E)
+///   E = sum_e c_e G_e,   G_e = g_e g_e' + q f_e f_e',   f = g (2 g - 1)
+/// E is what effects do one by one, f bends the response to an amplitude, the term with h is their pairs:
+/// strong effects act on each other most. M is a Matern 5/2 kernel over the inputs with a length for
+/// each (Rasmussen and Williams 2006, eq. 4.17). T = 1 / (1 + |x - x'|^2 / (16 d)) for d inputs (their
+/// eq. 4.19 with alpha = 1) is little below 1 between runs and vanishes far from all.
 /// Values of runs have in addition
-///   r r' p0 [same packing] + r^2 n [same run],   r^2 = exp(sum_e t_e g_e),
+///   u u' p0 [same packing] + u^2 n [same run],   u^2 = exp(sum_e t_e g_e),
 /// [..] = 1 where that is true, else 0: packings differ more, or less, where an effect is on.
 // clang-format on
 class Kernel {
@@ -50,14 +49,13 @@ public:
 private:
   struct Parts;
   int inputs_, effects_;
-  double smooth_, slope_, bend_, pairs_, packing_, noise_;
-  Vector lengths_, effect_lengths_;
-  Vector constant_, varying_, growth_; ///< c_e, s_e, t_e
+  double smooth_, varying_, bend_, pairs_, packing_, noise_; ///< s0, r, q, h, p0, n
+  Vector lengths_, effect_variances_, growth_;               ///< lengths of M, c_e, t_e
 
   Parts parts(const Points &of, const Points &with, bool slopes) const;
-  Matrix trend(const Parts &p) const;
+  Matrix sum_of(const Parts &p) const;
   Vector roughness(const Points &of) const;
-  Vector length_slopes(const Matrix &pull, const Points &runs, const Vector &lengths) const;
+  Vector length_slopes(const Matrix &pull, const Points &runs) const;
   void effect_slopes(const Parts &p, const Points &runs, const Matrix &weight, Vector &out) const;
 };
 
