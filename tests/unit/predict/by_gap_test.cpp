@@ -55,6 +55,24 @@ TEST(ByGap, MaterialsDifferInPressureNotInPorosity) {
   EXPECT_LT(at.after.high90 - at.after.low90, 0.02);
 }
 
+// Where an emulated curve is flat, the pressure is as uncertain as the slope about the flat piece says; a curve that does not
+// fall at all leaves any pressure of the curve: a uniform's variance.
+TEST(ByGap, AFlatPieceOfACurveLeavesThePressureUncertainNotUnknown) {
+  FilmCurves curves;
+  curves.pressures = {10.0, 20.0, 40.0, 80.0, 160.0, 320.0};
+  const double octave = std::log(2.0), sd = 0.01;
+  Predictions load(2);
+  for (const double mean : {0.50, 0.45, 0.40, 0.40, 0.30, 0.25})
+    load[0].push_back({mean, sd * sd});
+  load[1].assign(6, {0.40, sd * sd});
+  curves.load = curves.springback = curves.cracked = load;
+  GapDraws draws;
+  draws.gaps = {10.0};
+  add_met(curves, {{0.40}, {0.40}}, draws);
+  EXPECT_NEAR(std::sqrt(draws.log_pressure[0][0].variance), sd / (0.25 / (5.0 * octave)), 1e-9);
+  EXPECT_NEAR(draws.log_pressure[1][0].variance, std::pow(5.0 * octave, 2) / 12.0, 1e-9);
+}
+
 // A share of 0.3 of pores left, with the springback's error: its interval holds a target as often as its band says.
 TEST(ByGap, ATargetIsMetAsOftenAsTheBandSays) {
   const Film film = made_film("x", 46.0, 2.0);

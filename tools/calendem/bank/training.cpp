@@ -4,10 +4,12 @@
 #include "base/messages.h"
 #include "base/provenance.h"
 #include "base/registry.h"
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 namespace calendem::bank {
 namespace {
@@ -173,17 +175,36 @@ inference::TrainingRuns training_of(const Runs &runs) {
   return out;
 }
 
+namespace {
+
+/// Hyperparameters of these runs, if `file` has them for this table and this version's covariance.
+std::optional<inference::Hyperparameters>
+stored_fit(const std::string &file, const std::string &hash, const inference::TrainingRuns &runs) {
+  if (!std::filesystem::exists(file))
+    return {};
+  const auto json = nlohmann::json::parse(text_of_file(file), nullptr, false);
+  if (!json.is_object() || json.value("table", "") != hash)
+    return {};
+  const auto fit = json.at("groups").get<inference::Hyperparameters>();
+  const auto length = std::size_t(
+      inference::Kernel::prior_means(int(runs.at.inputs.rows()), int(runs.at.amplitudes.rows()))
+          .size());
+  const bool whole =
+      int(fit.size()) == 1 + runs.group.back() &&
+      std::all_of(fit.begin(), fit.end(), [&](const auto &of) { return of.size() == length; });
+  return whole ? std::optional(fit) : std::nullopt;
+}
+
+} // namespace
+
 inference::Emulator emulator_of(const Runs &runs, const std::string &table) {
   const std::string file = std::filesystem::path(table).replace_extension("fit.json").string(),
                     hash = hash_of_file(table);
-  if (std::filesystem::exists(file)) {
-    const auto json = nlohmann::json::parse(text_of_file(file), nullptr, false);
-    if (json.is_object() && json.value("table", "") == hash)
-      return inference::Emulator(training_of(runs),
-                                 json.at("groups").get<inference::Hyperparameters>());
-  }
+  inference::TrainingRuns training = training_of(runs);
+  if (const auto fit = stored_fit(file, hash, training))
+    return inference::Emulator(std::move(training), fit);
   fmt::print("{}: the emulator is fitted once; the fit is kept beside the table\n", table);
-  const inference::Emulator emulator(training_of(runs));
+  const inference::Emulator emulator(std::move(training));
   try {
     write_file(file,
                nlohmann::json({{"table", hash}, {"groups", emulator.hyperparameters()}}).dump() +

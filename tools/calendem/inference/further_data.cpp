@@ -77,16 +77,17 @@ public:
     Random random(kReadingStream, 1);
     ExpectedGain out;
     const double now = entropy_of(weights_);
-    for (Index h = 0; h < weights_.size(); ++h)
-      for (int k = 0; k < kSamples; ++k) {
-        Vector reading(means_[std::size_t(h)].size());
-        for (double &v : reading)
-          v = random.normal();
-        reading = means_[std::size_t(h)] + factors_[std::size_t(h)].matrixL() * reading;
-        const Vector after = given(reading);
-        out.information += weights_[h] / kSamples * (now - entropy_of(after));
-        out.probability += weights_[h] / kSamples * after[h];
-      }
+    for (Index h = 0; h < weights_.size(); ++h) {
+      const Vector &mean = means_[std::size_t(h)];
+      Matrix readings(mean.size(), kSamples);
+      for (double &v : readings.reshaped())
+        v = random.normal();
+      readings = Matrix(factors_[std::size_t(h)].matrixL() * readings).colwise() + mean;
+      const Matrix after = given(readings);
+      for (const auto probabilities : after.colwise())
+        out.information += weights_[h] / kSamples * (now - entropy_of(probabilities));
+      out.probability += weights_[h] * after.row(h).mean();
+    }
     return out;
   }
 
@@ -96,15 +97,17 @@ private:
   std::vector<Cholesky> factors_;
   std::vector<double> log_norms_;
 
-  Vector given(const Vector &reading) const {
-    Vector logs(weights_.size());
-    for (Index h = 0; h < logs.size(); ++h) {
-      const auto &factor = factors_[std::size_t(h)];
-      logs[h] = std::log(weights_[h]) + log_norms_[std::size_t(h)] -
-                0.5 * factor.matrixL().solve(reading - means_[std::size_t(h)]).squaredNorm();
+  /// Hypotheses x readings, which are columns.
+  Matrix given(const Matrix &readings) const {
+    Matrix out(weights_.size(), readings.cols());
+    for (Index h = 0; h < out.rows(); ++h) {
+      Matrix off = readings.colwise() - means_[std::size_t(h)];
+      factors_[std::size_t(h)].matrixL().solveInPlace(off);
+      out.row(h) = std::log(weights_[h]) + log_norms_[std::size_t(h)] -
+                   0.5 * off.colwise().squaredNorm().array();
     }
-    const Vector out = (logs.array() - logs.maxCoeff()).exp();
-    return out / out.sum();
+    out = (out.rowwise() - out.colwise().maxCoeff().eval()).array().exp();
+    return out.array().rowwise() / out.colwise().sum().eval().array();
   }
 };
 

@@ -9,6 +9,8 @@ namespace calendem {
 namespace {
 
 constexpr int kGrid = 41;
+constexpr std::size_t kBeside =
+    4; // points of the grid on each side, by which the slope of a curve is taken
 constexpr double kNearlyAll = 0.99;
 
 /// One draw at one gap: the logarithm of its pressure, and other numbers at that pressure.
@@ -17,6 +19,17 @@ struct Met {
   bool below = false, above = false; ///< the bank's pressures
   double place = 0.0;                ///< in the grid
 };
+
+/// Variance of the logarithm of the pressure at which a curve of this variance meets a value: by the slope about
+/// place k, and at most that of any pressure of the curve.
+double variance_of_log(const std::vector<double> &logs, const std::vector<MeanVariance> &load,
+                       std::size_t k, double variance) {
+  const std::size_t from = k - std::min(k, kBeside),
+                    to = std::min(k + 1 + kBeside, load.size() - 1);
+  const double most = std::pow(logs.back() - logs.front(), 2) / 12.0,
+               slope = (load[to].mean - load[from].mean) / (logs[to] - logs[from]);
+  return slope < 0.0 ? std::min(variance / (slope * slope), most) : most;
+}
 
 /// Where a falling curve meets a value; the ends where it does not.
 Met meets(const std::vector<double> &logs, const std::vector<MeanVariance> &load, double porosity) {
@@ -33,7 +46,7 @@ Met meets(const std::vector<double> &logs, const std::vector<MeanVariance> &load
   out.place = double(k) + std::clamp((porosity - load[k].mean) / drop, 0.0, 1.0);
   const double at = out.place - double(k);
   const double variance = (1.0 - at) * load[k].variance + at * load[k + 1].variance;
-  out.log_pressure = {logs[k] + at * step, variance * std::pow(step / drop, 2)};
+  out.log_pressure = {logs[k] + at * step, variance_of_log(logs, load, k, variance)};
   return out;
 }
 
