@@ -82,8 +82,8 @@ Vector amplitudes_of(const PosteriorProblem &problem, const Draw &draw, int film
 struct SamplerSettings {
   int particles = 512;
   int sweeps = 2;           ///< over all blocks at each temperature
-  int final_sweeps = 16;    ///< at the end
-  int keep_every = 4;       ///< of these sweeps
+  int final_sweeps = 8;     ///< at the end
+  int keep_every = 2;       ///< of these sweeps
   double least_share = 0.5; ///< effective share of the particles after a step of temperature
   std::uint64_t seed = 1;
 };
