@@ -9,8 +9,7 @@ namespace calendem {
 namespace {
 
 constexpr int kGrid = 41;
-constexpr std::size_t kBeside =
-    4; // points of the grid on each side, by which the slope of a curve is taken
+constexpr std::size_t kBeside = 4; // points on each side by which a slope is taken
 constexpr double kNearlyAll = 0.99;
 
 /// One draw at one gap: the logarithm of its pressure, and other numbers at that pressure.
