@@ -50,7 +50,7 @@ struct LeftOut {
 class Emulator {
 public:
   /// Hyperparameters that are missing, or a group's list that has not the length these runs need, are
-  /// fitted on all cores: a core-second or two a group for 340 runs, and by the cube of their number. An output
+  /// fitted on all cores: about a core-second a group for 340 runs, and by the cube of their number. An output
   /// that no run has is predicted as NaN.
   explicit Emulator(TrainingRuns runs, const std::optional<Hyperparameters> &known = {});
 
